@@ -132,6 +132,30 @@ TEST_F(HandFromScanTest, FindsCreasesAndDots) {
   EXPECT_LE(marks.dots.size(), truth.dots.size());
 }
 
+// A bracelet's edge or a strap's, 12 mm towards the elbow, once took the place of the crease.
+TEST_F(HandFromScanTest, OfTwoLinesAtTheWristTheNearerOneIsTaken) {
+  const Hand& hand = made().scanned.hand;
+  const HandCreases suggested(hand.skin, hand.skeleton);
+  const Rigid3 hand_from_scan = made().scanned.patient_from_hand.inverse();
+  const CreasePlane& wrist = suggested.wrist();
+  SkinMarks marks = scan(ScanPosture::kReference).marks;
+  const FoundCreases one = find_creases(marks, hand_from_scan, suggested);
+  ASSERT_TRUE(one.shift.contains(Segment::kPalm));
+  EXPECT_TRUE(one.other_wrist.empty());
+  const Vec3 away = hand_from_scan.inverse().rotation * (-12.0 * wrist.normal);
+  const auto drawn = marks.lines;
+  for (InkLine line : drawn) {
+    if (std::abs(wrist.value(hand_from_scan * line.point.front())) > 6.0) continue;
+    for (Vec3& p : line.point) p += away;
+    marks.lines.push_back(line);
+  }
+  ASSERT_GT(marks.lines.size(), drawn.size());
+  const FoundCreases two = find_creases(marks, hand_from_scan, suggested);
+  ASSERT_EQ(two.other_wrist.size(), 1U);
+  EXPECT_NEAR(two.other_wrist.front(), one.shift.at(Segment::kPalm) - 12.0, 0.5);
+  EXPECT_NEAR(two.shift.at(Segment::kPalm), one.shift.at(Segment::kPalm), 0.1);
+}
+
 // Those on the back of a proximal phalanx as well, which lie where the skin still is the palm's.
 TEST_F(HandFromScanTest, DotsBelongToTheBoneThatTheyWereDrawnOn) {
   int dots = 0;

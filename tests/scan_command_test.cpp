@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -191,6 +192,50 @@ TEST_F(RingedHand, ThoroughIsRefusedIfAnInkIsLikeItsSkin) {
   expect_refused("hand from-scan p/scan/reference.ply --crease-colour '#b38770' --out d.hand.glb",
                  folder(), 3, "reference.ply: the crease colour is like this skin's");
   EXPECT_EQ(read_text(folder() + "/d.hand.glb"), "");
+}
+
+/// Tables [[mark]] of a found.toml, each with its number's line.
+std::vector<std::string> marks_of(const std::string& toml) {
+  std::vector<std::string> marks;
+  for (std::size_t at = toml.find("[[mark]]"); at != std::string::npos;) {
+    const std::size_t next = toml.find("[[mark]]", at + 1);
+    marks.push_back(toml.substr(at, next - at));
+    at = next;
+  }
+  return marks;
+}
+
+// Before anything is computed on it; what somebody corrects there counts in the next run.
+TEST_F(RingedHand, WhatWasFoundIsShownByNumberAndCanBeCorrected) {
+  const std::string look = "hand from-scan p/scan/reference.ply --look --out l.hand.glb";
+  const ProgramRun run = run_palmar(look, folder());
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("l.scan/found.png"));
+  EXPECT_THAT(run.err, HasSubstr("no hand was made"));
+  EXPECT_EQ(read_text(folder() + "/l.hand.glb"), "");
+  EXPECT_EQ(read_text(folder() + "/l.scan/found.png").substr(1, 3), "PNG");
+  const std::string found = read_text(folder() + "/l.scan/found.toml");
+  std::vector<std::string> marks = marks_of(found);
+  const auto is_dot = [](const std::string& m) { return m.find("\"dot\"") != m.npos; };
+  const auto dots = static_cast<double>(std::count_if(marks.begin(), marks.end(), is_dot));
+  const auto& drawn = truth().at("postures").at("reference").at("dots");
+  EXPECT_GE(dots, 0.9 * static_cast<double>(drawn.size()));
+  EXPECT_LE(dots, static_cast<double>(drawn.size()));
+
+  // The first dot is none.
+  const auto first = std::find_if(marks.begin(), marks.end(), is_dot);
+  ASSERT_NE(first, marks.end());
+  EXPECT_THAT(*first, HasSubstr("# 1\n"));
+  first->replace(first->find("name = \"\""), 9, "name = \"none\"");
+  write_text(folder() + "/anna.toml", "side = \"right\"\n" + *first);
+  const ProgramRun again = run_palmar(look + " --known anna.toml", folder());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const std::vector<std::string> left = marks_of(read_text(folder() + "/l.scan/found.toml"));
+  EXPECT_EQ(static_cast<double>(std::count_if(left.begin(), left.end(), is_dot)), dots - 1.0);
+
+  write_text(folder() + "/wrong.toml",
+             "[[mark]]\nmark = \"dot\"\nname = \"none\"\nat_mm = [9000, 0, 0]\n");
+  expect_refused(look + " --known wrong.toml", folder(), 3, "wrong.toml:1: no dot within 3 mm");
 }
 
 TEST(PhantomScan, NamesWrongArguments) {

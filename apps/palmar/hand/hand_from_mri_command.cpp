@@ -136,6 +136,8 @@ void add_from_mri(CLI::App& hand, Context& context) {
                    "default: beside the hand, *.mri");
   verb->add_option("--labels", a->request.labels,
                    "Names for bones of the reference scan: CSV with name, x_mm, y_mm, z_mm");
+  verb->add_option("--known", a->request.known,
+                   "TOML file of what is known of the person: side, names of bones");
   verb->add_option("--product", a->request.product,
                    "The object that the grasp holds, where it was in the scanner (patient frame): "
                    "contact areas of scan and hand are compared");

@@ -91,6 +91,8 @@ void add_hand_quick(CLI::App& hand, Context& context) {
   verb->add_option("--dimension", o->dimensions,
                    "Any other dimension, NAME=MM; may be given several times")
       ->allow_extra_args(false);
+  verb->add_option("--known", o->request.known,
+                   "TOML file of what is known of the person: side, measures");
   verb->add_option("--error-mm", o->request.error, "Standard error of what you measured by hand")
       ->capture_default_str();
   verb->add_option("--population", o->request.population,

@@ -39,6 +39,12 @@ void ScanHandArguments::add_to(CLI::App& verb, const std::string& work_help) {
   verb.add_option("--marks", options_.marks,
                   "Names of drawn creases and dots, those to leave out and to add: marks.csv of an "
                   "earlier run, edited");
+  verb.add_option("--known", options_.known,
+                  "TOML file of what is known of the person: side, points with the inks' colours, "
+                  "names of marks; all commands that make a person's hand take it");
+  verb.add_flag("--look", options_.looks_only,
+                "Only show by number what was found on the surfaces: found.png, and found.toml to "
+                "be edited for --known");
   verb.add_option("--truth", options_.truth,
                   "subject.json of a synthetic person: how far the hand is off, in the report");
   verb.add_option("--start-hand", options_.model,
@@ -83,6 +89,10 @@ void print_scanned_hand(const ScanHandOutcome& outcome, const std::string& out,
                         const Context& context) {
   finish_progress();
   for (const std::string& text : outcome.made.notes) note(context.common, text);
+  if (outcome.made.scanned.hand.skin.vertices.empty()) {
+    note(context.common, "wrote " + outcome.found + " and found.toml beside it; no hand was made");
+    return;
+  }
   print(context.common.json ? hand_from_scan_json(outcome.made) + "\n"
                             : scanned_hand_text(outcome.made));
   note(context.common,

@@ -182,13 +182,13 @@ export function foundSection(page: HandFromScanPage): Section {
 export function dotSection(page: HandFromScanPage): Section | null {
   const joints = page.report.joints_by_dots;
   if (joints.length === 0) return null;
-  const rows = joints.map((one) => html`<tr>${rowHead(segmentWords(one.segment, page.view.vocabulary))}${cell(postureWords(one.posture))}${fixedCell(one.turn_deg, 1)}${fixedCell(one.residual_mm)}${fixedCell(one.axis_change_deg, 1)}${fixedCell(one.centre_change_mm, 1)}${fixedCell(one.dots, 0)}</tr>`);
+  const rows = joints.map((one) => html`<tr>${rowHead(segmentWords(one.segment, page.view.vocabulary))}${cell(postureWords(one.posture))}${fixedCell(one.turn_deg, 1)}${fixedCell(one.residual_mm)}${fixedCell(one.axis_change_deg, 1)}${fixedCell(one.axis_error_deg, 1)}${fixedCell(one.centre_change_mm, 1)}${fixedCell(one.dots, 0)}</tr>`);
   return {
     id: "dots",
     title: say("scan.by_dots"),
     content: html`<p>${say("scan.by_dots.words")}</p>
 ${fixedTable(say("mri.joints"),
-      [say("scan.joint_before"), say("scan.scan"), say("scan.turn"), say("scan.dots_off"), say("scan.axis_moved"), say("scan.centre_moved"), say("scan.dots")], rows, 2)}`,
+      [say("scan.joint_before"), say("scan.scan"), say("scan.turn"), say("scan.dots_off"), say("scan.axis_moved"), say("scan.axis_error"), say("scan.centre_moved"), say("scan.dots")], rows, 2)}`,
   };
 }
 

@@ -45,6 +45,7 @@ export interface HandFromScan {
     turn_deg: number;
     residual_mm: number;
     axis_change_deg: number;
+    axis_error_deg: number;
     centre_change_mm: number;
     dots: number;
   }[];

@@ -7,6 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/records/capture/bone_label_file.h"
+#include "palmar/records/capture/person_file.h"
 #include "palmar/records/hand/hand_file.h"
 #include "palmar/records/product/product_file.h"
 #include "palmar/report/scan/scan_report.h"
@@ -67,6 +68,11 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
   options.note = on_note;
   options.setting_names = request.setting_names;
   if (!request.labels.empty()) options.labels = read_bone_labels(request.labels);
+  if (!request.known.empty()) {
+    const PersonFile known = read_person(request.known);
+    options.labels.insert(options.labels.end(), known.bones.begin(), known.bones.end());
+    if (!options.surfaces.side) options.surfaces.side = known.side;
+  }
   if (!request.product.empty()) {
     options.product = load_product(request.product, {.unit = request.unit});
     for (const std::string& text : options.product->notes) on_note(text);

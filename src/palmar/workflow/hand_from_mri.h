@@ -29,6 +29,8 @@ struct HandFromMriRequest {
   std::string work;     ///< folder for the report and for what each step makes, which another run
                         ///< takes up; empty: beside the hand, *.mri
   std::string labels;   ///< file with names for bones of the reference scan; empty: none
+  std::string known;    ///< file of what is known of the person (read_person()): its side counts
+                        ///< where `surfaces` has none, its bones beside `labels`; empty: none
   std::string product;  ///< what the grasp holds, in the patient frame of its scan; empty:
                         ///< nothing is compared
   std::optional<LengthUnit> unit;   ///< of the product's file, where that carries none

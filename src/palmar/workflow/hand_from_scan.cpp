@@ -4,6 +4,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/records/capture/person_file.h"
 #include "palmar/workflow/hand/hand_output.h"
 #include "palmar/workflow/hand/load_hand.h"
 #include "palmar/workflow/hand/posture_files.h"
@@ -28,6 +29,11 @@ ScanHandOutcome make_hand_from_scan(const HandFromScanRequest& request, const Pr
   request.hand.check_files();
   load_hand(request.hand.model);
 
+  const PersonFile known =
+      request.hand.known.empty() ? PersonFile{} : read_person(request.hand.known);
+  const std::optional<Vec3> pick_crease =
+      request.pick_crease ? request.pick_crease : known.pick_crease;
+  const std::optional<Vec3> pick_dot = request.pick_dot ? request.pick_dot : known.pick_dot;
   SkinMarkOptions inks = request.hand.inks;
   std::map<ScanPosture, ShownScan> shown;
   std::vector<std::string> notes;
@@ -40,8 +46,8 @@ ScanHandOutcome make_hand_from_scan(const HandFromScanRequest& request, const Pr
     if (!unit) unit = read.unit;
     notes.insert(notes.end(), read.notes.begin(), read.notes.end());
     if (posture == ScanPosture::kReference) {
-      if (request.pick_crease) inks.crease = colour_near(read, "pick crease", *request.pick_crease);
-      if (request.pick_dot) inks.dot = colour_near(read, "pick dot", *request.pick_dot);
+      if (pick_crease) inks.crease = colour_near(read, "pick crease", *pick_crease);
+      if (pick_dot) inks.dot = colour_near(read, "pick dot", *pick_dot);
     }
     SkinMarks marks;
     if (!read.surface.colour.empty()) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "palmar/capture/sheet/card_view.h"
@@ -15,6 +16,7 @@
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/template_hand.h"
 #include "palmar/population/segment_regressions.h"
+#include "palmar/records/capture/person_file.h"
 #include "palmar/records/hand/hand_file.h"
 #include "palmar/records/population/population_file.h"
 #include "palmar/workflow/hand/load_hand.h"
@@ -108,10 +110,28 @@ OutlinePerson person_of_measures(const Population& population, const std::vector
   return person;
 }
 
+/// The request with what its file of the person says; what the request says itself counts more.
+HandQuickRequest with_what_is_known(HandQuickRequest request) {
+  if (request.known.empty()) return request;
+  const PersonFile known = read_person(request.known);
+  if (!request.side) request.side = known.side;
+  for (const SizedDimension& one : known.sizes) {
+    const bool is_said =
+        std::any_of(request.sizes.begin(), request.sizes.end(),
+                    [&one](const SizedDimension& own) { return own.dimension == one.dimension; });
+    if (!is_said) request.sizes.push_back(one);
+  }
+  if (request.photo.empty() && request.sizes.empty()) {
+    throw InputError(request.known +
+                     ": no measure of the hand in [measured_mm], and no photograph is given");
+  }
+  return request;
+}
+
 }  // namespace
 
 void HandQuickRequest::check() const {
-  if (photo.empty() && sizes.empty()) {
+  if (photo.empty() && sizes.empty() && known.empty()) {
     throw UsageError(
         "nothing is known of the hand: a photograph, setting \"hand length\", setting "
         "\"circumference\", setting \"width\" or setting \"dimension\" is required");
@@ -119,8 +139,9 @@ void HandQuickRequest::check() const {
   if (!photo.empty() && !sheet.empty()) sheet_format_named(sheet);
 }
 
-HandQuickOutcome make_hand_quick(const HandQuickRequest& request, const Progress& progress) {
-  request.check();
+HandQuickOutcome make_hand_quick(const HandQuickRequest& asked, const Progress& progress) {
+  asked.check();
+  const HandQuickRequest request = with_what_is_known(asked);
   const auto on_note = [&](const std::string& text) { note_to(request.note, text); };
   HandQuickOutcome outcome;
   outcome.population = load_population(request.population);

@@ -27,6 +27,8 @@ struct HandQuickRequest {
   bool palm_up = false;       ///< the palm looks at the camera
   std::optional<Side> side;   ///< nothing: as photographed, else right; a photograph must agree
   std::vector<SizedDimension> sizes;  ///< what was measured by hand
+  std::string known;   ///< file of what is known of the person (read_person()): its sizes count
+                       ///< beside `sizes`, its side where none is set; empty: none
   double error = 1.5;  ///< standard error of those, mm: what people reach with a ruler
                        ///< or a tape
   std::string population = "ansur2";  ///< whose proportions fill in the rest: a built-in name or a

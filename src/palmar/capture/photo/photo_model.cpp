@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "palmar/capture/photo/surface/flat_patches.h"
 #include "palmar/capture/photo/surface/over_views.h"
 #include "palmar/capture/sheet/outline_by_depth.h"
 #include "palmar/core/error.h"
@@ -238,6 +239,16 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
         "their views of the hand don't overlap",
         lonely, count));
   }
+  std::vector<Vec3> centres;
+  for (const Photograph& photograph : photographs) centres.push_back(photograph.camera.centre());
+  model.heights = camera_heights(centres, centre);
+  if (model.heights.are_one) {
+    model.warnings.push_back(fmt::format(
+        "one height only: the cameras all look from {:.0f} degrees or so above the board; what "
+        "faces them badly is less certain, and less of the surface counts as measured; take as "
+        "many photographs again from 15 to 25 degrees {}",
+        model.heights.usual, model.heights.usual < 35.0 ? "higher" : "lower"));
+  }
   const RayQuery bound(hull.surface);
   std::vector<DepthMap> maps(count);
   over_views(count, part_of(progress, begin, 0.75), "comparing photographs", [&](std::size_t v) {
@@ -246,6 +257,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   });
   progress.update(0.75, "keeping what agrees");
   DepthFusionOptions fusion = options.fusion;
+  fusion.patch_radius = stereo.radius;
   constexpr std::size_t kSparse = 18;
   if (count <= kSparse) fusion.least_views = std::min(fusion.least_views, 2);
   FusedDepths fused = fuse_depths(views, maps, centre, fusion);
@@ -289,7 +301,9 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
                     field.residual, field.iterations));
   }
   progress.update(0.93, "covering it with triangles");
-  TriangleMesh mesh = largest_part(iso_surface(field.field, 0.0));
+  const PointCells cells(fused.points);
+  fused = {};
+  TriangleMesh mesh = without_flat_patches(largest_part(iso_surface(field.field, 0.0)), cells);
   mesh = largest_part(cut_above(mesh, options.cut));
   progress.update(0.95, "colouring it");
   VertexColours colours = colour_vertices(mesh, photographs, outlines, options.colours);
@@ -301,14 +315,12 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   for (std::size_t i = 0; i < density.size(); ++i) {
     density[i] = value_at(field.density, field.density.grid.to_voxel(mesh.vertices[i]));
   }
-  constexpr float kSparsely = 0.1F;  // of the usual density
-  const float least = kSparsely * median(density);
+  model.measured = measured_vertices(mesh, cells, density, colours.views, model.heights.are_one);
   const std::vector<double> areas = vertex_areas(mesh);
   double area = 0.0, measured = 0.0;
   for (std::size_t i = 0; i < density.size(); ++i) {
-    model.measured.push_back(density[i] >= least && colours.views[i] >= 2 ? 1 : 0);
     area += areas[i];
-    measured += model.measured.back() != 0 ? areas[i] : 0.0;
+    measured += model.measured[i] != 0 ? areas[i] : 0.0;
   }
   model.measured_share = area > 0.0 ? measured / area : 0.0;
   model.views = std::move(colours.views);

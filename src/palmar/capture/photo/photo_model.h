@@ -8,6 +8,7 @@
 #include "palmar/capture/photo/photo_mask.h"
 #include "palmar/capture/photo/surface/depth_fusion.h"
 #include "palmar/capture/photo/surface/patch_match.h"
+#include "palmar/capture/photo/surface/point_cells.h"
 #include "palmar/capture/photo/surface/poisson_surface.h"
 #include "palmar/capture/photo/surface/vertex_colours.h"
 #include "palmar/capture/photo/surface/visual_hull.h"
@@ -46,13 +47,14 @@ struct PhotoModel {
   ColouredMesh skin;       ///< open below
   std::vector<int> views;  ///< per vertex: photographs that see it
   std::vector<char>
-      measured;  ///< per vertex: 0 where no photographs agreed and the surface is a guess
+      measured;  ///< per vertex: 0 where too few photographs agreed and the surface is a guess
   std::vector<PhotoUse> photographs;
   int reduction = 1;            ///< of the photographs for stereo
   std::size_t points = 0;       ///< that photographs agreed about
   double hull_volume = 0.0;     ///< mm^3
   double measured_share = 0.0;  ///< of the area
   SkinLight light;              ///< gloss, lamps that moved
+  CameraHeights heights;        ///< from which the cameras look
   bool has_background = false;  ///< masks show little: what is behind the hand looks like skin;
                                 ///< what wasn't measured is left out then
   std::vector<std::string> warnings;

@@ -148,10 +148,45 @@ std::vector<Line> lines_along(std::vector<Ink> ink, Finger finger, const HandCre
   return lines;
 }
 
+/// Lines near the wrist; the crease is the nearest to where the joints suggest it of those at least
+/// half as broad as the broadest.
+std::vector<Line> wrist_lines(std::vector<Ink> ink, const HandCreases& creases) {
+  const Frame frame = frame_of(creases, Segment::kPalm);
+  for (Ink& one : ink) one.along = frame.plane.value(one.point);
+  std::stable_sort(ink.begin(), ink.end(),
+                   [](const Ink& a, const Ink& b) { return a.along < b.along; });
+  std::vector<Line> lines;
+  double broadest = 0.0;
+  for (const Ink& one : ink) {
+    if (lines.empty() || one.along - lines.back().ink.back().along > kBare) lines.emplace_back();
+    lines.back().ink.push_back(one);
+  }
+  for (Line& line : lines) {
+    double low = 1e9, high = -1e9, weights = 0.0;
+    for (const Ink& one : line.ink) {
+      const double aside = frame.aside.dot(one.point - frame.plane.point);
+      low = std::min(low, aside);
+      high = std::max(high, aside);
+      line.along += one.weight * one.along;
+      weights += one.weight;
+    }
+    line.along /= weights;
+    line.breadth = high - low;
+    broadest = std::max(broadest, line.breadth);
+  }
+  Line* nearest = nullptr;
+  for (Line& line : lines) {
+    if (line.breadth < 0.5 * broadest) continue;
+    if (nearest == nullptr || std::abs(line.along) < std::abs(nearest->along)) nearest = &line;
+  }
+  if (nearest != nullptr) nearest->crease = Segment::kPalm;
+  return lines;
+}
+
 /// All that is drawn: wrist, fingers, then what lies near no crease.
 std::vector<Line> gather(const SkinMarks& marks, const Rigid3& hand_from_scan,
                          const HandCreases& creases) {
-  Line wrist;
+  std::vector<Ink> of_wrist;
   std::array<std::vector<Ink>, kFingerCount> of_finger;
   std::vector<Line> strays, lines;
   for (const InkLine& piece : marks.lines) {
@@ -159,17 +194,14 @@ std::vector<Line> gather(const SkinMarks& marks, const Rigid3& hand_from_scan,
     for (std::size_t k = 0; k < piece.point.size(); ++k) {
       const Ink ink{hand_from_scan * piece.point[k], piece.weight[k]};
       const Owner owner = owner_of(ink.point, creases);
-      std::vector<Ink>& where = owner.is_wrist ? wrist.ink
+      std::vector<Ink>& where = owner.is_wrist ? of_wrist
                                 : owner.finger ? of_finger[static_cast<int>(*owner.finger)]
                                                : stray.ink;
       where.push_back(ink);
     }
     if (!stray.ink.empty()) strays.push_back(std::move(stray));
   }
-  if (!wrist.ink.empty()) {
-    wrist.crease = Segment::kPalm;
-    lines.push_back(std::move(wrist));
-  }
+  lines = wrist_lines(std::move(of_wrist), creases);
   for (int f = 0; f < kFingerCount; ++f) {
     for (Line& line : lines_along(std::move(of_finger[f]), static_cast<Finger>(f), creases)) {
       lines.push_back(std::move(line));
@@ -333,7 +365,14 @@ FoundCreases find_creases(const SkinMarks& marks, const Rigid3& hand_from_scan,
     fit_crease_plane(own, frame_of(creases, segment), segment, found);
   }
   const Rigid3 scan_from_hand = hand_from_scan.inverse();
+  const Frame wrist = frame_of(creases, Segment::kPalm);
+  const auto of_wrist = std::find_if(
+      lines.begin(), lines.end(), [](const Line& line) { return line.crease == Segment::kPalm; });
+  const double breadth = of_wrist == lines.end() ? 0.0 : of_wrist->breadth;
   for (const Line& line : lines) {
+    const bool is_near = !line.finger && !line.crease && !line.is_no_crease && line.breadth > 0.0 &&
+                         std::abs(wrist.plane.value(line.ink.front().point)) < kWristReach;
+    if (is_near && 2.0 * line.breadth >= breadth) found.other_wrist.push_back(line.along);
     if (!line.crease && !line.is_no_crease) found.stray += static_cast<int>(line.ink.size());
     found.marks.push_back({scan_from_hand * middle_of(line), line.crease});
   }

@@ -25,12 +25,17 @@ struct FoundCreases {
       shift;                     ///< distal of where the joints would put them, at the middle, mm
   std::vector<Segment> missing;  ///< not drawn, or not found
   int stray = 0;                 ///< drawn vertices that no crease is near
+  /// Other lines near the wrist, as broad as a crease: distal of where the joints would put it, mm.
+  std::vector<double> other_wrist;
   std::vector<CreaseMark> marks;
 };
 
 /// Takes drawn lines for creases, by their order along each finger:
 /// - A drawn point belongs to the finger whose bones are nearest, in the palm to the base crease
 ///   (10 mm) or the wrist's (18 mm) that is near.
+/// - Near the wrist bare skin of 3.5 mm along the hand parts lines; the crease is the one nearest
+/// to
+///   where the joints suggest it.
 /// - Points of a finger are put in order along it, s being 0, 1, 2 ... at the creases suggested and
 ///   linear in the distances from their planes in between; where 3.5 mm are bare one line ends and
 ///   the next begins. Lines narrower than a third of the finger's breadth don't count.

@@ -70,6 +70,7 @@ class DotReader {
     name_ = name;
     posture_ = fit.posture;
     const auto found = find_dots(scan, fit);
+    dots_sd_ = noise_of(found);
     const Rigid3 palm = palm_motion(found, fit);
     result_.scan_from_hand[name] = palm;
     read_thumb_of(palm, found);
@@ -83,7 +84,25 @@ class DotReader {
     result_.postures[name] = posture_;
   }
 
+  /// Axes about which dots and skin disagree, once per joint.
+  void note_conflicts() const {
+    for (const std::string& conflict : conflicts_) {
+      if (!conflict.empty()) result_.notes.push_back(conflict);
+    }
+  }
+
  private:
+  static std::string conflict_note(Segment segment, const DotHinge& hinge,
+                                   const HingePrior& prior) {
+    if (!hinge.is_conflict) return {};
+    const bool is_alone = hinge.dots_error < prior.axis_sd;
+    return fmt::format(
+        "The dots on {} turn about an axis {:.0f} degrees from that of the skin, known to {:.0f} "
+        "degrees by the dots: {}.",
+        name_of(segment), hinge.dots_tilt / kDegree, hinge.dots_error / kDegree,
+        is_alone ? "the dots' was taken; look at whether they were found rightly"
+                 : "one between both was taken; dots farther apart, or a larger turn, would tell");
+  }
   /// The thumb, whose metacarpal has no dots of its own.
   void read_thumb_of(const Rigid3& palm, const std::vector<std::optional<Vec3>>& found) {
     ThumbDots dots;
@@ -157,6 +176,18 @@ class DotReader {
     return found;
   }
 
+  /// Of the dots that were found, by what every segment's own ones show.
+  double noise_of(const std::vector<std::optional<Vec3>>& found) const {
+    std::vector<DotGroup> groups(kSegmentCount);
+    for (std::size_t k = 0; k < dots_.size(); ++k) {
+      if (!found[k] || dots_[k].slides) continue;
+      DotGroup& group = groups[index_of(dots_[k].segment)];
+      group.before.push_back(dots_[k].point);
+      group.after.push_back(*found[k]);
+    }
+    return noise_of_dots(groups);
+  }
+
   Rigid3 palm_motion(const std::vector<std::optional<Vec3>>& found, const MeshFit& fit) const {
     std::vector<Vec3> a, b;
     for (std::size_t k = 0; k < dots_.size(); ++k) {
@@ -192,8 +223,8 @@ class DotReader {
     prior.turn = posture_[bends.dof] - bends.reference;
     constexpr std::size_t kEnough = 2;
     // Dots behind a part whose own dots weren't found see its error, too.
-    constexpr double kByDotsSd = 1.0, kBySkinSd = 3.0;  // mm
-    prior.dot_sd = is_found_by_dots_ ? kByDotsSd : kBySkinSd;
+    constexpr double kBySkinSd = 3.0;  // mm
+    prior.dot_sd = is_found_by_dots_ ? dots_sd_ : kBySkinSd;
     is_found_by_dots_ = x.size() >= kEnough;
     if (!is_found_by_dots_) {
       return Rigid3::about_axis(prior.axis, prior.point, prior.turn) * spread;
@@ -207,6 +238,7 @@ class DotReader {
     report.residual = hinge.residual;
     report.axis_change = std::acos(std::min(1.0, std::abs(hinge.axis.dot(prior.axis))));
     report.centre_change = (hinge.point - prior.point).norm();
+    report.axis_error = hinge.axis_error;
     report.dots = static_cast<int>(x.size());
     result_.joints.push_back(report);
     // A turn of 20 degrees or more shows an axis; the largest one shows most.
@@ -220,6 +252,7 @@ class DotReader {
       dof.source = "this person's scans";
       joint.centre = hinge.point;
       joints_.is_measured[index_of(dof.dof)] = true;
+      conflicts_[index_of(joint.id)] = conflict_note(segment, hinge, prior);
     }
     return Rigid3::about_axis(hinge.axis, hinge.point, hinge.turn) * spread;
   }
@@ -231,6 +264,8 @@ class DotReader {
   ScanPosture name_{};
   Posture posture_;
   std::array<double, kJointCount> found_by_{};
+  std::array<std::string, kJointCount> conflicts_;  ///< of the axes that were taken; mostly empty
+  double dots_sd_ = 1.0;                            // mm, of the scan's dots
   bool is_found_by_dots_ = true;  // where the part before the next joint is, by its own dots
 };
 
@@ -261,6 +296,22 @@ void take_creases(const SurfaceScan& scan, PlacedSkeleton& placed_model, HandFro
     plane = {turn * plane.point, turn.rotation * plane.normal};
   }
   if (!found.missing.empty()) result.notes.push_back(missing_creases_note(found.missing));
+  const auto wrist = found.shift.find(Segment::kPalm);
+  constexpr double kFar = 8.0;  // mm
+  if (wrist != found.shift.end() && !found.other_wrist.empty()) {
+    const double apart = found.other_wrist.front() - wrist->second;
+    result.notes.push_back(fmt::format(
+        "Two lines lie near the wrist, {:.0f} mm apart; the one nearer to where the joints suggest "
+        "the wrist's crease was taken. With the other the hand would be {:.0f} mm {}. Take watches "
+        "and bracelets off, or name the line in a file of marks.",
+        std::abs(apart), std::abs(apart), apart < 0.0 ? "longer" : "shorter"));
+  } else if (wrist != found.shift.end() && std::abs(wrist->second) > kFar) {
+    result.notes.push_back(
+        fmt::format("The line at the wrist lies {:.0f} mm from where the joints suggest the "
+                    "wrist's crease, and "
+                    "the hand's length hangs on it: look whether it is the crease.",
+                    std::abs(wrist->second)));
+  }
   constexpr int kMany = 60;
   if (found.stray > kMany) {
     result.notes.emplace_back("Some of what is drawn in the creases' colour is on no crease.");
@@ -320,7 +371,7 @@ HandFromScan make_hand_from_scans(const Hand& model,
                                            ? "No drawn creases"
                                            : "No lines in the creases' colour") +
                            ": segments and joints follow the skin's shape alone, which shows where "
-                           "fingers bend to 2 to 4 mm.");
+                           "fingers bend to 4 mm in the mean, single fingers to 11 mm.");
   }
   const Rigid3 hand_from_scan = placed_model.scan_from_hand.inverse();
 
@@ -358,6 +409,7 @@ HandFromScan make_hand_from_scans(const Hand& model,
     result.fits[name] = fit;
     reader.read(name, other, fit);
   }
+  reader.note_conflicts();
   joints.postures = result.postures;
   take_thumb_readings(by_skin, result.thumb, joints);
   result.postures = joints.postures;

@@ -33,6 +33,7 @@ struct DottedJoint {
   double turn = 0.0;           ///< rad, from the reference
   double residual = 0.0;       ///< rms of the dots that a fixed axis leaves, mm
   double axis_change = 0.0;    ///< of the axis against that found from the skin, rad
+  double axis_error = 0.0;     ///< standard error of the axis' tilt in either direction, rad
   double centre_change = 0.0;  ///< of the joint's centre, mm
   int dots = 0;
 };
@@ -74,9 +75,9 @@ PlacedJoints joints_in_scan(const HandFromScan& made, ScanPosture posture);
 /// 4. Joint by joint from the palm outwards: axis u, point p and angle t that make
 ///      sum |Rot(u, p, t) x_i - M^-1 y_i|^2 / s^2 + |u - u0|^2 / a^2 + |p - p0|^2 / b^2
 ///    least, M the motion of the part before, x and y the dots of the part behind in both scans, u0
-///    and p0 the skin's; s = 1 mm (skin slides over bones), a = 4 degrees, b = 1.5 mm. Xie 2014
-///    takes the dots alone; three dots close together on sliding skin show an axis to four degrees
-///    only.
+///    and p0 the skin's; a = 6 degrees, b = 1.5 mm, s by the dots' own residuals (fit_dot_hinge()).
+///    Xie 2014 takes the dots alone; three dots close together on sliding skin show an axis to four
+///    degrees only. Axes about which dots and skin disagree are named.
 /// 5. The thumb's limit postures give its CMC joint by four transforms (dotted_thumb.h) and correct
 ///    the thumb ball.
 /// 6. The hand again with these joints; flexion and abduction scanned are the ends of the ranges.

@@ -98,6 +98,7 @@ std::string hand_from_scan_json(const HandFromScan& made) {
                        {"turn_deg", joint.turn * kDegreesPerRadian},
                        {"residual_mm", joint.residual},
                        {"axis_change_deg", joint.axis_change * kDegreesPerRadian},
+                       {"axis_error_deg", joint.axis_error * kDegreesPerRadian},
                        {"centre_change_mm", joint.centre_change},
                        {"dots", joint.dots}});
   }
@@ -130,13 +131,14 @@ CsvTable dimension_csv(const HandDimensions& dimensions, const HandTape& tape) {
 
 CsvTable dotted_joint_csv(const HandFromScan& made) {
   CsvTable table{{"segment", "posture", "turn_deg", "residual_mm", "axis_change_deg",
-                  "centre_change_mm", "dots"},
+                  "axis_error_deg", "centre_change_mm", "dots"},
                  {}};
   for (const DottedJoint& joint : made.joints) {
     table.rows.push_back({text(name_of(joint.segment)), text(name_of(joint.posture)),
                           fmt::format("{:.2f}", joint.turn * kDegreesPerRadian),
                           fmt::format("{:.3f}", joint.residual),
                           fmt::format("{:.2f}", joint.axis_change * kDegreesPerRadian),
+                          fmt::format("{:.2f}", joint.axis_error * kDegreesPerRadian),
                           fmt::format("{:.3f}", joint.centre_change), std::to_string(joint.dots)});
   }
   return table;

@@ -18,7 +18,7 @@ std::string hand_from_scan_json(const HandFromScan& made);
 CsvTable dimension_csv(const HandDimensions& dimensions, const HandTape& tape);
 
 /// One row per joint and scan that dots showed: segment, posture, turn_deg, residual_mm,
-/// axis_change_deg, centre_change_mm, dots.
+/// axis_change_deg, axis_error_deg, centre_change_mm, dots.
 CsvTable dotted_joint_csv(const HandFromScan& made);
 
 /// One row per dimension (found less true), joint (the one proximal of the segment) and fingertip

@@ -25,15 +25,14 @@ std::vector<std::string> names_of(Kind kind) {
   return names;
 }
 
-std::optional<Segment> segment_of(const CsvFile& file, int line, const std::string& name,
-                                  Kind kind) {
+/// The segment of a name; nothing: no mark. `is_known` is false for what names nothing.
+std::optional<Segment> segment_of(const std::string& name, Kind kind, bool& is_known) {
+  is_known = true;
   if (name == kNone) return {};
   if (kind == Kind::kCrease && name == kWrist) return Segment::kPalm;
   const auto segment = segment_named(name);
-  if (segment && (kind == Kind::kDot || *segment != Segment::kPalm)) return segment;
-  file.fail(line, fmt::format("\"{}\" names no {}; the nearest name is \"{}\"", name,
-                              kind == Kind::kCrease ? "crease" : "segment with dots",
-                              nearest_name(name, names_of(kind))));
+  is_known = segment && (kind == Kind::kDot || *segment != Segment::kPalm);
+  return segment;
 }
 
 std::string text_of(Kind kind, const std::optional<Segment>& segment) {
@@ -43,6 +42,36 @@ std::string text_of(Kind kind, const std::optional<Segment>& segment) {
 }
 
 }  // namespace
+
+std::optional<MarkLabel> mark_label_of(const MarkText& text,
+                                       const std::function<void(const std::string&)>& fail) {
+  MarkLabel label;
+  label.place = text.place;
+  const auto known = scan_posture_in(text.posture);
+  if (!known) {
+    fail("\"" + text.posture +
+         "\" is no posture; reference, finger_flexion, finger_abduction ... are allowed");
+  }
+  label.posture = known.value_or(ScanPosture::kReference);
+  label.is_added = text.mark == "added_crease" || text.mark == "added_dot";
+  if (!label.is_added && text.mark != "crease" && text.mark != "dot") {
+    fail("mark \"" + text.mark + "\"; crease, dot, added_crease or added_dot is allowed");
+  }
+  label.kind = text.mark == "crease" || text.mark == "added_crease" ? Kind::kCrease : Kind::kDot;
+  label.point = text.point;
+  if (text.name.empty() && !label.is_added) return {};
+  bool is_known = true;
+  label.segment = segment_of(text.name, label.kind, is_known);
+  if (!is_known) {
+    fail(fmt::format("\"{}\" names no {}; the nearest name is \"{}\"", text.name,
+                     label.kind == Kind::kCrease ? "crease" : "segment with dots",
+                     nearest_name(text.name, names_of(label.kind))));
+  }
+  if (label.is_added && !label.segment) {
+    fail("a mark that is added must have a name; \"none\" takes away what was found");
+  }
+  return label;
+}
 
 std::vector<MarkLabel> read_mark_labels(const std::string& path) {
   const CsvFile file = read_csv(path);
@@ -58,34 +87,14 @@ std::vector<MarkLabel> read_mark_labels(const std::string& path) {
   }
   std::vector<MarkLabel> labels;
   for (const CsvFile::Row& row : file.rows) {
-    MarkLabel label;
-    label.place = path + ":" + std::to_string(row.line);
-    const std::string &posture = row.cells[column[0]], &mark = row.cells[column[1]],
-                      &name = row.cells[column[2]];
-    const auto known = scan_posture_in(posture);
-    if (!known) {
-      file.fail(row.line, "\"" + posture +
-                              "\" is no posture; reference, finger_flexion, finger_abduction ... "
-                              "are allowed");
-    }
-    label.posture = *known;
-    label.is_added = mark == "added_crease" || mark == "added_dot";
-    if (!label.is_added && mark != "crease" && mark != "dot") {
-      file.fail(row.line,
-                "mark \"" + mark + "\"; crease, dot, added_crease or added_dot is allowed");
-    }
-    label.kind = mark == "crease" || mark == "added_crease" ? Kind::kCrease : Kind::kDot;
+    MarkText text{row.cells[column[0]], row.cells[column[1]], row.cells[column[2]], Vec3::Zero(),
+                  path + ":" + std::to_string(row.line)};
     for (int a = 0; a < 3; ++a) {
-      label.point[a] = file.number(row, column[static_cast<std::size_t>(a) + 3]);
+      text.point[a] = file.number(row, column[static_cast<std::size_t>(a) + 3]);
     }
-    if (name.empty() && !label.is_added) continue;
-    label.segment = segment_of(file, row.line, name, label.kind);
-    if (label.is_added && !label.segment) {
-      file.fail(row.line,
-                "a mark that is added must have a name; \"none\" takes away what was "
-                "found");
-    }
-    labels.push_back(std::move(label));
+    const auto label =
+        mark_label_of(text, [&](const std::string& why) { file.fail(row.line, why); });
+    if (label) labels.push_back(*label);
   }
   return labels;
 }

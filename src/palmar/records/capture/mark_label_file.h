@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,16 @@
 #include "palmar/records/csv.h"
 
 namespace palmar {
+
+/// What a file says of one mark, in its words (below).
+struct MarkText {
+  std::string posture, mark, name;
+  Vec3 point = Vec3::Zero();
+  std::string place;  ///< "file:line"
+};
+/// The same as a label; nothing without a name. `fail` throws what is wrong with where it stands.
+std::optional<MarkLabel> mark_label_of(const MarkText& text,
+                                       const std::function<void(const std::string&)>& fail);
 
 /// Reads what a person says of the marks on scans: CSV with the columns posture, mark, name, x_mm,
 /// y_mm, z_mm (scan's own frame). mark: crease, dot, added_crease, added_dot. name: a segment, of a

@@ -24,6 +24,7 @@
 #include "palmar/report/picture/colormap.h"
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/report/picture/render.h"
+#include "palmar/report/scan/found_sheet.h"
 #include "palmar/report/scan/scan_report.h"
 
 namespace palmar {
@@ -49,14 +50,8 @@ SceneObject ball(const Vec3& centre, double radius, Rgb colour) {
 
 /// The scan with its colours; found dots ringed by a small ball.
 Scene scan_scene(const ShownScan& scan, const Rigid3& hand_from_scan) {
-  SceneObject surface{.mesh = scan.surface.mesh, .colour = kSkinColour};
+  SceneObject surface = coloured_surface(scan);
   for (Vec3& v : surface.mesh.vertices) v = hand_from_scan * v;
-  for (const Srgb& c : scan.surface.colour) {
-    const auto byte = [](float x) {
-      return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(x, 0.0F, 1.0F)));
-    };
-    surface.vertex_colours.push_back({byte(c[0]), byte(c[1]), byte(c[2])});
-  }
   Scene scene{std::move(surface)};
   for (const InkDot& dot : scan.marks.dots) {
     scene.push_back(ball(hand_from_scan * dot.point, 0.9, kDotColour));

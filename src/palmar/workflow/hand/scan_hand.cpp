@@ -6,11 +6,29 @@
 #include "palmar/formats/file.h"
 #include "palmar/records/capture/mark_label_file.h"
 #include "palmar/records/capture/painted_hand_file.h"
+#include "palmar/records/capture/person_file.h"
 #include "palmar/records/hand/hand_file.h"
+#include "palmar/report/scan/found_sheet.h"
 #include "palmar/workflow/hand/hand_output.h"
 #include "palmar/workflow/hand/load_hand.h"
 
 namespace palmar {
+
+namespace {
+
+/// Surfaces with what was found and named on them, by number; the path of the sheet.
+std::string write_found(const std::string& work, std::map<ScanPosture, ShownScan> shown,
+                        const std::map<ScanPosture, SkinMarks*>& named, const Progress& progress) {
+  for (auto& [posture, scan] : shown) scan.marks = *named.at(posture);
+  create_folder(work);
+  const std::vector<NumberedMark> marks = numbered_marks(shown);
+  write_file(work + "/found.toml", found_toml(marks));
+  const std::string sheet = work + "/found.png";
+  write_file(sheet, encode_png(found_sheet(shown, marks, progress)));
+  return sheet;
+}
+
+}  // namespace
 
 void ScanHandOptions::check() const {
   check_hand_output(out);
@@ -24,6 +42,7 @@ void ScanHandOptions::check_files() const {
   }
   require_writable(folder_of(out));
   if (!marks.empty()) read_mark_labels(marks);
+  if (!known.empty()) read_person(known);
   if (!truth.empty()) read_scan_truth(truth);
 }
 
@@ -38,10 +57,20 @@ ScanHandOutcome make_hand_of_surfaces(const ScanHandOptions& options, const std:
     scans[posture] = {one.file, one.surface.mesh, one.marks};
     marks[posture] = &scans[posture].marks;
   }
+  const PersonFile known = options.known.empty() ? PersonFile{} : read_person(options.known);
   if (!options.marks.empty()) apply_mark_labels(read_mark_labels(options.marks), marks);
+  if (!known.marks.empty()) apply_mark_labels(known.marks, marks);
   ScanHandOutcome outcome;
   HandFromScan& made = outcome.made;
-  made = make_hand_from_scans(*model, scans, options.side, part_of(progress, 0.0, 0.9));
+  if (options.writes_report || options.looks_only) {
+    outcome.found = write_found(work, shown, marks, part_of(progress, 0.0, 0.05));
+  }
+  if (options.looks_only) {
+    made.notes = notes;
+    return outcome;
+  }
+  const std::optional<Side> side = options.side ? options.side : known.side;
+  made = make_hand_from_scans(*model, scans, side, part_of(progress, 0.05, 0.9));
   made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
   Hand& hand = made.scanned.hand;
   hand.name = options.name.empty() ? hand_name_of(options.out) : options.name;

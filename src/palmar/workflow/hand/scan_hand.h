@@ -27,7 +27,10 @@ struct ScanHandOptions {
   SkinMarkOptions inks;            ///< colours of the drawn creases and dots, diameter of the dots
   std::string marks;  ///< file with names of drawn marks, those to leave out and to add: marks.csv
                       ///< of an earlier run, edited; empty: none
-  std::string truth;  ///< subject.json of a synthetic person, for the report; empty: none
+  std::string known;  ///< file of what is known of the person (read_person()); its side and marks
+                      ///< count where `side` isn't set and beside `marks`; empty: none
+  bool looks_only = false;  ///< end with what was found on the surfaces: found.png, found.toml
+  std::string truth;        ///< subject.json of a synthetic person, for the report; empty: none
   bool writes_report = true;
   Language language = Language::kEnglish;  ///< of the report
 
@@ -39,12 +42,15 @@ struct ScanHandOptions {
 };
 
 struct ScanHandOutcome {
-  HandFromScan made;   ///< with the notes of every step
+  HandFromScan made;   ///< with the notes of every step; nothing of a hand if only looked at
   std::string report;  ///< page; empty: none was written
+  std::string found;   ///< sheet of what was found, found.png; empty: none was written
 };
 
 /// Surfaces to the hand that `options` name, with the report in `work`. `shown`: surfaces in mm
-/// with the marks that were found on them; `notes` come before those of this step. Throws
+/// with the marks that were found on them. Before anything is computed on these, they are shown by
+/// number in `work` (found.png, found.toml to be edited), if there is a report or nothing else is
+/// wanted. `notes` come before those of this step. Throws
 /// InputError, OutputError, Cancelled.
 ScanHandOutcome make_hand_of_surfaces(const ScanHandOptions& options, const std::string& work,
                                       const std::map<ScanPosture, ShownScan>& shown,

@@ -36,6 +36,22 @@ struct PosedMap {
         centre + map->depth[at] * (ray * Vec3f(static_cast<float>(x), static_cast<float>(y), 1)),
         world_from_camera * map->normal[at], 1};
   }
+  /// Covariance of the places that a square patch round a pixel covers on the plane of a point: its
+  /// pixels' on a plane across the sight, cast along the sight onto the surface.
+  Eigen::Matrix3f patch_of(const SurfacePoint& point, int radius) const {
+    const Vec3f to = point.position - centre;
+    const float distance = to.norm();
+    const Vec3f sight = to / distance;
+    constexpr float kLeast = 0.5F;  // more oblique ones reach past the outline of a finger
+    const float along = std::min(-kLeast, point.normal.dot(sight));
+    const auto side = static_cast<float>(2 * radius + 1);
+    const float variance = (side * side - 1.0F) / 12.0F;  // pixels^2, of each direction
+    const float pixel = distance / static_cast<float>(lens.focal_x);
+    const Eigen::Matrix3f across = Eigen::Matrix3f::Identity() - sight * sight.transpose();
+    const Eigen::Matrix3f cast =
+        (Eigen::Matrix3f::Identity() - sight * point.normal.transpose() / along) * across;
+    return variance * pixel * pixel * cast * cast.transpose();
+  }
 };
 
 /// No two lenses have the same numbers.
@@ -55,6 +71,7 @@ void DepthFusionOptions::check() const {
   require(agree_angle > 0 && agree_angle <= 90, "agree_angle", agree_angle, "0 to 90 deg");
   require(least_views >= 1 && least_views <= 100, "least_views", least_views, "1 to 100");
   require(still >= 0 && still <= 50, "still", still, "0 to 50 pixels");
+  require(patch_radius >= 0 && patch_radius <= 7, "patch_radius", patch_radius, "0 to 7 pixels");
   require(widest_angle > 0 && widest_angle <= 180, "widest_angle", widest_angle, "0 to 180 deg");
 }
 
@@ -84,6 +101,7 @@ FusedDepths fuse_depths(const std::vector<PhotoView>& views, const std::vector<D
         const SurfacePoint mine = own.point_at(x, y, at);
         Vec3f position = mine.position, normal = mine.normal;
         int agreeing = 1;
+        Eigen::Matrix3f patch = own.patch_of(mine, options.patch_radius);
         for (const std::size_t o : others) {
           const PosedMap& other = posed[o];
           const Vec3f q = other.camera.project(mine.position);
@@ -108,11 +126,18 @@ FusedDepths fuse_depths(const std::vector<PhotoView>& views, const std::vector<D
           if (std::abs(depth - q.z()) > agree) continue;
           position += other.centre + depth * ray;
           normal += theirs.normal;
+          patch +=
+              other.patch_of({other.centre + depth * ray, theirs.normal, 1}, options.patch_radius);
           ++agreeing;
         }
         if (agreeing < options.least_views) continue;
+        const auto count = static_cast<float>(agreeing);
+        patch /= count;
         found[v].push_back(
-            {position / static_cast<float>(agreeing), normal.normalized(), agreeing});
+            {position / count,
+             normal.normalized(),
+             agreeing,
+             {patch(0, 0), patch(1, 1), patch(2, 2), patch(0, 1), patch(0, 2), patch(1, 2)}});
       }
     }
   });

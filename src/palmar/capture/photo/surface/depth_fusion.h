@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "palmar/capture/photo/surface/patch_match.h"
@@ -18,14 +19,19 @@ struct DepthFusionOptions {
   /// with it while the board turns) stays where it is in the picture, which looks like a surface
   /// round the axis. 0: they count.
   double still = 0.0;
+  int patch_radius =
+      3;               ///< of the patches that gave the depths (PatchMatchOptions::radius), pixels
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
-/// A point of the surface with its normal, and how many views agree about it.
+/// A point of the surface with its normal, and what it rests on.
 struct SurfacePoint {
   Eigen::Vector3f position;  ///< world, mm
   Eigen::Vector3f normal;    ///< unit, outwards
-  int views = 0;
+  int views = 0;             ///< that agree about it
+  /// Covariance of the places on the surface that the views' patches compare, mm^2, mean over the
+  /// views: xx, yy, zz, xy, xz, yz. Patches of no extent have 0.
+  std::array<float, 6> patch{};
 };
 
 /// What the views agree about.
