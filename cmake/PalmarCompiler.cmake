@@ -64,6 +64,8 @@ if(PALMAR_SANITIZE)
   # GCC's word for what Clang says by __has_feature(address_sanitizer).
   target_compile_definitions(palmar_compiler INTERFACE $<$<CXX_COMPILER_ID:Clang>:__SANITIZE_ADDRESS__>)
   target_link_options(palmar_compiler INTERFACE -fsanitize=address,undefined)
+  # What ran, for the libFuzzer targets (tests/fuzz).
+  target_compile_options(palmar_compiler INTERFACE $<$<CXX_COMPILER_ID:Clang>:-fsanitize=fuzzer-no-link>)
 endif()
 if(PALMAR_TIDY)
   find_program(PALMAR_CLANG_TIDY clang-tidy REQUIRED)

@@ -6,6 +6,11 @@
 
 namespace palmar {
 
+/// The program that runs: $PALMAR_PROGRAM, which the starters of the portable archive set
+/// (scripts/archive.sh), as the system then names the loader; else what the system says. Empty if
+/// it doesn't.
+std::filesystem::path program_file();
+
 /// Where this program's file is, and so the programs that it starts as children; what Palmar needs
 /// at run time is in ../share/palmar of it. Empty if the system doesn't say.
 std::filesystem::path program_folder();
