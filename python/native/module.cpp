@@ -53,8 +53,9 @@ PYBIND11_MODULE(_native, module) {
   module.def("build_description", &palmar::build_description);
   module.def("set_thread_count", &palmar::set_thread_count, py::arg("count"));
   module.def("thread_count", &palmar::thread_count);
-  module.def("set_program_folder",
-             [](const std::string& folder) { palmar::set_program_folder(folder); });
+  module.def(
+      "set_program_folder", [](const std::string& folder) { palmar::set_program_folder(folder); },
+      py::arg("folder"));
   bind_values(module);
   bind_assess(module);
   bind_products(module);

@@ -7,7 +7,8 @@ from typing import Any, List, Mapping, Optional, Union, overload
 
 from . import _native
 from ._native import Assessment, Hand, Product
-from ._task import Box, Path, Paths, Progress, Record, Table, Vector, given, notes, run_task, words_of
+from ._task import (Box, Path, Progress, Record, Table, Vector, command_of, given, notes,
+                    run_task)
 
 
 class Assessments(_Sequence):
@@ -162,7 +163,7 @@ def assess(
             `person` or `strength_n` (N); limit_depths: as closing to the depths made it.
         balance: False leaves forces out of balance (Xie 2014).
         friction: Coefficient; 0.5 while it settles and under a load (Derler & Gerhardt 2012).
-        mass_kg, weight_n, density_g_cm3: One of them, of the product; acceleration_g: upwards, in
+        mass_kg, weight_n, density_g_cm3: One of them, of the product, kg, N or g/cm3; acceleration_g: upwards, in
             multiples of 9.81 m/s2; gravity: its direction; mass_at: centre of mass, mm.
         load_n, torque_n_mm, load_at: Further force (N) and torque (N mm), and where, mm.
         preset: "palmar" or "xie2014"; kernel, tissue_model, coupling: single equations.
@@ -182,7 +183,7 @@ def assess(
         UsageError, InputError, NumericalError, OutputError; KeyboardInterrupt after Ctrl-C.
     """
     arguments = given(locals())
-    arguments["command_line"] = words_of("palmar.assess", arguments)
+    arguments["command_line"] = command_of("assess", products, arguments)
     outcome = run_task(_native.assess, arguments, progress=progress)
     if not outcome.has_converged:
         notes.warning("a contact has no solution; see the results")

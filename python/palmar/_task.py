@@ -7,6 +7,7 @@ from __future__ import annotations
 import logging
 import os
 import re
+import shlex
 import sys
 import time
 from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Union
@@ -16,7 +17,7 @@ import numpy as np
 from . import _native
 from ._errors import Error
 
-Path = Union[str, "os.PathLike[str]"]
+Path = Union[str, os.PathLike[str]]
 Paths = Union[Path, Sequence[Path]]
 Vector = Sequence[float]
 """x, y, z"""
@@ -127,11 +128,28 @@ def given(arguments: Mapping[str, Any]) -> Dict[str, Any]:
     return {name: value for name, value in arguments.items() if name != "progress"}
 
 
-def words_of(task: str, arguments: Mapping[str, Any]) -> str:
-    """The call as it stands in results: palmar.assess('handle.step', grip_force_n=30)."""
-    words = [repr(value) for value in arguments.get("products", ())]
-    for name, value in arguments.items():
-        is_usual = value is None or value is False or value in ("template", "any")
-        if name not in ("products", "progress") and not is_usual:
-            words.append(f"{name}={value!r}")
-    return f"{task}({', '.join(words)})"
+def _option(name: str, value: Any) -> str:
+    """--grip-force-n 30, --axis 0,0,1, --left, --no-balance; "" where there is nothing to say."""
+    option = "--" + name.replace("_", "-")
+    value = value.name if isinstance(value, _native.Hand) else value
+    if value is None or (value is False and name in ("left", "skin_on_skin", "both_hands")):
+        return ""
+    if isinstance(value, bool):
+        return option if value else "--no-" + option[2:]
+    if isinstance(value, (str, os.PathLike)) or not isinstance(value, (Sequence, np.ndarray)):
+        return f"{option} {shlex.quote(str(value))}"
+    if all(isinstance(one, (int, float, np.number)) for one in value):
+        return f"{option} {','.join(str(one) for one in value)}"
+    return " ".join(_option(name, one) for one in value)
+
+
+def command_of(verb: str, products: Sequence[Any], arguments: Mapping[str, Any]) -> str:
+    """The call as the command line has it, for the results: palmar assess a.step --grip-force-n 30."""
+    words = [shlex.quote(str(getattr(one, "source", one))) for one in products]
+    usual = {"hand": "template", "grip": "any"}
+    words += [_option(name, value) for name, value in arguments.items()
+              if name not in ("product", "products", "progress", "fingertips")
+              and not (name in usual and value == usual[name])]
+    for finger, point in (arguments.get("fingertips") or {}).items():
+        words.append(f"--fingertip {finger}:{','.join(str(one) for one in point)}")
+    return " ".join(["palmar", verb, *filter(None, words)])

@@ -63,6 +63,9 @@ def check(
 ) -> Dict[str, Any]:
     """What is right and wrong with the mesh of a file (`palmar product check`).
 
+    Args:
+        unit, chordal_error_mm, time_limit_s, memory_limit_mb: As in read(); mm, s, MB.
+
     Returns:
         "verdict" ("ok", "note", "warning", "error"), "findings" (severity and sentence, the worst
         first), "product", counts, "volume_mm3", "area_mm2", "size_mm".

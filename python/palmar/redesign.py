@@ -30,7 +30,7 @@ from typing import Any, Dict, Optional, Sequence, Tuple, Union
 
 from . import _native
 from ._native import Product
-from ._task import Box, Path, Progress, Vector, given, run_task, words_of
+from ._task import Box, Path, Progress, Vector, command_of, given, run_task
 from .study import _source
 
 __all__ = ["features", "fillet", "press", "region", "shape"]
@@ -39,7 +39,7 @@ __all__ = ["features", "fillet", "press", "region", "shape"]
 def _asked(task: str, arguments: Dict[str, Any]) -> Dict[str, Any]:
     asked = given(arguments)
     asked["product"] = _source(asked["product"])
-    return {**asked, "command_line": words_of("palmar.redesign." + task, asked)}
+    return {**asked, "command_line": command_of("redesign " + task, [asked["product"]], asked)}
 
 
 def shape(

@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 from . import _native
 from ._native import Product
-from ._task import Path, Paths, Progress, Record, Table, Vector, given, run
+from ._task import Path, Paths, Progress, Record, Table, Vector, given, run_task
 
 __all__ = ["Study", "export", "grasps", "merge", "plan", "report", "resume", "run",
            "statistics", "status"]

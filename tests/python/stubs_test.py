@@ -26,6 +26,8 @@ def public_functions():
 
 
 class Stubs(unittest.TestCase):
+    maxDiff = None
+
     def setUp(self):
         self.stub = ast.parse((FOLDER / "_native.pyi").read_text())
 

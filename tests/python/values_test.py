@@ -160,7 +160,7 @@ class Errors(unittest.TestCase):
                 palmar.product.read(file)
 
     def test_a_wrong_value_is_named_as_the_argument(self):
-        with self.assertRaisesRegex(palmar.UsageError, "^grip_force_n is -1"):
+        with self.assertRaisesRegex(palmar.UsageError, "grip force is -1 N; more than 0"):
             palmar.assess(sphere(), grip_force_n=-1)
         with self.assertRaisesRegex(palmar.UsageError, "^person is \"child\""):
             palmar.assess(sphere(), person="child")
@@ -208,7 +208,8 @@ class Records(unittest.TestCase):
         regions = result.regions()
         total = regions["region"] == "total"
         self.assertAlmostEqual(regions["force_n"][~total].sum() / one.force_n, 1, places=6)
-        self.assertIn("palmar.assess(", result.record["command_line"])
+        self.assertEqual(result.record["command_line"],
+                         "palmar assess 'made: sphere diameter_mm=60' --no-pictures")
 
 
 if __name__ == "__main__":
