@@ -218,7 +218,8 @@ TEST(HandleBody, WhatIsNoBarIsRefusedByName) {
   options.depth = 80.0;
   options.thickness = 6.0;
   const Product product = make_plane_product(options);
-  EXPECT_THAT([&] { body_of(product); }, ThrowsMessage<UsageError>(HasSubstr("is held by its plate; a bar")));
+  EXPECT_THAT([&] { body_of(product); },
+              ThrowsMessage<UsageError>(HasSubstr("is held by its plate; a bar")));
 }
 
 TEST(HandleShape, AnEllipticBarIsClosedAndHasItsVolume) {
