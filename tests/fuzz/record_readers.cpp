@@ -8,7 +8,6 @@
 #include "fuzzed_file.h"
 #include "palmar/records/bench/bench_project.h"
 #include "palmar/records/hand/hand_file.h"
-#include "palmar/records/handle_file.h"
 #include "palmar/records/hold/hold_file.h"
 #include "palmar/records/measured_curves.h"
 #include "palmar/records/population/dimension_table_file.h"
@@ -29,7 +28,6 @@ void dimension_table(std::string_view bytes) { parse_dimension_table(bytes, kNam
 void study(std::string_view bytes) { read_study_file(fuzzed_file(bytes, ".toml")); }
 void tissue(std::string_view bytes) { read_tissue(fuzzed_file(bytes, ".toml"), {}); }
 void hold(std::string_view bytes) { read_hold(fuzzed_file(bytes, ".toml")); }
-void handle(std::string_view bytes) { read_handle(fuzzed_file(bytes, ".toml")); }
 void project(std::string_view bytes) { read_project(fuzzed_file(bytes, ".toml")); }
 void sensors(std::string_view bytes) { read_sensor_layout(fuzzed_file(bytes, ".toml")); }
 void bench_project(std::string_view bytes) {

@@ -209,7 +209,6 @@ for (const target of ["toml", "sensors"]) seed(target, "mat", example("grip-mat.
 seed("toml", "dotted", 'a.b.c = [1, 2.5, "x", {d = 1979-05-27T07:32:00Z}]\n[e."f g"]\nh = """\ni"""\n[[j]]\nk = 0x1F\n');
 seed("study", "handles", example("three-handles/study.toml"));
 seed("study", "thesis", example("xie2014-chapter5/study.toml"));
-seed("handle", "oval", "width_mm = 32\ndepth_mm = 36\n");
 seed("hold", "wrap", 'part = 1\ngrip = "medium_wrap"\nalong_mm = 0\n');
 seed("tissue", "soft", "[palm]\nshear_modulus_kpa = 10\n");
 seed("population", "two", 'name = "two"\n[[dimension]]\nname = "hand_length"\nmean_mm = 190\nsd_mm = 9\n');
