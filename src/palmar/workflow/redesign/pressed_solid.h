@@ -24,9 +24,9 @@ struct PressedSolid {
   int faces = 0, poles = 0;        ///< of the handle's surface
 };
 
-/// Makes the solid of a pressed shape as coarse as it may be to lie within kSolidWithin (root mean
-/// square) of the mesh, and writes it to the request's folder; or why there is none, a sentence
-/// about the product. Throws Cancelled, OutputError.
+/// Makes the solid of a pressed shape on grids of 3.5, 2.5 and 1.75 mm until it lies within 0.05 mm
+/// (root mean square) of the mesh, and writes the nearest to the request's folder; or why there is
+/// none, a sentence about the product. Throws Cancelled, InputError, OutputError.
 std::variant<PressedSolid, std::string> write_pressed_solid(const RedesignRequest& request,
                                                             const HeldOriginal& original,
                                                             const Product& pressed,
