@@ -93,6 +93,7 @@ void scale(StudyRecord& record, double factor) {
 /// Runs the program; its time, and its memory as the system's largest so far.
 void print_command(const std::string& palmar, const std::vector<std::string>& words) {
   int status = 0;
+  std::fflush(stdout);
   rusage usage{};
   const double seconds = seconds_of([&] {
     const pid_t child = fork();
@@ -106,7 +107,11 @@ void print_command(const std::string& palmar, const std::vector<std::string>& wo
     }
     wait4(child, &status, 0, &usage);
   });
-  std::printf("%-24s %8.1f s  %6.0f MB%s\n", ("study " + words[1]).c_str(), seconds,
+  const auto of = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  std::printf("%-24s %8.1f s  %6.1f s of processors  %6.0f MB%s\n", ("study " + words[1]).c_str(),
+              seconds, of(usage.ru_utime) + of(usage.ru_stime),
               static_cast<double>(usage.ru_maxrss) / 1024.0,
               status == 0 ? "" : "  (ended with an error)");
 }
