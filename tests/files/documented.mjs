@@ -115,16 +115,21 @@ export function readFormats(pages) {
       if (node.children.has(key)) splice(node.children.get(key), child);
       else node.children.set(key, child);
     }
-    for (const one of from.patterns) if (!node.patterns.includes(one)) node.patterns.push(one);
+    for (const one of from.patterns) {
+      const own = node.patterns.find(({text}) => text === one.text);
+      if (own && own !== one) splice(own.node, one.node);
+      else if (!own) node.patterns.push(one);
+    }
+    node.row ??= from.row;
     if (node.items && from.items) splice(node.items, from.items);
     node.items ??= from.items;
   };
   const shapes = new Map([...formats].map(([name, root]) => [slugOf(name), root]));
   const visit = (node) => {
-    if (node.row?.shape && !node.row.isSpliced) {
+    if (node.row?.shape && !node.isSpliced) {
       const shape = shapes.get(node.row.shape);
       if (!shape) throw new Error(`${node.row.where}: ${node.row.shape} is no shape`);
-      node.row.isSpliced = true;
+      node.isSpliced = true;
       splice(node.row.isListOfShape ? (node.items ??= newNode()) : node, shape);
     }
     for (const child of node.children.values()) visit(child);
