@@ -4,7 +4,7 @@
 // The tables of docs/using that say what a file holds, and whether a file holds just that.
 //
 // A table has the columns field, unit, type and range, meaning. "<!-- format NAME -->" before it says whose it is,
-// "<!-- format NAME, as OTHER -->" that the other's fields are its, too; "Below `path`:" that its fields stand there. A field is a path: `regions[]` are the elements of a list, a word in
+// "<!-- format NAME, as ONE and OTHER -->" that the fields of these are its, too; "Below `path`:" that its fields stand there. A field is a path: `regions[]` are the elements of a list, a word in
 // capitals is a name that is data (`posture.ANGLE_deg`). Types are checked as their words say: number, whole number,
 // text, true or false, list, list of 3 numbers, object; `one`, `of`, `these` words; "optional", "or null", "or empty";
 // "0 to 1", "at least 0", "above 0". A link to a shape ([placement](#placement)) stands for that shape's fields.
@@ -81,7 +81,7 @@ export function readFormats(pages) {
       if (format) {
         if (formats.has(format)) throw new Error(`${where}: ${format} stands there twice`);
         formats.set(format, root = newNode());
-        root.as = other;
+        root.as = other?.split(" and ") ?? [];
         base = "";
       }
       const below = line.match(/^Below `([^`]+)`/);
@@ -136,7 +136,13 @@ export function readFormats(pages) {
     for (const one of node.patterns) visit(one.node);
     if (node.items) visit(node.items);
   };
-  for (const root of formats.values()) if (root.as) splice(root, formats.get(root.as));
+  const complete = (root) => {
+    for (const other of root.as.splice(0)) {
+      complete(formats.get(other));
+      splice(root, formats.get(other));
+    }
+  };
+  for (const root of formats.values()) complete(root);
   for (const root of formats.values()) visit(root);
   return formats;
 }
