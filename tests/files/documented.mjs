@@ -213,7 +213,8 @@ export function unseen(node) {
 }
 
 /** Cells of a CSV file (RFC 4180) by column; numbers, words and "" as the table says. */
-export function rowsOfCsv(text, node, where, faults) {
+function rowsOfCsv(file, node, where, faults) {
+  const text = file.replaceAll(/^#.*\n/gm, "");  // comments, in what people write
   const rows = [];
   let row = [], cell = "", isQuoted = false;
   for (let i = 0; i < text.length; ++i) {
