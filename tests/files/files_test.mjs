@@ -5,7 +5,7 @@
 // with types and ranges, and the other way round. --all makes what takes minutes, too, and then asks that every field
 // of the documents was seen.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
+import {spawn, spawnSync} from "node:child_process";
 import {cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {dirname, join} from "node:path";
@@ -211,6 +211,18 @@ function longResults() {
   vtp("hand.vtp", "full/prism/hand.vtp");
 }
 
+/** What stands beside a store while it is written. */
+async function progressOfStudy() {
+  const store = join(folder, "many.palmar");
+  const run = spawn(palmar, ["--quiet", "study", "run", "--product", "bar.stl", "--unit", "mm", "--population", "ansur2_women",
+                             "--hands", "500", "--out", store], {cwd: folder, stdio: "ignore"});
+  const ended = new Promise((resolve) => run.on("close", resolve));
+  while (!existsSync(`${store}-progress`) && run.exitCode === null) await new Promise((resolve) => setTimeout(resolve, 20));
+  json("progress", "many.palmar-progress");
+  run.kill("SIGTERM");
+  await ended;
+}
+
 function longStudies() {
   palmarDoes("study run --product bar.stl --product prism.step --unit mm --population ansur2_women --hands 6 --out two.palmar");
   printed("comparison", "study compare two.palmar");
@@ -304,7 +316,50 @@ function photographs() {
   json("photo mesh.json", "photo.json");
 }
 
+/** A page that was typed here, and what is wrong with files beside it. */
+function checksItself() {
+  const page = join(folder, "page.md");
+  writeFileSync(page, `
+<!-- format part -->
+
+| field | unit | type and range | meaning |
+|-|-|-|-|
+| \`size_mm\` | mm | number, above 0 | of it |
+
+<!-- format box, as part -->
+
+| field | unit | type and range | meaning |
+|-|-|-|-|
+| \`kind\` | | \`a\`, \`b\` or null | which |
+| \`share\` | | optional number, 0 to 1 | of all |
+| \`parts\` | | list of [part](#part) | its own |
+| \`by.NAME_n\` | N | whole number | by name |
+`);
+  const box = readFormats([page]).get("box");
+  const said = (value) => {
+    const found = [];
+    check(value, box, "box", found);
+    return found.map((one) => one.replace(/page\.md:\d+/, "page").replace(folder + "/", ""));
+  };
+  const good = {size_mm: 1, kind: null, parts: [{size_mm: 2}], by: {left_n: 3}};
+  assert.deepEqual(said(good), []);
+  assert.deepEqual(said({...good, more: 1}), ['box: "more" isn\'t documented (1)']);
+  assert.deepEqual(said({...good, parts: [{}]}), ['box.parts[0]: "size_mm" is documented and isn\'t there']);
+  assert.deepEqual(said({...good, size_mm: 0}), ["box.size_mm: is 0; page says above 0 to "]);
+  assert.deepEqual(said({...good, share: 1.5}), ["box.share: is 1.5; page says 0 to 1"]);
+  assert.deepEqual(said({...good, kind: "c"}), ['box.kind: is "c"; page says a, b']);
+  assert.deepEqual(said({...good, by: {left_n: 0.5}}), ["box.by.left_n: is 0.5; page says whole number"]);
+  assert.deepEqual(said({...good, by: {left: 1}}), ['box.by: "left" isn\'t documented (1)']);
+  const cells = [];
+  assert.equal(checkCsv('# by hand\nsize_mm,kind\n"1",a\n,"x, ""y"""\n', readFormats([page]).get("part"), "csv", cells), 2);
+  assert.deepEqual(cells.map((one) => one.replace(/ [^ ]*page\.md:\d+/, " page")),
+                   ['csv: column "kind" isn\'t documented', "csv, row 2, size_mm: is null; page says no null"]);
+  assert.deepEqual(parseToml('a = 1  # "x"\n[b.c]\nd = [1,\n  2,\n]\n[[e]]\nf = { g = "h # i" }\n'),
+                   {a: 1, b: {c: {d: [1, 2]}}, e: [{f: {g: "h # i"}}]});
+}
+
 try {
+  checksItself();
   products();
   grasps();
   presses();
@@ -313,6 +368,7 @@ try {
   studies();
   hands();
   if (isAll) for (const one of [longResults, longStudies, redesigns, scans, images, photographs]) one();
+  if (isAll) await progressOfStudy();
   const readers = checkReaders(formats, folder, (words) => ask(words).error, isAll);
   faults.push(...readers.faults);
   assert.equal(faults.slice(0, 40).join("\n"), "");
