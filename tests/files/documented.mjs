@@ -4,10 +4,11 @@
 // The tables of docs/using that say what a file holds, and whether a file holds just that.
 //
 // A table has the columns field, unit, type and range, meaning. "<!-- format NAME -->" before it says whose it is,
-// "<!-- format NAME, as ONE and OTHER -->" that the fields of these are its, too; "Below `path`:" that its fields stand there. A field is a path: `regions[]` are the elements of a list, a word in
-// capitals is a name that is data (`posture.ANGLE_deg`). Types are checked as their words say: number, whole number,
-// text, true or false, list, list of 3 numbers, object; `one`, `of`, `these` words; "optional", "or null", "or empty";
-// "0 to 1", "at least 0", "above 0". A link to a shape ([placement](#placement)) stands for that shape's fields.
+// "<!-- format NAME, as ONE and OTHER -->" that the fields of these are its, too; "Below `path`:" that its fields
+// stand there. A field is a path: `regions[]` are the elements of a list, a word in capitals is a name that is data
+// (`posture.ANGLE_deg`). Types are checked as their words say: number, whole number, text, true or false, list, list
+// of 3 numbers, object; `one`, `of`, `these` words; "optional", "or null", "or empty"; "0 to 1", "at least 0", "above
+// 0". A link to a shape ([placement](#placement)) stands for that shape's fields.
 import {readFileSync} from "node:fs";
 
 const newNode = () => ({children: new Map(), patterns: [], items: null, row: null});
@@ -103,7 +104,8 @@ export function readFormats(pages) {
         if (node.row) throw new Error(`${where}: ${field} stands there twice`);
         node.row = {where, field: base ? `${base}.${field}` : field, unit, meaning, ...typeOf(type, where)};
         // The unit of a name is that of the table.
-        const named = /_per_/.test(field) ? undefined : field.replace(/(\[\]|\.[A-Z_]+)+$/, "").match(/_(mm3|mm2|mm|n_mm|n|mpa|kpa|deg|rad|kg|px)$/)?.[1];
+        const last = /_per_/.test(field) ? "" : field.replace(/(\[\]|\.[A-Z_]+)+$/, "");
+        const named = last.match(/_(mm3|mm2|mm|n_mm|n|mpa|kpa|deg|rad|kg|px)$/)?.[1];
         const told = {n: "N", n_mm: "N mm", mpa: "MPa", kpa: "kPa"}[named] ?? named;
         if (named && told !== unit) throw new Error(`${where}: ${field} is in ${told}, the table says "${unit}"`);
       }
@@ -201,7 +203,8 @@ export function check(value, node, where, faults) {
     else faults.push(`${where}: "${key}" isn't documented (${JSON.stringify(one)?.slice(0, 60)})`);
   }
   for (const [key, child] of node.children) {
-    if (!(key in value) && !child.row?.isOptional && !child.items?.row?.isOptional) faults.push(`${where}: "${key}" is documented and isn't there`);
+    if (key in value || child.row?.isOptional || child.items?.row?.isOptional) continue;
+    faults.push(`${where}: "${key}" is documented and isn't there`);
   }
 }
 
@@ -264,7 +267,8 @@ export function checkCsv(text, node, where, faults) {
     else seen(name).isSeen = true;
   }
   for (const [name, child] of node.children) {
-    if (!header.includes(name) && !child.row.isOptional) faults.push(`${where}: column "${name}" is documented and isn't there`);
+    if (header.includes(name) || child.row.isOptional) continue;
+    faults.push(`${where}: column "${name}" is documented and isn't there`);
   }
   rows.forEach((row, i) => {
     for (const name of header) {

@@ -1,9 +1,9 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// node files_test.mjs PALMAR [--all]: whether files hold what docs/using/files.md and the pages below it say, key by key,
-// with types and ranges, and the other way round. --all makes what takes minutes, too, and then asks that every field
-// of the documents was seen.
+// node files_test.mjs PALMAR [--all]: whether files hold what docs/using/files.md and the pages below it say, key by
+// key, with types and ranges, and the other way round. --all makes what takes minutes, too, asks the readers of TOML
+// for types and ranges, and lists documented fields that no file had.
 import assert from "node:assert/strict";
 import {spawn, spawnSync} from "node:child_process";
 import {cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
@@ -18,7 +18,8 @@ const palmar = process.argv[2];
 const isAll = process.argv.includes("--all");
 const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const pages = join(source, "docs/using/files");
-const formats = readFormats([...readdirSync(pages).map((one) => join(pages, one)), join(source, "docs/using/holds.md")]);
+const formats = readFormats(
+  [...readdirSync(pages).map((one) => join(pages, one)), join(source, "docs/using/holds.md")]);
 const folder = mkdtempSync(join(tmpdir(), "palmar-files-"));
 const faults = [];
 const made = new Set();  // formats of which there was a file
@@ -99,7 +100,8 @@ function presses() {
 }
 
 function assessments() {
-  palmarDoes("assess bar.stl --unit mm --tissue-model halfspace --no-balance --no-error-band --no-pictures --sensors mat --out quick");
+  palmarDoes("assess bar.stl --unit mm --tissue-model halfspace --no-balance --no-error-band --no-pictures " +
+             "--sensors mat --out quick");
   json("assessment.json", "quick/assessment.json");
   csv("regions.csv", "quick/regions.csv");
   csv("sensors.csv", "quick/sensors.csv");
@@ -202,9 +204,11 @@ function longResults() {
   palmarDoes("product make bottle --waist-depth-mm 5 --out bottle.stl");
   printed("parts", "product parts bottle.stl --unit mm");
   printed("check", "product check prism.step");
-  palmarDoes("assess prism.step --no-pictures --mass-kg 0.4 --friction 0.5 --sensors mat --coating 3,100,0.4,-99,-99,-99,99,99,99 --out full");
+  palmarDoes("assess prism.step --no-pictures --mass-kg 0.4 --friction 0.5 --sensors mat " +
+             "--coating 3,100,0.4,-99,-99,-99,99,99,99 --out full");
   writeFileSync(join(folder, "measured.csv"), "row,column,force_n\n1,1,0.5\n10,3,1.5\n");
-  palmarDoes("assess prism.step --no-pictures --error-budget --skin-on-skin --sensors mat --measured measured.csv --out budget");
+  palmarDoes("assess prism.step --no-pictures --error-budget --skin-on-skin --sensors mat " +
+             "--measured measured.csv --out budget");
   palmarDoes("assess bar.stl --unit mm --grip tripod --grip-force-n 10 --no-pictures --out tripod");
   for (const one of ["full", "budget", "tripod"]) json("assessment.json", `${one}/assessment.json`);
   csv("faces.csv", "full/faces.csv");
@@ -214,17 +218,20 @@ function longResults() {
 /** What stands beside a store while it is written. */
 async function progressOfStudy() {
   const store = join(folder, "many.palmar");
-  const run = spawn(palmar, ["--quiet", "study", "run", "--product", "bar.stl", "--unit", "mm", "--population", "ansur2_women",
-                             "--hands", "500", "--out", store], {cwd: folder, stdio: "ignore"});
+  const run = spawn(palmar, ["--quiet", "study", "run", "--product", "bar.stl", "--unit", "mm", "--population",
+                             "ansur2_women", "--hands", "500", "--out", store], {cwd: folder, stdio: "ignore"});
   const ended = new Promise((resolve) => run.on("close", resolve));
-  while (!existsSync(`${store}-progress`) && run.exitCode === null) await new Promise((resolve) => setTimeout(resolve, 20));
+  while (!existsSync(`${store}-progress`) && run.exitCode === null) {
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
   json("progress", "many.palmar-progress");
   run.kill("SIGTERM");
   await ended;
 }
 
 function longStudies() {
-  palmarDoes("study run --product bar.stl --product prism.step --unit mm --population ansur2_women --hands 6 --out two.palmar");
+  palmarDoes("study run --product bar.stl --product prism.step --unit mm --population ansur2_women --hands 6 " +
+             "--out two.palmar");
   printed("comparison", "study compare two.palmar");
   palmarDoes("study report two.palmar --no-pictures --out report-of-two");
   csv("comparison.csv", "report-of-two/comparison.csv");
@@ -240,7 +247,8 @@ function redesigns() {
   printed("region-answer", `redesign region ${prism} --no-pictures --no-compare --out region`);
   json("region.json", "region/region.json");
   csv("region.csv", "region/region.csv");
-  printed("shape-answer", `redesign shape prism.step --vary width=34 --use weight=9 --use hand=left ${compared} --out shape`);
+  printed("shape-answer",
+          `redesign shape prism.step --vary width=34 --use weight=9 --use hand=left ${compared} --out shape`);
   json("shape.json", "shape/shape.json");
   csv("history.csv", "shape/history.csv");
   csv("gains.csv", "shape/gains.csv");
@@ -258,7 +266,9 @@ function scans() {
   palmarDoes("hand from-scan scan/scan/reference.ply scan/scan/finger_flexion.ply scan/scan/thumb_flexion.ply " +
              "--truth scan/truth/subject.json --out scanned.hand.glb");
   json("surface scan.json", "scanned.scan/scan.json");
-  for (const name of ["dimensions", "joints_by_dots", "truth_errors", "marks"]) csv(`${name}.csv`, `scanned.scan/${name}.csv`);
+  for (const name of ["dimensions", "joints_by_dots", "truth_errors", "marks"]) {
+    csv(`${name}.csv`, `scanned.scan/${name}.csv`);
+  }
   toml("found.toml", "scanned.scan/found.toml");
   glb("hand.glb", "scanned.hand.glb");
   palmarDoes("hand pose --posture cylinder_grip --out grip.ply");
@@ -282,7 +292,8 @@ function surfacesOf(postures) {
     writeFileSync(join(to, "scan.json"), JSON.stringify({
       palmar_scan_version: 1, key: "", side: truth.side, air_threshold: 40, bone_threshold: 90, noise: 0,
       voxel_mm: [0.8, 0.8, 1], bone_error_estimate_mm: 0.1, skin: "skin.ply",
-      bones: Object.keys(state.patient_from_reference).map((name) => ({name, file: `bones/${name}.ply`, is_cut: false})),
+      bones: Object.keys(state.patient_from_reference)
+        .map((name) => ({name, file: `bones/${name}.ply`, is_cut: false})),
       markers_mm: state.markers_mm, notes: [],
     }));
     json("surfaces scan.json", `surfaces/${posture}/scan.json`);
@@ -307,7 +318,8 @@ function images() {
 }
 
 function photographs() {
-  palmarDoes("phantom photos --seed 3 --cameras 4 --positions 5 --width-px 540 --height-px 720 --calibration 6 --out photos");
+  palmarDoes("phantom photos --seed 3 --cameras 4 --positions 5 --width-px 540 --height-px 720 --calibration 6 " +
+             "--out photos");
   json("cameras.json", "photos/truth/cameras.json");
   json("scan subject.json", "photos/truth/subject.json");
   if (ask("photos calibrate photos/calibration --out lenses.json".split(" ")).code === 6) return;  // without OpenCV

@@ -43,17 +43,19 @@ const project = {"": []};
 
 export const readers = [
   {format: "study.toml", file: study, command: (file) => ["study", "plan", file, "--no-sample"]},
-  {format: "study.toml", file: setting, only: "[[setting]]", as: "settings", command: (file) => ["study", "plan", file, "--no-sample"]},
+  {format: "study.toml", file: setting, only: "[[setting]]", as: "settings",
+    command: (file) => ["study", "plan", file, "--no-sample"]},
   {format: "population.toml", file: population, command: (file) => ["population", "show", file]},
   {format: "tissue.toml", file: tissue, command: (file) => ["hand", "tissue", "--tissue", file]},
-  {format: "hold.toml", file: hold, command: (file, folder) => ["grasp", "close", join(folder, "bar.stl"), "--unit", "mm", "--hold", file]},
-  {format: "handle.toml", file: handle, mayPass: true,
-    command: (file, folder) => ["redesign", "shape", join(folder, "no.stl"), "--unit", "mm", "--features", file, "--out", join(folder, "no")]},
-  ...[mat, glove, free].map((file) => ({format: "sensors.toml", file, isPart: true,
-    command: (path, folder) => ["assess", join(folder, "bar.stl"), "--unit", "mm", "--sensors", path, "--out", join(folder, "no")]})),
+  {format: "hold.toml", file: hold,
+    command: (file, folder) => ["grasp", "close", join(folder, "bar.stl"), "--unit", "mm", "--hold", file]},
+  {format: "handle.toml", file: handle, command: (file, folder) =>
+    ["redesign", "shape", join(folder, "no.stl"), "--unit", "mm", "--features", file, "--out", join(folder, "no")]},
+  ...[mat, glove, free].map((file) => ({format: "sensors.toml", file, isPart: true, command: (path, folder) =>
+    ["assess", join(folder, "bar.stl"), "--unit", "mm", "--sensors", path, "--out", join(folder, "no")]})),
   {format: "person.toml", file: person, command: (file) => ["hand", "quick", "--population", "xie2014", "--known", file]},
-  {format: "project.toml", file: project,
-    command: (path, folder) => ["assess", join(folder, "no.stl"), "--unit", "mm", "--project", path, "--out", join(folder, "no")]},
+  {format: "project.toml", file: project, command: (path, folder) =>
+    ["assess", join(folder, "no.stl"), "--unit", "mm", "--project", path, "--out", join(folder, "no")]},
 ];
 
 /** "[[stratum.driving]]" as stratum[].driving[]; lists are where the table of a format has one. */
@@ -88,7 +90,8 @@ export function checkReaders(formats, folder, ask, all) {
       ++asked;
       return ask(command(path, folder));
     };
-    for (const heading of Object.keys(file).filter((one) => file[one] && !one.includes("#") && (!only || one === only))) {
+    const headings = Object.keys(file).filter((one) => file[one] && !one.includes("#"));
+    for (const heading of headings.filter((one) => !only || one === only)) {
       const node = nodeOf(formats.get(format), as ?? heading);
       const where = `${format} ${heading}`;
       if (node.children.size === 0) continue;  // names that are data
@@ -104,7 +107,8 @@ export function checkReaders(formats, folder, ask, all) {
       for (const key of list) {
         known.set(key, true);
         // Parameters of the kind are in `palmar product make --list`.
-        if (!documented.includes(key) && !(isMade && key === "diameter_mm")) faults.push(`${where}: ${key} isn't documented`);
+        if (documented.includes(key) || (isMade && key === "diameter_mm")) continue;
+        faults.push(`${where}: ${key} isn't documented`);
       }
       for (const key of documented) {
         if (list.includes(key)) continue;
@@ -123,10 +127,11 @@ export function checkReaders(formats, folder, ask, all) {
           }
         };
         tryValue(otherType(row), "another type");
-        const outside = (limit, step) => row.kind === "whole" ? limit + step : limit + step * Math.max(1e-3, Math.abs(limit) * 1e-3);
+        const outside = (limit, sign) =>
+          limit + sign * (row.kind === "whole" ? 1 : Math.max(1e-3, Math.abs(limit) * 1e-3));
         const written = (value) => {
           const text = row.kind === "whole" ? String(value) : value.toFixed(9);
-          return row.kind === "numbers" ? `[${Array(row.count ?? (row.mayBeBoxes ? 6 : 1)).fill(text).join(", ")}]` : text;
+          return row.kind === "numbers" ? `[${Array(row.count ?? 1).fill(text).join(", ")}]` : text;
         };
         if (row.highest !== undefined) tryValue(written(outside(row.highest, 1)), "too large");
         if (row.lowest !== undefined) tryValue(written(outside(row.lowest, -1)), "too small");
