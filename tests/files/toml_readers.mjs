@@ -117,7 +117,7 @@ export function checkReaders(formats, folder, ask, all) {
       if (!all) continue;
       for (const key of documented.filter((one) => list.includes(one))) {
         const {row} = node.children.get(key), inner = node.children.get(key).items ?? node.children.get(key);
-        if (!row || row.kind === "object" || inner.children.size > 0) continue;
+        if (!row || row.kind === "object" || inner.children.size > 0 || /not read/.test(row.meaning)) continue;
         const without = (lines) => lines.filter((line) => !line.startsWith(`${key} =`));
         const tryValue = (value, what) => {
           const answer = say(heading, (lines) => [...without(lines), `${key} = ${value}`]);
