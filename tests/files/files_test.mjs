@@ -20,12 +20,12 @@ const isAll = process.argv.includes("--all");
 const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const pages = join(source, "docs/using/files");
 const formats = readFormats(
-  [...readdirSync(pages).map((one) => join(pages, one)), join(source, "docs/using/holds.md")]);
+  [...readdirSync(pages).map((one) => join("files", one)), "holds.md", "study-store.md"].map((one) => join(pages, "..", one)));
 const folder = mkdtempSync(join(tmpdir(), "palmar-files-"));
 const faults = [];
 const made = new Set();  // formats of which there was a file
 // What people write: readers say which fields there may be.
-const readOnly = ["study.toml", "tissue.toml", "population.toml", "curves.csv", "angles.json", "hold.toml"];
+const readOnly = ["study.toml", "tissue.toml", "population.toml", "curves.csv", "angles.json", "hold.toml", "palmar"];
 
 function ask(words) {
   const run = spawnSync(palmar, ["--quiet", ...words], {cwd: folder, encoding: "utf8", maxBuffer: 1 << 28});
@@ -52,6 +52,16 @@ const csv = (name, file) => checkCsv(text(file), formatOf(name), `${name} (${fil
 const toml = (name, file) => check(parseToml(text(file)), formatOf(name), `${name} (${file})`, faults);
 const printed = (name, line, codes) => {
   check(JSON.parse(palmarDoes(`${line} --json`, codes)), formatOf(name), `${name} (palmar ${line})`, faults);
+};
+/** Tables and columns of a study, if sqlite3 is installed. */
+const sqlite = (name, file) => {
+  const asked = "SELECT t.name || '.' || c.name FROM sqlite_master t, pragma_table_info(t.name) c WHERE t.type = 'table'";
+  const run = spawnSync("sqlite3", [file, asked], {cwd: folder, encoding: "utf8"});
+  if (run.error) return;
+  const columns = run.stdout.trim().split("\n");
+  const documented = [...formatOf(name).children].flatMap(([table, {row, children}]) =>
+    row?.isOptional ? [] : [...children.keys()].map((one) => `${table}.${one}`));
+  assert.deepEqual(columns.sort(), documented.sort());
 };
 /** Names of the data arrays of a VTK file. */
 const vtp = (name, file) => {
@@ -171,6 +181,7 @@ torque = true
   printed("run", "study run study.toml --out files.palmar");
   printed("status", "study status files.palmar");
   printed("comparison", "study compare files.palmar");
+  sqlite("palmar", "files.palmar");
   palmarDoes("study export files.palmar --fields --out tables-of-study");
   for (const name of ["hands", "products", "profiles", "settings", "grasps", "indices", "postures"]) {
     csv(`${name}.csv`, `tables-of-study/${name}.csv`);
