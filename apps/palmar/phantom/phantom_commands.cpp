@@ -24,13 +24,14 @@ struct PhantomArguments {
   std::string side = "right", offset = "0,0,0";
   std::vector<std::string> postures;
   double oblique_deg = 0.0;
-  bool no_fixture = false, no_markers = false;
+  bool no_fixture = false, no_markers = false, is_free = false;
 };
 
 int run_mri(const PhantomArguments& arguments, const Context& context) {
   PhantomMriRequest request = arguments.request;
   request.person.seed = context.common.seed;
   request.person.has_fixture = !arguments.no_fixture;
+  if (arguments.is_free) request.person.dispersion = kFreePerson;
   if (arguments.no_markers) request.person.markers = 0;
   request.person.side = parse_side(arguments.side);
   request.grid.oblique = arguments.oblique_deg * std::numbers::pi / 180.0;
@@ -98,6 +99,8 @@ void add_phantom_commands(CLI::App& app, Context& context) {
   verb->add_flag("--no-fixture", o->no_fixture, "No paper clay below the wrist");
   verb->add_flag("--both-hands", o->request.both_hands,
                  "The other hand is beside it, on the patient's left");
+  verb->add_flag("--free", o->is_free,
+                 "A person whose proportions and axes differ from the start hand's as people's do");
   verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

@@ -93,6 +93,14 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--gloss", p.gloss, "Oily skin: share of the light that it mirrors")
       ->capture_default_str();
+  verb->add_option("--decentring", p.decentring,
+                   "Deviation of the lens' terms p1, p2, which Palmar doesn't calibrate")
+      ->capture_default_str();
+  verb->add_option("--sixth", p.sixth, "And of its term in r^6")->capture_default_str();
+  verb->add_option("--vignetting", p.vignetting, "Share of the light lost in the corners")
+      ->capture_default_str();
+  verb->add_option("--tone", p.tone, "Contrast that the camera adds, 0 to 1")
+      ->capture_default_str();
   verb->add_option("--motion-mm", p.motion, "Shift of the hand between positions, RMS")
       ->capture_default_str();
   verb->add_option("--motion-deg", p.motion_turn, "And turn, RMS")->capture_default_str();
@@ -102,6 +110,8 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
   verb->add_option("--block-mm", o->block,
                    "A cardboard box of these edges instead of the hand: width,depth,height");
   verb->add_flag("--no-hand", o->request.no_hand, "The board alone");
+  verb->add_flag("--free", o->request.is_free,
+                 "A person whose proportions and axes differ from the start hand's as people's do");
   verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

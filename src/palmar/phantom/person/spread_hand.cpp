@@ -101,8 +101,8 @@ SpreadHand spread_hand(const Hand& hand, const SpreadOptions& options) {
 
 SpreadHand spread_person(const Hand& base, Side side, const SpreadOptions& options) {
   options.check();
-  const SubjectPerson person =
-      make_person(base.side == Side::kRight ? base : mirrored(base), options.seed);
+  const SubjectPerson person = make_person(base.side == Side::kRight ? base : mirrored(base),
+                                           options.seed, options.dispersion);
   const std::vector<SubjectBone> bones = make_subject_bones(person, options.seed);
   const SoftTissue tissue(person, bones);
   RandomStream random(options.seed, kPersonStream);

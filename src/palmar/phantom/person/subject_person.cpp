@@ -21,7 +21,7 @@
 namespace palmar {
 namespace {
 
-enum Stream : std::uint64_t { kSize = 1, kOutline, kJoints, kPostures };
+enum Stream : std::uint64_t { kSize = 1, kOutline, kJoints, kPostures, kWidths = 6 };
 
 // Normal, held to two and a half deviations.
 double spread(RandomStream& random, double deviation) {
@@ -36,7 +36,7 @@ struct SizeStatistics {
 constexpr SizeStatistics kMen{193.28, 9.946, 212.28, 10.243, 0.5905};
 constexpr SizeStatistics kWomen{181.08, 10.056, 186.55, 8.820, 0.5697};
 
-Hand sized_hand(const Hand& base, std::uint64_t seed) {
+Hand sized_hand(const Hand& base, std::uint64_t seed, const PersonDispersion& dispersion) {
   RandomStream random(seed, kSize);
   const SizeStatistics& s = random.uniform() < 0.5 ? kWomen : kMen;
   const double z = spread(random, 1.0), y = spread(random, 1.0);
@@ -49,14 +49,28 @@ Hand sized_hand(const Hand& base, std::uint64_t seed) {
   std::vector<SizedDimension> targets{{{DimensionKind::kHandLength}, length},
                                       {{DimensionKind::kHandCircumference}, girth}};
   // Lengths of phalanges vary by about 3 % beside the hand's size; the middle finger follows.
-  targets.push_back({{DimensionKind::kSegmentLength, Segment::kPalm},
-                     base.dimensions.segment[0].length * larger * (1.0 + spread(random, 0.015))});
+  targets.push_back(
+      {{DimensionKind::kSegmentLength, Segment::kPalm},
+       base.dimensions.segment[0].length * larger * (1.0 + spread(random, dispersion.palm))});
   for (int k = 1; k < kSegmentCount; ++k) {
     const auto segment = static_cast<Segment>(k);
-    const double own = 1.0 + spread(random, 0.03);
+    const double own = 1.0 + spread(random, dispersion.phalanx);
     if (finger_of(segment) == Finger::kMiddle) continue;
     targets.push_back({{DimensionKind::kSegmentLength, segment},
                        base.dimensions.segment[k].length * larger * own});
+  }
+  if (dispersion.width > 0.0) {
+    RandomStream widths(seed, kWidths);
+    const double wider = girth / base.dimensions.hand_circumference;
+    for (int f = 0; f < kFingerCount; ++f) {
+      const double own = wider * (1.0 + spread(widths, dispersion.width));
+      for (const auto& segment : segments_of(static_cast<Finger>(f))) {
+        if (!segment) continue;
+        const SegmentDimensions& usual = base.dimensions.segment[index_of(*segment)];
+        targets.push_back({{DimensionKind::kSegmentWidth, *segment}, own * usual.width});
+        targets.push_back({{DimensionKind::kSegmentThickness, *segment}, own * usual.thickness});
+      }
+    }
   }
   return make_hand_instance(base, targets).hand;
 }
@@ -152,7 +166,7 @@ Vec3 tilted(const Vec3& axis, RandomStream& random, double deviation) {
 }
 
 // Joints that don't turn as Hand's do, at places and about axes a little off those of the base.
-void make_joints(SubjectPerson& person, std::uint64_t seed) {
+void make_joints(SubjectPerson& person, std::uint64_t seed, const PersonDispersion& dispersion) {
   RandomStream random(seed, kJoints);
   const MeshDistance skin(person.skin);
   Skeleton& skeleton = person.skeleton;
@@ -172,7 +186,8 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
       const Joint& joint = skeleton.joint(joint_of(*segments[k]));
       const Vec3 along = (node[k + 1] - node[k]).normalized();
       const Vec3 palmar = joint.dofs.back().axis.cross(along);
-      const double dorsal = 0.5 + spread(random, 0.25), distal = spread(random, 0.5);
+      const double dorsal = 0.5 + spread(random, 0.5 * dispersion.centre);
+      const double distal = spread(random, dispersion.centre);
       node[k] += distal * along - dorsal * palmar;
       if (k > 0) node[k] = sunk(skin, node[k], palmar, least, 3.0);
     }
@@ -183,9 +198,9 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
       joint.flexion = model.dofs.back().dof;
       joint.centre = node[k];
       joint.along = (node[k + 1] - node[k]).normalized();
-      const Vec3 axis = tilted(model.dofs.back().axis, random, 0.02);
+      const Vec3 axis = tilted(model.dofs.back().axis, random, dispersion.axis);
       joint.axis = (axis - axis.dot(joint.along) * joint.along).normalized();
-      joint.axis = (joint.axis + spread(random, 0.015) * joint.along).normalized();
+      joint.axis = (joint.axis + spread(random, dispersion.along) * joint.along).normalized();
       joint.radius = (k == 0 ? 0.38 : 0.25) * person.finger_width[f];
       joint.ellipse = 0.09 + spread(random, 0.02);
       joint.creep = 0.3 + spread(random, 0.08);
@@ -408,8 +423,9 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
 
 }  // namespace
 
-SubjectPerson make_person(const Hand& base, std::uint64_t seed) {
-  const Hand hand = sized_hand(base, seed);
+SubjectPerson make_person(const Hand& base, std::uint64_t seed,
+                          const PersonDispersion& dispersion) {
+  const Hand hand = sized_hand(base, seed, dispersion);
   RandomStream random(seed, kPostures + 1);
   SubjectPerson person;
   person.reference = relaxed(hand.skeleton, random);
@@ -422,7 +438,7 @@ SubjectPerson make_person(const Hand& base, std::uint64_t seed) {
     person.skeleton.fingertips[f] =
         fingertip_of(person.skin.vertices, hand.segment, person.skeleton, static_cast<Finger>(f));
   }
-  make_joints(person, seed);
+  make_joints(person, seed, dispersion);
   make_postures(person, seed);
   return person;
 }

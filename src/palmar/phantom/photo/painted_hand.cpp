@@ -266,7 +266,7 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
                               const PaintedHandOptions& options) {
   options.check();
   const Hand right = base.side == Side::kRight ? base : mirrored(base);
-  const SubjectPerson person = make_person(right, options.seed);
+  const SubjectPerson person = make_person(right, options.seed, options.dispersion);
   const std::vector<SubjectBone> bones = make_subject_bones(person, options.seed);
   const SoftTissue tissue(person, bones);
   SubdivisionOptions finer;

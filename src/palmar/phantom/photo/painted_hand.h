@@ -12,6 +12,7 @@
 #include "palmar/capture/mri/scan_posture.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 #include "palmar/hand/hand.h"
+#include "palmar/phantom/person/subject_person.h"
 
 namespace palmar {
 
@@ -34,6 +35,7 @@ struct SkinPaint {
 struct PaintedHandOptions {
   std::uint64_t seed = 1;  ///< of the person, see make_person(), and of the pattern on its skin
   Side side = Side::kRight;
+  PersonDispersion dispersion;  ///< how far the person differs from the base
   SkinPaint paint;
   std::optional<Finger> ring;  ///< that wears one, on its proximal phalanx: 5 mm wide, 1.2 mm thick
   int levels = 2;              ///< 0 to 3: how often triangles with edges of 2 mm are cut into four

@@ -34,7 +34,12 @@ struct PhotographsOptions {
   double aperture = 0.8;   ///< diameter of the lens, mm: what isn't in focus is blurred
   double focus = 0.0;      ///< focus behind the middle of the hand, mm; negative: in front
 
-  double gloss = 0.0;         ///< share of the light that oily skin mirrors
+  double gloss = 0.0;  ///< share of the light that oily skin mirrors
+  double decentring =
+      0.0;             ///< of the lens, deviation of p1, p2 (Brown 1966), which PhotoLens lacks
+  double sixth = 0.0;  ///< and deviation of its term in r^6
+  double vignetting = 0.0;    ///< share of the light that is lost in the corners
+  double tone = 0.0;          ///< contrast that the camera adds in the middle of the scale, 0 to 1
   bool light_on_rig = false;  ///< lamps go round with the cameras
   bool clutter = false;       ///< warm things behind the hand instead of a blue cloth
   bool one_ring = false;      ///< all cameras at the lower height

@@ -61,6 +61,10 @@ void PhotographsOptions::check() const {
   require(aperture >= 0 && aperture <= 30, "aperture", aperture, "0 to 30 mm");
   require(std::abs(focus) <= 200, "focus", focus, "-200 to 200 mm");
   require(gloss >= 0 && gloss <= 1, "gloss", gloss, "0 to 1");
+  require(decentring >= 0 && decentring <= 0.01, "decentring", decentring, "0 to 0.01");
+  require(sixth >= 0 && sixth <= 1, "sixth", sixth, "0 to 1");
+  require(vignetting >= 0 && vignetting <= 0.9, "vignetting", vignetting, "0 to 0.9");
+  require(tone >= 0 && tone <= 1, "tone", tone, "0 to 1");
   require(motion >= 0 && motion <= 50, "motion", motion, "0 to 50 mm");
   require(motion_turn >= 0 && motion_turn <= 30, "motion_turn", motion_turn, "0 to 30 deg");
 }

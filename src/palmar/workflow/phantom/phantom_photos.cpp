@@ -118,6 +118,7 @@ StandingSubject make_subject(const PhantomPhotosRequest& request) {
   }
   PaintedHandOptions person;
   person.seed = request.photographs.seed;
+  if (request.is_free) person.dispersion = kFreePerson;
   person.side = request.side;
   person.paint.skin = request.skin;
   person.paint.texture = 0.0;  // the photographs add it, finer than the mesh could hold it

@@ -19,6 +19,7 @@ struct PhantomPhotosRequest {
   std::string out;  ///< folder; photos/, calibration/ and truth/ go into it
   ScanPosture posture = ScanPosture::kReference;
   Side side = Side::kRight;
+  bool is_free = false;            ///< the person, by kFreePerson
   PhotographsOptions photographs;  ///< its seed chooses the person, too
   BoardPattern board;
   Srgb skin{0.80F, 0.60F, 0.50F};
