@@ -39,6 +39,13 @@ endfunction()
 # set is read once and used by all. Sources include what they use all the same: the `tidy` preset and
 # builds by hand do without.
 #
+# The modules go into programs and into the Python module, which is a shared object. What only a program links
+# needs no code for that. Hidden, their functions call each other as directly as in a program.
+function(palmar_shareable target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                                             VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
 # palmar_headers(NAME HEADERS ... LINKS ...); palmar_use_headers(TARGET NAME)
 function(palmar_headers name)
   cmake_parse_arguments(ARG "" "" "HEADERS;LINKS" ${ARGN})
@@ -70,15 +77,18 @@ if(PALMAR_PRECOMPILE)
   add_library(palmar_eigen STATIC ${folder}/eigen_cholesky.cpp ${folder}/eigen_orthogonal.cpp
                                   ${folder}/eigen_products.cpp)
   target_link_libraries(palmar_eigen PUBLIC palmar::elementary PRIVATE $<BUILD_INTERFACE:palmar::compiler> Eigen3::Eigen)
+  palmar_shareable(palmar_eigen)
   palmar_export(palmar_eigen eigen)
   set(palmar_common <Eigen/Dense> <algorithm> <array> <cmath> <filesystem> <functional> <limits> <map> <memory>
                     <numbers> <numeric> <optional> <random> <set> <span> <sstream> <string> <string_view>
                     <unordered_map> <vector> <fmt/format.h> ${folder}/eigen_instances.h)
   palmar_headers(palmar_module_headers HEADERS ${palmar_common} LINKS Eigen3::Eigen fmt::fmt)
   target_compile_options(palmar_module_headers PRIVATE ${palmar_computes})
+  palmar_shareable(palmar_module_headers)
   # CLI11's classes have virtual functions, which GCC makes in every source that knows them: 5 s each.
   palmar_headers(palmar_json_headers HEADERS ${palmar_common} <nlohmann/json.hpp>
                  LINKS Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
+  palmar_shareable(palmar_json_headers)
   palmar_headers(palmar_command_headers HEADERS ${palmar_common} <CLI/CLI.hpp> <nlohmann/json.hpp>
                  LINKS Eigen3::Eigen CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json)
   if(PALMAR_TESTS)
@@ -118,6 +128,7 @@ function(palmar_module name)
     return()
   endif()
   add_library(palmar_${name} STATIC ${ARG_SOURCES})
+  palmar_shareable(palmar_${name})
   add_library(palmar::${name} ALIAS palmar_${name})
   target_include_directories(palmar_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/src>
                                                    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

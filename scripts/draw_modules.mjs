@@ -47,7 +47,7 @@ function read_code(modules) {
     }
   };
   for (const { name } of modules) read(join(sources, name), name);
-  for (const program of programs()) read(join(root, "apps", program), program);
+  for (const program of programs()) read(program === "python" ? join(root, program) : join(root, "apps", program), program);
   for (let has_changed = true; has_changed;) {
     has_changed = false;
     const users = new Map();
@@ -65,10 +65,11 @@ function read_code(modules) {
   return files;
 }
 
+/** What stands on the modules: the programs, and the Python package. */
 function programs() {
   return readdirSync(join(root, "apps"), { withFileTypes: true })
     .filter((entry) => entry.isDirectory() && existsSync(join(root, "apps", entry.name, "main.cpp")))
-    .map((entry) => entry.name).sort();
+    .map((entry) => entry.name).sort().concat("python");
 }
 
 /** uses: name -> modules that its production code includes, in the order of modules.txt. */
@@ -292,6 +293,7 @@ function page(modules, files, uses) {
     "palmar-cad": "program: reads and writes STEP; `palmar` starts it as a child",
     "palmar-dicom": "program: unpacks compressed DICOM pixels; `palmar` starts it as a child",
     "palmar-photo": "program: finds the board in photographs; `palmar` starts it as a child",
+    python: "Python package `palmar`: the extension over the tasks (its Python isn't counted)",
   };
   return `<!-- Made by: node scripts/draw_modules.mjs. Edit the script or src/palmar/modules.txt, not this page. -->
 # Modules
@@ -313,7 +315,7 @@ ${programs().map((name) => row(name, program_purpose[name] ?? "program")).join("
 
 \`X.h\`, \`X.cpp\` and \`X_test.cpp\` are side by side. Users' files are read and written in \`formats\` and \`records\`, CAD
 files by the kernel in \`cad\`. Only the programs in
-\`apps\` read arguments, print or exit. Tests of whole programs are in \`tests/\`, benchmarks in \`benchmarks/\`.
+\`apps\` read arguments, print or exit; \`python\` is the same tasks for Python. Tests of whole programs are in \`tests/\`, benchmarks in \`benchmarks/\`.
 
 ## The values that flow
 

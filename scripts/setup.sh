@@ -13,11 +13,14 @@ palmar_packages=(
 )
 # What palmar-cad needs: CAD files.
 palmar_cad_packages=(libocct-data-exchange-dev)
+# What the Python package needs.
+palmar_python_packages=(pybind11-dev python3-dev python3-numpy)
 # What photographs, tests, benchmarks and checks need.
 palmar_check_packages=(
   libopencv-contrib-dev libgdcm-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   clang-format
+  "${palmar_python_packages[@]}"
 )
 
 palmar_as_root() {

@@ -164,6 +164,15 @@ TEST(ContactCommand, PressRefusesWhatItDoesNotKnow) {
   EXPECT_EQ(run_palmar("contact press --indenter sphere:20 --depth-mm one").exit_code, 2);
 }
 
+TEST(VersionOption, NamesTheCommitAndTheLibraries) {
+  const ProgramRun run = run_palmar("--version");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.out, ::testing::StartsWith("palmar "));
+  EXPECT_THAT(run.out, HasSubstr("Eigen 3."));
+  if (!fs::exists(PALMAR_SOURCE_DIR "/.git")) GTEST_SKIP() << "not a clone: there is no commit";
+  EXPECT_THAT(run.out, ::testing::ContainsRegex("\ncommit [0-9a-f]{10}"));
+}
+
 TEST(DoctorCommand, FindsNothingMissingInTheBuild) {
   const ProgramRun run = run_palmar("doctor");
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;

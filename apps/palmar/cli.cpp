@@ -11,7 +11,6 @@
 #include <array>
 #include <atomic>
 #include <cctype>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -49,23 +48,15 @@ void on_interrupt(int) {
   if (interrupted.exchange(true)) _exit(130);  // second press: at once
 }
 
-/// The first Ctrl-C asks to stop, the second stops at once.
+/// The first Ctrl-C asks to stop, the second stops at once; so do kill and a terminal that is
+/// closed, unless who started the program has it go on then (nohup).
 void install_interrupt_handler() {
-  struct sigaction action = {};
+  struct sigaction action = {}, before = {};
   action.sa_handler = on_interrupt;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-}
-
-double parse_number(const std::string& option, const std::string& text) {
-  if (text.empty()) throw UsageError(option + ": a number is missing");
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || stop != end || !std::isfinite(value)) {
-    throw UsageError(option + ": \"" + text + "\" is not a number");
-  }
-  return value;
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
 
 /// The running verb's option of this name, perhaps with a unit behind it, or its argument; "" if it
@@ -90,26 +81,6 @@ CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string&
   verb->footer(example_text(example));
   verb->fallthrough();
   return verb;
-}
-
-std::vector<double> parse_list(const std::string& option, const std::string& text) {
-  std::vector<double> values;
-  std::size_t start = 0;
-  while (true) {
-    const std::size_t comma = text.find(',', start);
-    values.push_back(parse_number(option, text.substr(start, comma - start)));
-    if (comma == std::string::npos) return values;
-    start = comma + 1;
-  }
-}
-
-Vec3 parse_vector(const std::string& option, const std::string& text) {
-  const std::vector<double> values = parse_list(option, text);
-  if (values.size() != 3) {
-    throw UsageError(option + ": \"" + text + "\" has " + std::to_string(values.size()) +
-                     " numbers; three, x,y,z, are needed");
-  }
-  return {values[0], values[1], values[2]};
 }
 
 std::optional<LengthUnit> parse_unit(const std::string& text) {

@@ -15,6 +15,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product.h"
 #include "palmar/workflow/hand/load_hand.h"
+#include "palmar/workflow/words/number_words.h"
 
 namespace palmar::cli {
 
@@ -62,10 +63,6 @@ void add_validate_command(CLI::App& app, Context& context);
 CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& description,
                    const std::string& example);
 
-/// "1,2,3" as a vector. Throws UsageError naming the option.
-Vec3 parse_vector(const std::string& option, const std::string& text);
-/// "0.5,1,2" as numbers. Throws UsageError naming the option.
-std::vector<double> parse_list(const std::string& option, const std::string& text);
 /// "mm", "cm", "m", "inch"; empty = not given. Throws UsageError naming --unit.
 std::optional<LengthUnit> parse_unit(const std::string& text);
 

@@ -6,15 +6,14 @@
 
 #include <filesystem>
 
+#include "palmar/core/program_folder.h"
 #include "palmar/formats/process/program_missing.h"
 
 namespace palmar::cli {
 namespace {
 
 [[noreturn]] void take_over(const char* program, char** arguments, const std::string& command) {
-  std::error_code error;
-  const std::filesystem::path beside =
-      std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / program;
+  const std::filesystem::path beside = program_folder() / program;
   execv(beside.c_str(), arguments);
   throw ProgramMissing("`" + command + "` needs " + program + ", which can't be started: " +
                        beside.string() + " (cmake --build --preset release makes it)");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <new>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "palmar/core/setting_names.h"
 #include "palmar/core/text.h"
 #include "palmar/core/version.h"
+#include "palmar/workflow/hand/load_hand.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -78,6 +80,15 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   return text + "\nTry: " + full_name(where) + " --help";
 }
 
+/// Version and build, with commit and libraries if the build's file is there
+/// (cmake/write_build.cmake).
+std::string version_text() {
+  std::string text = build_description();
+  std::ifstream file(share_folder() + "/build.txt");
+  for (std::string line; std::getline(file, line);) text += "\n" + line;
+  return text;
+}
+
 int run(int argc, char** argv) {
   Context context;
   context.arguments = argv;
@@ -87,7 +98,7 @@ int run(int argc, char** argv) {
 
   CLI::App app("Palmar shows how a handheld product will feel in people's hands before it exists.",
                "palmar");
-  app.set_version_flag("--version", build_description());
+  app.set_version_flag("--version", version_text);
   app.set_help_flag("-h,--help", "Show this help and a worked example");
   app.require_subcommand(1);
   app.fallthrough();

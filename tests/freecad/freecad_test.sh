@@ -19,9 +19,10 @@ few="--hands 2 --seed 2014 --no-compare --quiet"
   --vary twist=8 --vary egg=0.1 --keep-ends-mm 10 --no-pictures $few --out kept
 "$palmar" redesign shape pistol.step --evaluations 4 --no-pictures $few --out pistol
 "$palmar" redesign fillet "$prism" --edges long --radius-mm 10 $few --out fillet
+"$palmar" redesign press pistol.step --no-pictures $few --out pressed
 "$palmar" redesign region "$prism" --no-pictures $few --out region
 PALMAR_STEP_FILES=prism/redesign.step:kept/redesign.step:pistol/redesign.step:fillet/redesign.step
-PALMAR_STEP_FILES=$PALMAR_STEP_FILES:region/region.step:region/redesign.step
+PALMAR_STEP_FILES=$PALMAR_STEP_FILES:region/region.step:region/redesign.step:pressed/pressed.step
 PALMAR_MACROS=prism/handle.FCMacro:kept/handle.FCMacro:pistol/handle.FCMacro
 export PALMAR_STEP_FILES PALMAR_MACROS
 freecadcmd "$here/check_step.py" < /dev/null > report.txt 2>&1 || { cat report.txt; exit 1; }

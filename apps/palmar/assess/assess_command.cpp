@@ -57,7 +57,7 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
   request.friction = arguments.friction.settings();
   request.rest = arguments.balance.settings();
   // The thesis leaves the hand as it was closed.
-  if (arguments.contact.preset == "xie2014" && request.rest.is_usual()) {
+  if (arguments.contact.preset() == "xie2014" && request.rest.is_usual()) {
     request.rest.is_balanced = false;
   }
   request.model = arguments.contact.model();

@@ -6,58 +6,10 @@
 
 #include <cmath>
 
-#include <algorithm>
-
-#include "palmar/core/error.h"
-#include "palmar/formats/text_scan.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "text.h"
 
 namespace palmar::cli {
-namespace {
-
-struct PersonArgument {
-  PersonOfAge strength;
-  std::optional<double> percentile;  ///< of hand size
-};
-
-/// "woman:P5", "man:P50,age=60", "woman:age=64", "man"; or, as it was once, "male,30". Throws
-/// UsageError.
-PersonArgument person_argument(const std::string& text) {
-  const std::size_t end = text.find_first_of(":,");
-  const std::string sex = text.substr(0, end);
-  PersonArgument person;
-  person.strength.age = kUsualAge;
-  const bool is_woman = sex == "woman" || sex == "female";
-  bool is_known = is_woman || sex == "man" || sex == "male";
-  person.strength.sex = is_woman ? Sex::kFemale : Sex::kMale;
-  std::size_t start = end == text.npos ? text.size() : end + 1;
-  while (is_known && start < text.size()) {
-    const std::size_t comma = std::min(text.find(',', start), text.size());
-    const std::string part = text.substr(start, comma - start);
-    const bool is_percentile = part.starts_with('P') || part.starts_with('p');
-    const bool is_age = part.starts_with("age=");
-    const auto number = parse_double(part.substr(is_percentile ? 1 : is_age ? 4 : 0));
-    is_known = number.has_value();
-    if (is_known && is_percentile) {
-      person.percentile = *number;
-    } else if (is_known) {
-      person.strength.age = *number;
-    }
-    start = comma + 1;
-  }
-  if (!is_known) {
-    throw UsageError("--person is \"" + text +
-                     "\"; woman or man is required, with a percentile of hand size, an age, or "
-                     "both: woman:P5, man:P50,age=60, woman:age=64");
-  }
-  return person;
-}
-
-}  // namespace
-
-PersonOfAge parse_person(const std::string& text) { return person_argument(text).strength; }
-
 std::string usual_words() {
   const ShareOfStrength usual = usual_share(kUsualFriction);
   return fmt::format("{:.0f} N, {} (15 to 23 N in a pinch)", usual.force(Grip::kMediumWrap),
@@ -94,29 +46,12 @@ void BalanceArguments::add_to(CLI::App& verb) {
 RestSettings BalanceArguments::settings() const {
   RestSettings result = settings_;
   result.is_balanced = !no_balance_;
-  if (!person_.empty()) {
-    const PersonArgument person = person_argument(person_);
-    const bool is_force_said = result.grip_force || result.limit_depths || !result.is_balanced;
-    // Somebody of a size holds as firmly as is said, else with the usual share of her own strength.
-    if (!is_force_said || !person.percentile) {
-      result.person = person.strength;
-      if (!result.strength_share && person.percentile) result.strength_share = kUsualStrengthShare;
-    }
-  }
+  result = held_by(person_, result);
   result.check();
   return result;
 }
 
 std::optional<PersonOfSize> BalanceArguments::person() const { return parse_person_size(person_); }
-
-std::optional<PersonOfSize> parse_person_size(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const PersonArgument person = person_argument(text);
-  if (!person.percentile) return std::nullopt;
-  const PersonOfSize size{person.strength.sex, *person.percentile};
-  size.check();
-  return size;
-}
 
 std::string balance_text(const Assessment& assessment) {
   const Balance& balance = assessment.balance;

@@ -7,15 +7,9 @@
 #include "cli.h"
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/study/assessment/assessment.h"
-#include "palmar/workflow/hand/load_hand.h"
+#include "palmar/workflow/words/person_words.h"
 
 namespace palmar::cli {
-
-/// "woman:age=64" or "man". Throws UsageError.
-PersonOfAge parse_person(const std::string& text);
-
-/// Of "woman:P5" the size, of which "woman:age=64" says nothing; "": nothing. Throws UsageError.
-std::optional<PersonOfSize> parse_person_size(const std::string& text);
 
 /// How firmly the hand grips and whether the grasp comes to rest.
 class BalanceArguments {

@@ -6,10 +6,9 @@
 
 #include "cli.h"
 #include "contact/contact_fit_command.h"
-#include "contact/press_specimen.h"
-#include "grasp/grasp_options.h"
 #include "palmar/core/error.h"
 #include "palmar/workflow/press.h"
+#include "palmar/workflow/words/press_words.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -17,59 +16,20 @@ namespace {
 
 struct PressArguments {
   std::string specimen = "plane", indenter, depths, forces, out, cover;
-  std::string preset = "palmar", kernel, tissue_model, tissue_level = "nominal", tissue;
+  ContactModelWords model;
+  std::string tissue_level = "nominal", tissue;
   double tilt_deg = 0.0;
   double cell = PressOptions{}.cell_area;
   double coating_poisson = Coating{}.poisson;
   std::optional<double> spacing, shear_modulus_kpa, layer, poisson, coating, coating_modulus_kpa;
 };
 
-TissueLevel parse_tissue_level(const std::string& text) {
-  if (const auto level = tissue_level_named(text)) return *level;
-  throw UsageError("--tissue-level: \"" + text +
-                   "\" is not known; low, nominal or high is allowed");
-}
-
-/// The equations; a plane or ellipsoid is layered if a thickness is given.
-ContactModel parse_model(const PressArguments& arguments, bool is_hand) {
-  const auto named = contact_model_named(arguments.preset);
-  if (!named) {
-    throw UsageError("--preset: \"" + arguments.preset +
-                     "\" is not known; palmar or xie2014 is allowed");
-  }
-  ContactModel model = *named;
-  if (!arguments.kernel.empty()) model.kernel = parse_kernel(arguments.kernel);
-  if (!arguments.tissue_model.empty()) model.tissue = parse_tissue_model(arguments.tissue_model);
-  if (is_hand) return arguments.tissue_model.empty() ? with_permitted_tissue(model) : model;
-  if (arguments.tissue_model.empty()) model.tissue = TissueModel::kHalfSpace;
-  if (model.tissue == TissueModel::kBone) {
-    throw UsageError(
-        "--tissue-model bone: a plane or ellipsoid has no bones; --specimen template:REGION is "
-        "needed");
-  }
-  const bool is_layered = model.tissue == TissueModel::kLayered;
-  if (arguments.layer && !is_layered && !arguments.tissue_model.empty()) {
-    throw UsageError("--layer-mm and --tissue-model halfspace exclude each other");
-  }
-  if (is_layered && !arguments.layer) {
-    throw UsageError("--tissue-model layered: a plane or ellipsoid needs --layer-mm as well");
-  }
-  if (arguments.layer) model.tissue = TissueModel::kLayered;
-  return model;
-}
-
-std::optional<Coating> parse_cover(const PressArguments& arguments) {
+std::optional<Coating> cover_of(const PressArguments& arguments) {
   if (!arguments.cover.empty()) {
     if (arguments.coating || arguments.coating_modulus_kpa) {
       throw UsageError("--coating says what --coating-mm and --coating-modulus-kpa say");
     }
-    Coating cover = parse_coating(arguments.cover);
-    if (!cover.where.isEmpty()) {
-      throw UsageError("--coating: \"" + arguments.cover +
-                       "\": the cover of an indenter is all round it; thickness in mm, shear "
-                       "modulus in kPa and Poisson's ratio are allowed (2 or 3 numbers)");
-    }
-    return cover;
+    return parse_cover(arguments.cover);
   }
   if (!arguments.coating && !arguments.coating_modulus_kpa) return std::nullopt;
   if (!arguments.coating || !arguments.coating_modulus_kpa) {
@@ -104,7 +64,7 @@ PressOptions parse_options(const PressArguments& arguments, std::string& hand_na
   options.cell_area = arguments.cell * arguments.cell;
   options.layer_thickness = arguments.layer;
   options.poisson = arguments.poisson;
-  options.coating = parse_cover(arguments);
+  options.coating = cover_of(arguments);
   options.tissue_level = parse_tissue_level(arguments.tissue_level);
   if (arguments.shear_modulus_kpa) options.shear_modulus = *arguments.shear_modulus_kpa / 1000.0;
   return options;
@@ -126,7 +86,7 @@ int run_press(const PressArguments& arguments, const CommonOptions& common) {
   PressRequest request;
   std::string hand_name;
   request.test = parse_options(arguments, hand_name);
-  request.model = parse_model(arguments, !hand_name.empty());
+  request.model = press_model(arguments.model, arguments.layer, !hand_name.empty());
   request.hand = {.name = hand_name, .tissue = arguments.tissue, .value = nullptr};
   request.out = arguments.out;
   request.note = [&common](const std::string& text) { note(common, text); };
@@ -173,12 +133,12 @@ void add_contact_commands(CLI::App& app, Context& context) {
                                PressOptions{}.spacing));
   verb->add_option("--shear-modulus-kpa", o->shear_modulus_kpa,
                    "One shear modulus instead of the tissue's own G(d), kPa");
-  verb->add_option("--preset", o->preset,
+  verb->add_option("--preset", o->model.preset,
                    "Equations: palmar, or xie2014 (as printed in the thesis)")
       ->capture_default_str();
-  verb->add_option("--kernel", o->kernel, "patch or point (Xie 2014); default: the preset's");
+  verb->add_option("--kernel", o->model.kernel, "patch or point (Xie 2014); default: the preset's");
   verb->add_option(
-      "--tissue-model", o->tissue_model,
+      "--tissue-model", o->model.tissue_model,
       "halfspace, layered (a flat layer over bone: the hand's own, or --layer-mm), or bone (the "
       "tissue between the hand's skin and bones); default: the preset's");
   verb->add_option("--tissue", o->tissue,

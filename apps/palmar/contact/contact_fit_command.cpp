@@ -4,11 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "contact/press_specimen.h"
-#include "grasp/grasp_options.h"
 #include "palmar/core/error.h"
 #include "palmar/records/tissue_fit_json.h"
 #include "palmar/workflow/fit_tissue.h"
+#include "palmar/workflow/words/press_words.h"
 #include "text.h"
 
 namespace palmar::cli {

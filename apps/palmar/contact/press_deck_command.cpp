@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "contact/press_specimen.h"
 #include "palmar/core/error.h"
 #include "palmar/workflow/press_deck.h"
+#include "palmar/workflow/words/press_words.h"
 #include "text.h"
 
 namespace palmar::cli {

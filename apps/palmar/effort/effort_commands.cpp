@@ -12,107 +12,18 @@
 #include "cli.h"
 #include "grasp/grasp_options.h"
 #include "palmar/core/error.h"
-#include "palmar/core/nearest_name.h"
 #include "palmar/effort/effort.h"
 #include "palmar/records/effort_json.h"
 #include "palmar/workflow/effort.h"
 #include "palmar/workflow/effort/effort_capacity.h"
 #include "palmar/workflow/effort/effort_fingertip.h"
+#include "palmar/workflow/words/fingertip_words.h"
+#include "palmar/workflow/words/person_words.h"
 #include "plain_names.h"
 #include "text.h"
 
 namespace palmar::cli {
 namespace {
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return parts;
-}
-
-double parse_angle(const std::string& item, const std::string& value) {
-  std::size_t used = 0;
-  double angle = 0.0;
-  try {
-    angle = std::stod(value, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != value.size() || !std::isfinite(angle)) {
-    throw UsageError(
-        fmt::format("--posture: \"{}\" is not understood; NAME=DEGREES is required", item));
-  }
-  return angle;
-}
-
-/// "mcp=40,pip=55,dip=35" as angles of that finger.
-std::vector<DigitAngle> parse_posture(Finger finger, const std::string& text) {
-  if (text.empty()) return {};
-  const std::vector<DigitAngleName> known = angle_names_of(finger);
-  std::vector<DigitAngle> angles;
-  for (const std::string& item : split(text, ',')) {
-    const std::size_t equals = item.find('=');
-    const std::string name = item.substr(0, equals);
-    const auto own =
-        std::find_if(known.begin(), known.end(), [&](const auto& one) { return one.name == name; });
-    if (own == known.end()) {
-      std::vector<std::string> names;
-      for (const DigitAngleName& one : known) names.emplace_back(one.name);
-      const std::string nearest = nearest_name(name, names);
-      throw UsageError(fmt::format(
-          "--posture: the {} has no angle \"{}\"{}; it has {}", name_of(finger), name,
-          nearest.empty() ? "" : ", did you mean " + nearest + "?", fmt::join(names, ", ")));
-    }
-    if (std::any_of(angles.begin(), angles.end(),
-                    [&](const DigitAngle& given) { return given.dof == own->dof; })) {
-      throw UsageError(fmt::format("--posture: {} is given twice", name));
-    }
-    const double angle = parse_angle(item, equals == item.npos ? "" : item.substr(equals + 1));
-    angles.push_back({own->dof, radians(angle)});
-  }
-  return angles;
-}
-
-Finger parse_finger(const std::string& text) {
-  if (const auto finger = finger_named(text)) return *finger;
-  throw UsageError(fmt::format(
-      "--finger: \"{}\" is not known; thumb, index, middle, ring or little is allowed", text));
-}
-
-/// One tendon, or none for "all".
-std::vector<Tendon> parse_tendons(Finger finger, const std::string& text) {
-  if (text == "all") return {};
-  const auto own = tendons_of(finger);
-  std::vector<std::string> names;
-  for (const Tendon tendon : own) names.emplace_back(name_of(tendon));
-  const auto tendon = tendon_named(text);
-  if (tendon && std::find(own.begin(), own.end(), *tendon) != own.end()) return {*tendon};
-  const std::string nearest = nearest_name(text, names);
-  throw UsageError(fmt::format(
-      "--tendon: the {} has no tendon \"{}\"{}; it has {} (or all)", name_of(finger), text,
-      nearest.empty() ? "" : ", did you mean " + nearest + "?", fmt::join(names, ", ")));
-}
-
-TendonModel tendon_model(const std::string& points, const std::string& hood) {
-  TendonModel model;
-  if (points == "an1979") {
-    model.points = FingerPoints::kAn1979;
-  } else if (points != "synek2019") {
-    throw UsageError(fmt::format(
-        "--tendon-points: \"{}\" is not known; synek2019 or an1979 is allowed", points));
-  }
-  if (hood == "chao1989") {
-    model.hood = chao1989_hood();
-  } else if (hood != "synek2019") {
-    throw UsageError(
-        fmt::format("--hood: \"{}\" is not known; synek2019 or chao1989 is allowed", hood));
-  }
-  return model;
-}
 
 /// Where the wrist is.
 struct WristArguments {
@@ -192,9 +103,9 @@ void add_fingertip(CLI::App& effort, Context& context) {
       request.hand.name = o->hand;
       request.finger = parse_finger(o->finger);
       request.tendons = parse_tendons(request.finger, o->tendon);
-      request.posture = parse_posture(request.finger, o->posture);
+      request.posture = parse_digit_posture(request.finger, o->posture);
       request.force = o->force_n;
-      request.model = tendon_model(o->model.points, o->model.hood);
+      request.model = parse_tendon_model(o->model.points, o->model.hood);
       const auto [forces, posture] = fingertip_forces(request);
       print(context.common.json ? fingertip_json(forces, posture) + "\n" : fingertip_text(forces));
       return 0;
@@ -301,7 +212,7 @@ void add_grasp(CLI::App& effort, Context& context) {
       request.friction = o->friction.settings();
       request.rest = o->balance.settings();
       request.effort = o->effort;
-      request.effort.tendons = tendon_model(o->model.points, o->model.hood);
+      request.effort.tendons = parse_tendon_model(o->model.points, o->model.hood);
       request.effort.wrist = o->wrist.posture();
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
       request.hand = {.name = o->grasp.hand,

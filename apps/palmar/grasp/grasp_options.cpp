@@ -10,12 +10,6 @@
 namespace palmar::cli {
 namespace {
 
-RegionCoupling parse_regions(const std::string& text) {
-  if (text == "coupled") return RegionCoupling::kCoupled;
-  if (text == "independent") return RegionCoupling::kIndependent;
-  throw UsageError("--coupling: \"" + text + "\" is not known; coupled or independent is allowed");
-}
-
 FingertipTarget parse_fingertip(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::optional<Finger> finger = finger_named(text.substr(0, colon));
@@ -97,18 +91,18 @@ GraspSettings GraspArguments::settings() const {
 }
 
 void ContactArguments::add_to(CLI::App& verb) {
-  verb.add_option("--preset", preset,
+  verb.add_option("--preset", model_.preset,
                   "Equations of the contact: palmar, or xie2014 (as printed in the thesis)")
       ->capture_default_str();
   verb.add_option(
-      "--coupling", regions_,
+      "--coupling", model_.coupling,
       "Regions of the hand: coupled (one problem over the whole hand) or independent "
       "(each region alone, with the tissue model halfspace); default: as in the preset");
   verb.add_option(
-      "--tissue-model", tissue_model_,
+      "--tissue-model", model_.tissue_model,
       "bone (the tissue between skin and bones), layered (a flat layer over bone) or halfspace "
       "(endless tissue); default: as in the preset (palmar: bone)");
-  verb.add_option("--kernel", kernel_,
+  verb.add_option("--kernel", model_.kernel,
                   "Response of the skin: patch or point (Xie 2014); default: as in the preset");
   verb.add_option("--tissue", tissue,
                   "Tissue file (TOML) for the hand; what it doesn't give stays as it is");
@@ -144,66 +138,6 @@ ContactOptions ContactArguments::options() const {
   result.error_band = error_band_;
   for (const std::string& text : coatings_) result.coatings.push_back(parse_coating(text));
   result.check();
-  return result;
-}
-
-ContactModel ContactArguments::model() const {
-  const std::optional<ContactModel> named = contact_model_named(preset);
-  if (!named) {
-    throw UsageError("--preset: \"" + preset + "\" is not known; palmar or xie2014 is allowed");
-  }
-  ContactModel result = *named;
-  if (!kernel_.empty()) result.kernel = parse_kernel(kernel_);
-  if (!tissue_model_.empty()) result.tissue = parse_tissue_model(tissue_model_);
-  if (!regions_.empty()) result.coupling = parse_regions(regions_);
-  return tissue_model_.empty() ? with_permitted_tissue(result) : result;
-}
-
-Kernel parse_kernel(const std::string& text) {
-  if (text == "patch") return Kernel::kPatch;
-  if (text == "point") return Kernel::kPoint;
-  throw UsageError("--kernel: \"" + text + "\" is not known; patch or point is allowed");
-}
-
-TissueModel parse_tissue_model(const std::string& text) {
-  if (text == "halfspace") return TissueModel::kHalfSpace;
-  if (text == "layered") return TissueModel::kLayered;
-  if (text == "bone") return TissueModel::kBone;
-  throw UsageError("--tissue-model: \"" + text +
-                   "\" is not known; halfspace, layered or bone is allowed");
-}
-
-Coating parse_coating(const std::string& text) {
-  const std::vector<double> values = parse_list("--coating", text);
-  const std::size_t count = values.size();
-  if (count != 2 && count != 3 && count != 9) {
-    throw UsageError("--coating: \"" + text + "\" has " + std::to_string(count) +
-                     (count == 1 ? " number" : " numbers") +
-                     "; thickness in mm and shear modulus in kPa are needed, then "
-                     "Poisson's ratio, then the two corners of a box in mm (2, 3 or 9 numbers)");
-  }
-  Coating result;
-  result.thickness = values[0];
-  result.shear_modulus = values[1] / 1000.0;
-  if (count > 2) result.poisson = values[2];
-  if (count == 9) {
-    const Vec3 first(values[3], values[4], values[5]);
-    const Vec3 second(values[6], values[7], values[8]);
-    result.where.extend(first).extend(second);
-    if (!((first - second).cwiseAbs().minCoeff() > 0.0)) {
-      throw UsageError("--coating: \"" + text +
-                       "\": the box is flat; its corners have to differ in x, y and z");
-    }
-  }
-  try {
-    ContactOptions only_this;
-    only_this.coatings = {result};
-    only_this.check();
-  } catch (const UsageError& error) {
-    const std::string what = error.what();
-    throw UsageError("--coating: \"" + text + "\": " + what +
-                     (what.find("MPa") == what.npos ? "" : " (1 MPa = 1000 kPa)"));
-  }
   return result;
 }
 

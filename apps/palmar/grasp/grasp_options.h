@@ -10,6 +10,7 @@
 #include "grasp/hold_arguments.h"
 #include "palmar/contact/contact.h"
 #include "palmar/grasp/grasp_settings.h"
+#include "palmar/workflow/words/contact_words.h"
 
 namespace palmar::cli {
 
@@ -34,17 +35,18 @@ class GraspArguments {
 /// The options of the contact solver.
 class ContactArguments {
  public:
-  std::string preset = "palmar";
   std::string tissue;  ///< file of the hand's tissue, or empty
 
   /// Adds --preset, --regions, --tissue-model, --kernel, --no-swelling, --shear-modulus-kpa,
   /// --error-band, --refine, --coating and --tissue to a verb.
   void add_to(CLI::App& verb);
   ContactOptions options() const;  ///< throws UsageError naming the option
-  ContactModel model() const;      ///< the equations for PreparedHand; throws UsageError
+  /// The equations for PreparedHand; throws UsageError.
+  ContactModel model() const { return contact_model(model_); }
+  const std::string& preset() const { return model_.preset; }
 
  private:
-  std::string kernel_, regions_, tissue_model_;  ///< empty: as in the preset
+  ContactModelWords model_;
   bool no_swelling_ = false;
   bool error_band_ = true;
   bool skin_on_skin_ = false;
@@ -52,13 +54,5 @@ class ContactArguments {
   std::optional<double> shear_modulus_kpa_;
   std::vector<std::string> coatings_;
 };
-
-/// "patch" or "point". Throws UsageError naming --kernel.
-Kernel parse_kernel(const std::string& text);
-/// "halfspace" or "layered". Throws UsageError naming --tissue-model.
-TissueModel parse_tissue_model(const std::string& text);
-/// THICKNESS_MM,SHEAR_MODULUS_KPA[,POISSON[,X0,Y0,Z0,X1,Y1,Z1]]: two opposite corners of a box.
-/// Throws UsageError naming --coating.
-Coating parse_coating(const std::string& text);
 
 }  // namespace palmar::cli

@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "cli.h"
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/workflow/words/hold_words.h"
 
 namespace palmar::cli {
 
@@ -19,21 +16,10 @@ class HoldArguments {
   void add_to(CLI::App& verb);
   /// What was given, the file of a hold read. Throws UsageError naming the option, InputError
   /// naming the file.
-  HoldRequest request() const;
+  HoldRequest request() const { return hold_request(words_); }
 
  private:
-  std::string hold_, part_, toward_, up_, purpose_ = "use";
-  std::optional<double> along_;
+  HoldWords words_;
 };
-
-/// "+x", "-z", "x", "0,0.5,1": a direction in the product's frame. Throws UsageError naming the
-/// option.
-Vec3 parse_direction(const std::string& option, const std::string& text);
-
-/// "any" (as people would choose) and "power" have no grip; else the grip of that name. Throws
-/// UsageError naming --grip, the nearest grip and those that are allowed.
-std::optional<Grip> parse_grip(const std::string& text);
-/// "any, power, medium_wrap, ...".
-std::string grip_list();
 
 }  // namespace palmar::cli

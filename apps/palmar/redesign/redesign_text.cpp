@@ -29,6 +29,17 @@ std::string press_text(const RedesignPressOutcome& outcome) {
   if (std::isfinite(shape.thinnest_wall)) {
     text += fmt::format("thinnest wall under it {:.1f} mm\n", shape.thinnest_wall);
   }
+  if (outcome.solid) {
+    const PressedSolid& solid = *outcome.solid;
+    text += fmt::format(
+        "{}: a valid solid, its handle one surface of {} poles, {:.2f} mm from the mesh (root mean "
+        "square; at most {:.2f} mm{})\n",
+        solid.file.string(), solid.poles, solid.deviation, solid.largest_deviation,
+        solid.end_radius > 0.0
+            ? fmt::format(", but for its ends' edges, which are rounded with {:.1f} mm",
+                          solid.end_radius)
+            : "");
+  }
   for (const auto& [area, what] :
        {std::pair{shape.limited_by_depth, "the depth limit"},
         {shape.limited_by_wall, "the wall that must remain"},

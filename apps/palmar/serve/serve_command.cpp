@@ -8,6 +8,7 @@
 
 #include "cli.h"
 #include "palmar/core/error.h"
+#include "palmar/core/program_folder.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/process/external_program.h"
 #include "palmar/records/product/cad_format.h"
@@ -61,9 +62,8 @@ int run_serve(const ServeArguments& arguments, const Context& context) {
   };
   // Children say where they stand in lines (make_progress()).
   ::setenv("PALMAR_PROGRESS", "lines", 1);
-  const KeptData kept{
-      std::make_shared<ProjectDrawer>(in_data("projects")),
-      std::make_shared<JobShelf>(in_data("jobs"), std::filesystem::read_symlink("/proc/self/exe"))};
+  const KeptData kept{std::make_shared<ProjectDrawer>(in_data("projects")),
+                      std::make_shared<JobShelf>(in_data("jobs"), program_file())};
   const auto shelf = std::make_shared<ProductShelf>();
   const auto service = std::make_shared<Service>(random_token(), shelf, kept);
   for (const std::string& file : arguments.files) {

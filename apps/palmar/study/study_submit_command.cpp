@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli.h"
+#include "palmar/core/program_folder.h"
 #include "palmar/workflow/study/study_submit.h"
 #include "study/study_arguments.h"
 
@@ -20,7 +21,7 @@ struct SubmitArguments {
 int run_submit(const SubmitArguments& arguments, const Context& context) {
   StudySubmitRequest request = arguments.request;
   request.folder = arguments.out;
-  if (request.program.empty()) request.program = std::filesystem::read_symlink("/proc/self/exe");
+  if (request.program.empty()) request.program = program_file();
   request.seed = context.common.seed;
   request.note = [&context](const std::string& text) { note(context.common, text); };
   const StudySubmitOutcome outcome = submit_study(request, make_progress(context.common));

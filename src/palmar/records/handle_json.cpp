@@ -79,7 +79,10 @@ Json handle_shape_json(const HandleShape& shape) {
           {"kept_ends_mm", shape.kept_ends},
           {"kept_boxes_mm", std::move(boxes)},
           {"to_kept_faces",
-           shape.to_kept_faces.z.empty() ? Json() : outlines_json(shape.to_kept_faces)}};
+           shape.to_kept_faces.z.empty() ? Json() : outlines_json(shape.to_kept_faces)},
+          {"follows", shape.follows ? Json{{"directions_rad", shape.follows->directions},
+                                           {"distance_mm", shape.follows->distance}}
+                                    : Json()}};
 }
 
 HandleShape handle_shape_from(const Json& json) {
@@ -112,6 +115,13 @@ HandleShape handle_shape_from(const Json& json) {
   }
   if (!json.at("to_kept_faces").is_null()) {
     shape.to_kept_faces = outlines_from(json.at("to_kept_faces"));
+  }
+  if (const Json& grid = json.at("follows"); !grid.is_null()) {
+    shape.follows = {grid.at("directions_rad").get<std::vector<double>>(),
+                     grid.at("distance_mm").get<double>()};
+    if (shape.follows->directions.size() < 8 || !(shape.follows->distance > 0.0)) {
+      throw InputError("the grid that the handle's surface follows is too coarse");
+    }
   }
   return shape;
 }

@@ -279,12 +279,12 @@ double HandleOutlines::at(double height, double phi) const {
 Point2 HandleBody::centre_at(double z) const { return centre[0] + z * (centre[1] + z * centre[2]); }
 
 HandleBody measure_handle(const Product& product, const ProductPart& part,
-                          const HandsOnHandle& hands, bool takes_all) {
+                          const HandsOnHandle& hands, const MeasureHandleOptions& options) {
   if (part.is_ring || part.line.size() < 2 ||
       (part.kind != PartKind::kBar && part.kind != PartKind::kPen &&
        part.kind != PartKind::kBody)) {
-    throw UsageError(fmt::format("{}: the {} is a {}; a bar or a body can be shaped anew",
-                                 product.name, part.name, name_of(part.kind)));
+    throw UsageError(fmt::format("{}: is held by its {}; a bar or a body can be shaped anew",
+                                 product.name, part.name));
   }
   const Vec3 chord = part.line.back().centre - part.line.front().centre;
   Vec3 axis = chord.normalized();
@@ -328,8 +328,9 @@ HandleBody measure_handle(const Product& product, const ProductPart& part,
   body.gripped = gripped_length(body, hands);
   // Of a solid the ends stay as they are: rest and handle meet in the outlines that were there.
   if (!body.is_whole && product.faces != nullptr) body.is_free = {false, false};
-  if (!body.is_whole && !takes_all) leave_other_ends(product, part, body);
-  if (!body.is_whole && product.faces == nullptr) body.outlines = smoothed(body.outlines);
+  if (!body.is_whole && !options.takes_all) leave_other_ends(product, part, body);
+  if (options.smooths_scans && !body.is_whole && product.faces == nullptr)
+    body.outlines = smoothed(body.outlines);
   const Vec3 thumb = body.product_from_handle.inverse() * hands.thumb;
   body.hands.thumb_at = thumb.z();
   const Point2 from_centre = thumb.head<2>() - body.centre_at(thumb.z());

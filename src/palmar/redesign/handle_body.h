@@ -67,12 +67,16 @@ struct HandsOnHandle {
   double spread = 0.0;  ///< mm; how far along the handle hands lie from there
 };
 
-/// Of a part of a product only the gripped length is shaped, and 7 mm more: where its ends are
-/// something else (kept_lengths()) they are left to the product; with `takes_all` they are not.
+struct MeasureHandleOptions {
+  /// Of a part of a product only the gripped length is shaped, and 7 mm more: where its ends are
+  /// something else (kept_lengths()) they are left to the product. With this they are not.
+  bool takes_all = false;
+  bool smooths_scans = true;  ///< outlines of parts of a mesh, as smoothed() (handle_ends.h)
+};
 /// Throws UsageError naming the product if the part can't be shaped: no bar, a ring, bent by more
 /// than its own thickness, or with sections that aren't seen whole from the centre line.
 HandleBody measure_handle(const Product& product, const ProductPart& part,
-                          const HandsOnHandle& hands, bool takes_all = false);
+                          const HandsOnHandle& hands, const MeasureHandleOptions& options = {});
 
 /// The features that come nearest to what the handle is now, where they are wholly there: outside
 /// of `kept_ends` (HandleShape) and of what runs out. Half axes by extents (of a section that fills

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -22,6 +23,27 @@ constexpr double kBeside = 1.3;       // of the handle's radius; what is farther
 constexpr double kOnSurface = 0.2;    // share of the radius; what is so near lies on the surface
 
 double angle_of(const Point2& p) { return std::atan2(p.y(), p.x()); }
+
+/// Of the circle through a corner of an outline and its neighbours, mm; infinite where it doesn't
+/// bulge.
+double bulge_radius(const std::vector<Point2>& outline, std::size_t corner) {
+  const std::size_t n = outline.size();
+  const Point2 &a = outline[(corner + n - 1) % n], &b = outline[corner],
+               &c = outline[(corner + 1) % n];
+  const Point2 u = b - a, v = c - b;
+  const double turn = u.x() * v.y() - u.y() * v.x();
+  return turn > 1e-9 ? u.norm() * v.norm() * (c - a).norm() / (2.0 * turn)
+                     : std::numeric_limits<double>::infinity();
+}
+
+/// Between the directions of a grid; t goes round once from 0 to 1.
+double direction_at(const std::vector<double>& directions, double t) {
+  const std::size_t n = directions.size();
+  const double way = (t - std::floor(t)) * static_cast<double>(n);
+  const auto i = std::min(static_cast<std::size_t>(way), n - 1);
+  const double next = i + 1 < n ? directions[i + 1] : kFullTurn;
+  return directions[i] + (way - static_cast<double>(i)) * (next - directions[i]);
+}
 
 /// Parameter of the features' section in direction phi, by bisection: directions grow with it.
 double parameter_at(const HandleShape& shape, double z, double phi) {
@@ -83,12 +105,41 @@ double HandleShape::radius_before(double z, double phi) const {
   return body.outlines.at(std::clamp(z, body.bottom + margin, body.top - margin), phi);
 }
 
+OutlineGrid outline_grid(const HandleOutlines& outlines, double distance) {
+  const auto n = static_cast<std::size_t>(outlines.columns);
+  std::vector<Point2> mean(n + 1, Point2::Zero());
+  for (std::size_t i = 0; i <= n; ++i) {
+    double sum = 0.0;
+    for (const std::vector<double>& row : outlines.radius) sum += row[i % n];
+    const double phi = kFullTurn * static_cast<double>(i) / outlines.columns;
+    mean[i] =
+        sum / static_cast<double>(outlines.radius.size()) * Point2(std::cos(phi), std::sin(phi));
+  }
+  std::vector<double> way = {0.0};
+  for (std::size_t i = 0; i < n; ++i) way.push_back(way.back() + (mean[i + 1] - mean[i]).norm());
+  const int count = 8 * std::max(3, static_cast<int>(std::ceil(way.back() / distance / 8.0)));
+  OutlineGrid grid{.directions = {}, .distance = distance};
+  std::size_t i = 0;
+  for (int k = 0; k < count; ++k) {
+    const double at = way.back() * k / count;
+    while (i + 1 < n && way[i + 1] <= at) ++i;
+    const double within = (at - way[i]) / (way[i + 1] - way[i]);
+    grid.directions.push_back(kFullTurn * (static_cast<double>(i) + within) / outlines.columns);
+  }
+  return grid;
+}
+
 bool HandleShape::keeps() const {
-  return !body.is_whole || kept_ends[0] > 0.0 || kept_ends[1] > 0.0 || !kept_boxes.empty() ||
-         !to_kept_faces.z.empty();
+  return follows || !body.is_whole || kept_ends[0] > 0.0 || kept_ends[1] > 0.0 ||
+         !kept_boxes.empty() || !to_kept_faces.z.empty();
 }
 
 HandleRows rows_for(const HandleShape& shape) {
+  if (shape.follows) {
+    return {.columns = static_cast<int>(shape.follows->directions.size()),
+            .distance = shape.follows->distance,
+            .end_radius = shape.body.is_whole ? shape.end_radius : 0.0};
+  }
   constexpr int kRoundColumns = 24;   // through which an elliptic section passes within 0.01 mm
   constexpr int kSquareColumns = 24;  // more per unit of squareness
   constexpr int kKeptColumns = 72;    // where the original's outlines are kept
@@ -102,6 +153,7 @@ HandleRows rows_for(const HandleShape& shape) {
 }
 
 double HandleShape::share_at(double z, double phi) const {
+  if (follows) return 0.0;
   double share = share_of_plane(*this, z);
   if (share > 0.0 && !to_kept_faces.z.empty()) {
     share *= smooth_step(to_kept_faces.at(z, phi) / kShapeBlend);
@@ -118,6 +170,10 @@ double HandleShape::share_at(double z, double phi) const {
 
 Point2 HandleShape::side_point(double z, double t) const {
   const Point2 centre = body.centre_at(z);
+  if (follows) {
+    const double phi = direction_at(follows->directions, t);
+    return centre + radius_before(z, phi) * Point2(std::cos(phi), std::sin(phi));
+  }
   Point2 point = section_point(features, body.hands, z, t);
   const double phi = angle_of(point), share = share_at(z, phi);
   if (share < 1.0) {
@@ -133,6 +189,22 @@ double HandleShape::radius_at(double z, double phi) const {
   if (share == 0.0) return before;
   const double r = section_point(features, body.hands, z, parameter_at(*this, z, phi)).norm();
   return share * r + (1.0 - share) * before;
+}
+
+double tightest_at_ends(const HandleShape& shape) {
+  const HandleBody& body = shape.body;
+  const int columns = rows_for(shape).columns;
+  double tightest = std::numeric_limits<double>::infinity();
+  for (const double z : {body.bottom, body.top}) {
+    std::vector<Point2> outline;
+    for (int k = 0; k < columns; ++k) {
+      outline.push_back(shape.side_point(z, static_cast<double>(k) / columns));
+    }
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      tightest = std::min(tightest, bulge_radius(outline, k));
+    }
+  }
+  return tightest;
 }
 
 ShapeChange shape_change(const HandleShape& shape) {
@@ -159,15 +231,10 @@ ShapeChange shape_change(const HandleShape& shape) {
     }
     if (share_of_plane(shape, z) < 1.0) continue;
     for (int k = 0; k < kDirections; ++k) {
-      // Circle through three neighbours.
-      const Point2 &a = outline[static_cast<std::size_t>(k)],
-                   &b = outline[static_cast<std::size_t>((k + 1) % kDirections)],
-                   &c = outline[static_cast<std::size_t>((k + 2) % kDirections)];
-      const Point2 u = b - a, v = c - b;
-      const double turn = u.x() * v.y() - u.y() * v.x();
-      if (turn <= 1e-9 || shape.share_at(z, angle_of(b)) < 1.0) continue;
+      const Point2& at = outline[static_cast<std::size_t>(k)];
+      if (shape.share_at(z, angle_of(at)) < 1.0) continue;
       change.smallest_radius =
-          std::min(change.smallest_radius, u.norm() * v.norm() * (c - a).norm() / (2.0 * turn));
+          std::min(change.smallest_radius, bulge_radius(outline, static_cast<std::size_t>(k)));
     }
   }
   if (before > 0.0) change.volume_ratio = after / before;

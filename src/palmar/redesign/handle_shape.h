@@ -4,6 +4,7 @@
 
 #include <array>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,19 @@ namespace palmar {
 /// rounding meets a flat end without an edge, OpenCASCADE opens shells there wrongly.
 inline constexpr double kEndAngle = 75.0 / 180.0 * std::numbers::pi;
 
+/// Of what is made anew, mm: so that an end isn't felt as an edge, and a shell of 2 mm can be
+/// opened there; our choice.
+inline constexpr double kLeastEndRadius = 3.0;
+
+/// Where a surface goes through a handle's outlines as they are, without features: in planes
+/// `distance` [mm] apart, about, in these directions [rad], ascending from 0, a multiple of eight.
+struct OutlineGrid {
+  std::vector<double> directions;
+  double distance = 0.0;
+};
+/// Directions that part the mean outline evenly, `distance` [mm] apart, about.
+OutlineGrid outline_grid(const HandleOutlines& outlines, double distance);
+
 /// A handle shaped anew: features on the place of what is there.
 struct HandleShape {
   HandleBody body = {};
@@ -28,6 +42,8 @@ struct HandleShape {
   std::vector<Box3> kept_boxes = {};         ///< product frame, mm: what lies in them
   std::vector<std::string> kept_faces = {};  ///< CAD faces, by number or name
   HandleOutlines to_kept_faces = {};         ///< distance to those in place of radii, mm; or empty
+  /// In place of features and of all that is kept beside them: the outlines everywhere.
+  std::optional<OutlineGrid> follows = {};
 
   /// Whether some of the original's outlines are in the shape.
   bool keeps() const;
@@ -53,6 +69,10 @@ struct HandleRows {
   double end_radius = 0.0;  ///< mm; 0 of a part of a product
 };
 HandleRows rows_for(const HandleShape& shape);
+
+/// The tightest radius, mm, at which the outlines of flat ends bulge: what rounds their edges must
+/// be tighter.
+double tightest_at_ends(const HandleShape& shape);
 
 /// How a shape differs from what is there, over the length that is shaped.
 struct ShapeChange {

@@ -218,7 +218,8 @@ TEST(HandleBody, WhatIsNoBarIsRefusedByName) {
   options.depth = 80.0;
   options.thickness = 6.0;
   const Product product = make_plane_product(options);
-  EXPECT_THAT([&] { body_of(product); }, ThrowsMessage<UsageError>(HasSubstr("is a plate")));
+  EXPECT_THAT([&] { body_of(product); },
+              ThrowsMessage<UsageError>(HasSubstr("is held by its plate; a bar")));
 }
 
 TEST(HandleShape, AnEllipticBarIsClosedAndHasItsVolume) {
@@ -328,6 +329,58 @@ TEST(HandleShape, WhatLiesInABoxStaysAsItIs) {
   EXPECT_NEAR(radius_towards(-Vec3::UnitX(), 60.0), 19.0, 0.05);  // 25 mm beside it
   const double between = radius_towards(Vec3::UnitX(), 48.0);     // half way
   EXPECT_NEAR(between, 17.0, 0.05);
+}
+
+/// Outlines of a bar of one elliptic section, half axes a and b, 100 mm long.
+HandleOutlines elliptic_outlines(double a, double b) {
+  HandleOutlines outlines{.z = {-50.0, 0.0, 50.0}, .columns = 720, .radius = {}};
+  std::vector<double> radius;
+  for (int k = 0; k < outlines.columns; ++k) {
+    const double phi = 2.0 * pi * k / outlines.columns;
+    radius.push_back(a * b / std::hypot(b * std::cos(phi), a * std::sin(phi)));
+  }
+  outlines.radius.assign(3, radius);
+  return outlines;
+}
+
+TEST(OutlineGrid, PartsAnOutlineEvenly) {
+  const HandleOutlines outlines = elliptic_outlines(20.0, 10.0);
+  const OutlineGrid grid = outline_grid(outlines, 2.0);
+  // Ramanujan's perimeter: 96.88 mm.
+  EXPECT_EQ(grid.directions.size(), 56u);
+  EXPECT_EQ(grid.directions.front(), 0.0);
+  const auto point = [&](std::size_t k) {
+    const double phi = k < grid.directions.size() ? grid.directions[k] : 2.0 * pi;
+    const double r = outlines.at(0.0, phi);
+    return Eigen::Vector2d(r * std::cos(phi), r * std::sin(phi));
+  };
+  for (std::size_t k = 0; k < grid.directions.size(); ++k) {
+    EXPECT_NEAR((point(k + 1) - point(k)).norm(), 96.88 / 56.0, 0.01) << k;
+  }
+  // A quarter of the directions in every quarter.
+  for (std::size_t quarter = 1; quarter < 4; ++quarter) {
+    EXPECT_NEAR(grid.directions[14 * quarter], 0.5 * pi * static_cast<double>(quarter), 1e-3);
+  }
+}
+
+TEST(OutlineGrid, IsFollowedInPlaceOfFeatures) {
+  HandleShape shape;
+  shape.body.bottom = -50.0;
+  shape.body.top = 50.0;
+  shape.body.is_whole = true;
+  shape.body.outlines = elliptic_outlines(20.0, 10.0);
+  for (Eigen::Vector2d& one : shape.body.centre) one.setZero();
+  shape.features = {.width = 80.0, .depth = 80.0};
+  shape.follows = outline_grid(shape.body.outlines, 2.0);
+  EXPECT_TRUE(shape.keeps());
+  EXPECT_EQ(rows_for(shape).columns, 56);
+  for (int k = 0; k < 90; ++k) {
+    const Eigen::Vector2d at = shape.side_point(12.0, k / 90.0);
+    EXPECT_NEAR(std::pow(at.x() / 20.0, 2) + std::pow(at.y() / 10.0, 2), 1.0, 1e-3) << k;
+  }
+  // The ends of an ellipse's long axis have the radius of curvature b^2 / a.
+  shape.follows = outline_grid(shape.body.outlines, 1.0);
+  EXPECT_NEAR(tightest_at_ends(shape), 5.0, 0.15);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "palmar/core/error.h"
+#include "palmar/core/program_folder.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/process/child_process.h"
 
@@ -95,9 +96,7 @@ fs::path program_of(const Worker& worker) {
       given != nullptr && *given != '\0') {
     return given;
   }
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  return (error ? fs::path() : self.parent_path()) / worker.program;
+  return program_folder() / worker.program;
 }
 
 void WorkerLimits::check() const {

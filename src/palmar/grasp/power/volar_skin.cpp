@@ -20,7 +20,8 @@ VolarSkin volar_skin(const Hand& hand, const SkinGroup& group, Finger finger) {
     if (segment) bones.emplace_back(*segment, skeleton.joint(joint_of(*segment)).centre);
   }
   for (std::size_t i = 0; i < bones.size(); ++i) {
-    const auto& [segment, from] = bones[i];
+    const Segment segment = bones[i].first;
+    const Vec3 from = bones[i].second;
     const Vec3 to =
         i + 1 < bones.size() ? bones[i + 1].second : skeleton.fingertips[index_of(finger)];
     const double length = (to - from).norm();

@@ -195,8 +195,9 @@ Vec3 onto_creases(const HandCreases& creases, const Surface& surface, const Vec3
     Eigen::MatrixXd slope(static_cast<int>(pairs.size()), 2);
     Eigen::VectorXd value(static_cast<int>(pairs.size()));
     for (int k = 0; k < value.size(); ++k) {
-      const auto& [a, b] = pairs[k];
-      const auto phi = [&](const Vec3& p) { return creases.boundary_value(p, a, b); };
+      const auto phi = [&creases, &pair = pairs[k]](const Vec3& p) {
+        return creases.boundary_value(p, pair.first, pair.second);
+      };
       value[k] = phi(point);
       slope(k, 0) = (phi(point + kStep * u) - phi(point - kStep * u)) / (2.0 * kStep);
       slope(k, 1) = (phi(point + kStep * v) - phi(point - kStep * v)) / (2.0 * kStep);

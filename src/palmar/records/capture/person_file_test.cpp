@@ -68,7 +68,7 @@ hand_length = 181
 }
 
 TEST(PersonFile, AnEmptyOneKnowsNothing) {
-  const PersonFile person = person_in("");
+  const PersonFile person = person_in("# nothing yet\n");
   EXPECT_FALSE(person.side);
   EXPECT_TRUE(person.marks.empty() && person.bones.empty() && person.sizes.empty());
 }

@@ -148,9 +148,11 @@ bool has_writer(const fs::path& path) {
 }
 
 /// The store for this process alone. Waits for readers, which are soon done (`study status` in a
-/// loop), up to ten seconds; a writer ends it at once.
+/// loop), up to ten seconds; for a writer three, as one that was killed just now takes a moment to
+/// be gone.
 std::unique_ptr<SqliteFile> open_alone(const fs::path& path) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  using std::chrono::seconds, std::chrono::steady_clock;
+  const auto begin = steady_clock::now();
   while (true) {
     try {
       auto file = std::make_unique<SqliteFile>(path.string(), SQLITE_OPEN_READWRITE);
@@ -160,7 +162,8 @@ std::unique_ptr<SqliteFile> open_alone(const fs::path& path) {
       return file;
     } catch (const SqliteFailure& failure) {
       const bool is_busy = failure.code == SQLITE_BUSY || failure.code == SQLITE_LOCKED;
-      if (!is_busy || has_writer(path) || std::chrono::steady_clock::now() > end) throw;
+      const auto patience = has_writer(path) ? seconds(3) : seconds(10);
+      if (!is_busy || steady_clock::now() > begin + patience) throw;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

@@ -62,7 +62,7 @@ class StudyTableReader {
   void read_hold(StudyRecord& record);
   void read_fallbacks(StudyRecord& record);
 
-  bool with_fields_, has_times_;
+  bool with_fields_;
   std::map<std::int64_t, std::string> quantity_;
   SqliteStatement grasp_, region_, index_;
   std::optional<SqliteStatement> hold_, fallback_;

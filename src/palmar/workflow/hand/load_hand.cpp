@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "palmar/core/error.h"
+#include "palmar/core/program_folder.h"
 #include "palmar/core/text.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/template_hand.h"
@@ -60,9 +61,7 @@ std::string name_of(const PersonOfSize& person) {
 
 std::string share_folder() {
   if (const char* folder = std::getenv("PALMAR_SHARE")) return folder;
-  std::error_code error;
-  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-  return (executable.parent_path().parent_path() / "share" / "palmar").string();
+  return (program_folder().parent_path() / "share" / "palmar").string();
 }
 
 std::shared_ptr<const Hand> load_hand(const std::string& name) {

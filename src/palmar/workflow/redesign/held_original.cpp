@@ -4,6 +4,8 @@
 // The first step of every redesign: hands hold the original.
 #include "palmar/workflow/redesign/held_original.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "palmar/core/error.h"
@@ -72,12 +74,19 @@ HeldOriginal hold_original(const RedesignRequest& request, const StudyRequest& a
       [&](const StudyRecord& record) { original.records.push_back(record); }, progress);
   std::sort(original.records.begin(), original.records.end(),
             [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
-  const bool is_held = std::any_of(original.records.begin(), original.records.end(), is_in_hand);
-  if (!is_held) {
-    const std::string& reason = original.records.front().reason;
+  const auto lost = std::find_if_not(original.records.begin(), original.records.end(), is_in_hand);
+  if (lost == original.records.end()) return original;
+  const auto held = std::count_if(original.records.begin(), original.records.end(), is_in_hand);
+  const std::string why = lost->reason.empty() ? "" : " (" + lost->reason + ")";
+  if (held > 0) {
+    original.study.notes.push_back(fmt::format(
+        "{}: {} of {} hands don't hold it{}; the others go on without them", request.product,
+        plan.hands.size() - static_cast<std::size_t>(held), plan.hands.size(), why));
+    if (request.on_note) request.on_note(original.study.notes.back());
+  } else {
     throw NumericalError(
         request.product + ": none of " + std::to_string(plan.hands.size()) + " hands holds it" +
-        (reason.empty() ? "" : " (" + reason + ")") +
+        why +
         "; a redesign starts from hands that do (setting \"at\", setting \"axis\" and setting "
         "\"grips\" say where and how it is held)");
   }
@@ -112,6 +121,15 @@ HeldOriginal grasp_original(const RedesignRequest& request, const Progress& prog
   hand.is_left = request.is_left;
   StudyInputs shared{.base = load_hand(hand), .products = {}};
   return hold_original(request, asked, std::move(shared), progress);
+}
+
+HandsOnHandle hands_in_hold(const HeldOriginal& original, const Hold& hold) {
+  const Rigid3 place = part_frame(original.part_of(hold), hold.along, hold.turn);
+  HandsOnHandle hands;
+  hands.place = place.translation;
+  hands.thumb_side = hold.toward * (place.rotation * Vec3::UnitX());
+  hands.palm = place.rotation * Vec3::UnitZ();
+  return hands;
 }
 
 Vec3 held_place(const RedesignRequest& request, const HeldOriginal& original) {

@@ -9,6 +9,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/product/parts/product_parts.h"
 #include "palmar/records/study/study_file.h"
+#include "palmar/redesign/handle_body.h"
 #include "palmar/study/statistics/study_results.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
@@ -24,6 +25,10 @@ struct HeldOriginal {
   std::optional<Hold> hold() const;
   /// Parts of the product, found when first asked for.
   const ProductParts& parts() const { return *shared_parts(); }
+  /// The part that a hold is of.
+  const ProductPart& part_of(const Hold& hold) const {
+    return parts().parts.at(static_cast<std::size_t>(hold.part - 1));
+  }
   std::shared_ptr<const ProductParts> shared_parts() const;
   mutable std::shared_ptr<const ProductParts> found_parts = nullptr;  ///< by shared_parts()
 };
@@ -31,6 +36,10 @@ struct HeldOriginal {
 /// RedesignRequest::check() and load_study(), NumericalError if no hand holds the product: no
 /// answer; Cancelled.
 HeldOriginal grasp_original(const RedesignRequest& request, const Progress& progress);
+
+/// How hands in this hold lie on the original: place, thumb's side and palm; the rest as it is by
+/// default.
+HandsOnHandle hands_in_hold(const HeldOriginal& original, const Hold& hold);
 
 /// Where hands hold the original, product frame, mm.
 Vec3 held_place(const RedesignRequest& request, const HeldOriginal& original);

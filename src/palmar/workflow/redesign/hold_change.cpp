@@ -52,8 +52,8 @@ std::vector<HoldChange> hold_changes(const StudyResults& results, const Vec3& pl
 std::string words_of(const HoldChange& change) {
   if (change.hands == 0) return "";
   std::string text = fmt::format(
-      "{} lies {:.0f} degrees and {:.1f} mm away from where the original lies in the hand "
-      "(median of {} hands; at most {:.0f} degrees, {:.1f} mm)",
+      "{} lies {:.1f} degrees and {:.1f} mm away from where the original lies in the hand "
+      "(median of {} hands; at most {:.1f} degrees, {:.1f} mm)",
       change.redesign, change.turn / kDegree, change.shift, change.hands,
       change.largest_turn / kDegree, change.largest_shift);
   if (change.is_other_hold()) {

@@ -111,6 +111,16 @@ Json press_figures(const PressedShape& shape, const Product& original) {
       {"shift_mm", std::move(shifts)}};
 }
 
+Json solid_figures(const PressedSolid& solid) {
+  return {{"file", solid.file.string()},
+          {"volume_mm3", solid.volume},
+          {"end_radius_mm", solid.end_radius},
+          {"largest_deviation_mm", solid.largest_deviation},
+          {"rms_deviation_mm", solid.deviation},
+          {"faces", solid.faces},
+          {"poles", solid.poles}};
+}
+
 void write_pictures(const RedesignPressRequest& request, const PressedShape& shape,
                     const Product& original, const HandsOnProduct& hands,
                     const Progress& progress) {
@@ -183,25 +193,36 @@ RedesignPressOutcome redesign_press(const RedesignPressRequest& request, const P
   for (const std::string& format : request.formats) {
     write_mesh(folder / ("pressed." + format), shape.mesh);
   }
-  const Json json{{"product", product.name},
-                  {"source", product.source},
-                  {"command", request.redesign.command},
-                  {"seed", request.redesign.seed},
-                  {"population", request.redesign.populations},
-                  {"posture", name_of(request.redesign.posture)},
-                  {"settings", press_settings(request)},
-                  {"figures", press_figures(shape, product)}};
-  write_file(folder / "pressed.json", json.dump(2) + "\n");
+  Json json{{"product", product.name},
+            {"source", product.source},
+            {"command", request.redesign.command},
+            {"seed", request.redesign.seed},
+            {"population", request.redesign.populations},
+            {"posture", name_of(request.redesign.posture)},
+            {"settings", press_settings(request)},
+            {"figures", press_figures(shape, product)}};
   if (request.draws) write_pictures(request, shape, product, hands, progress);
+  const Product pressed = pressed_product(product, shape, product.name + " pressed");
+  std::optional<std::string> why_no_solid;
+  if (shape.deepest > 0.0) {
+    auto solid = write_pressed_solid(request.redesign, original, pressed, options, progress);
+    if (const auto* made = std::get_if<PressedSolid>(&solid))
+      outcome.solid = *made;
+    else
+      why_no_solid = std::get<std::string>(solid);
+  }
+  if (outcome.solid) json["solid"] = solid_figures(*outcome.solid);
+  write_file(folder / "pressed.json", json.dump(2) + "\n");
   if (request.on_shape) request.on_shape(outcome);
   outcome.json = json.dump();
+  if (why_no_solid) {
+    outcome.add_note(request.redesign, "no STEP file of the pressed shape: " + *why_no_solid);
+  }
   if (shape.deepest <= 0.0) {
     outcome.add_note(request.redesign, "nothing was pressed: there is nothing to compare");
   }
   if (request.compares && shape.deepest > 0.0) {
-    outcome.judge(request.redesign, original,
-                  {pressed_product(product, shape, product.name + " pressed"), "pressed",
-                   outcome.file.string()},
+    outcome.judge(request.redesign, original, {pressed, "pressed", outcome.file.string()},
                   progress);
   }
   return outcome;

@@ -10,6 +10,7 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/redesign/pressed_shape.h"
+#include "palmar/workflow/redesign/pressed_solid.h"
 #include "palmar/workflow/redesign/redesign_outcome.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
@@ -38,8 +39,9 @@ struct RedesignPressRequest {
 /// `json` is what pressed.json holds.
 struct RedesignPressOutcome : RedesignOutcome {
   PressedShape shape;
-  double volume_before = 0.0;  ///< mm^3, of the original
-  std::filesystem::path file;  ///< the shape in the first of the formats
+  double volume_before = 0.0;         ///< mm^3, of the original
+  std::filesystem::path file;         ///< the shape in the first of the formats
+  std::optional<PressedSolid> solid;  ///< of its handle, if one could be made
 };
 
 /// "mean", "75" (percentile), "mean-of-touching", "75-of-touching".
@@ -48,8 +50,9 @@ std::string name_of(const CombineOptions& combine);
 CombineOptions combine_options(const std::string& words);
 
 /// Hands hold the product, press its surface in and hold the redesign. Writes to OUT: pressed.stl
-/// (and the other formats), pressed.json, pictures, and what compare_redesigns() writes. Throws
-/// UsageError, InputError, NumericalError if no hand holds the original, Cancelled.
+/// (and the other formats), pressed.step or pressed-handle.step (PressedSolid), pressed.json,
+/// pictures, and what compare_redesigns() writes. Throws UsageError, InputError, NumericalError if
+/// no hand holds the original, Cancelled.
 RedesignPressOutcome redesign_press(const RedesignPressRequest& request,
                                     const Progress& progress = {});
 

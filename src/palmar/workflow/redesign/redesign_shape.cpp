@@ -11,7 +11,6 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/grasp/grip.h"
-#include "palmar/product/parts/part_place.h"
 #include "palmar/records/handle_file.h"
 #include "palmar/redesign/contact_region.h"
 #include "palmar/redesign/handle_ends.h"
@@ -24,9 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr double kLeastEndRadius = 3.0;  // mm; so that an end isn't felt as an edge, and a shell of
-                                         // 2 mm can be opened there; our choice
 
 std::vector<HandPressure> pressures_of(const HeldHand& held) {
   std::vector<HandPressure> pressures;
@@ -65,12 +61,7 @@ std::vector<ShapeUse> hold_originals(const RedesignShapeRequest& request,
 HandsOnHandle hands_on_handle(const std::vector<ShapeUse>& uses, const Hold& hold, double spread,
                               const Progress& progress) {
   const HeldOriginal& original = uses.front().original;
-  const ProductPart& part = original.parts().parts.at(static_cast<std::size_t>(hold.part - 1));
-  const Rigid3 place = part_frame(part, hold.along, hold.turn);
-  HandsOnHandle result;
-  result.place = place.translation;
-  result.thumb_side = hold.toward * (place.rotation * Vec3::UnitX());
-  result.palm = place.rotation * Vec3::UnitZ();
+  HandsOnHandle result = hands_in_hold(original, hold);
   result.spread = spread;
   Vec3 thumb = Vec3::Zero();
   double pressed = 0.0, breadth = 0.0;
@@ -241,9 +232,9 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
   const Product& product = original.product();
   const Hold hold = hold_for_shape(original);
   const HandleBody body =
-      measure_handle(product, original.parts().parts.at(static_cast<std::size_t>(hold.part - 1)),
+      measure_handle(product, original.part_of(hold),
                      hands_on_handle(run.uses, hold, request.spread.along, progress),
-                     request.limits.kept_ends.has_value());
+                     {.takes_all = request.limits.kept_ends.has_value()});
   outcome.wall_before = thinnest_wall(body);
   if (request.limits.smallest_wall && !outcome.wall_before) {
     throw UsageError(fmt::format(

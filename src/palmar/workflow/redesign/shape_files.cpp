@@ -16,20 +16,15 @@
 #include "palmar/report/picture/depth_pictures.h"
 
 namespace palmar {
-namespace {
-
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Largest distance [mm] from the original of what a whole product's solid keeps of it; nothing
-/// kept: none.
-std::optional<double> kept_deviation(const HandleShape& shape, const TriangleMesh& solid,
-                                     const Product& original) {
-  if (!shape.body.is_whole || !shape.keeps()) return std::nullopt;
-  constexpr double kFar = 20.0;  // mm
+Deviation kept_deviation(const HandleShape& shape, const TriangleMesh& solid,
+                         const Product& product) {
+  constexpr double kFar = 20.0, kBeside = 0.05;  // mm
   const Rigid3 to_handle = shape.body.product_from_handle.inverse();
   // Roundings of the ends are made anew with the end radius.
-  const double margin = std::max(shape.end_radius, shape.body.end_radius);
+  const double margin = std::max({shape.end_radius, shape.body.end_radius, kBeside});
   std::vector<Vec3> kept;
   for (const Vec3& x : solid.vertices) {
     const Vec3 p = to_handle * x;
@@ -38,13 +33,16 @@ std::optional<double> kept_deviation(const HandleShape& shape, const TriangleMes
     if (shape.share_at(p.z(), std::atan2(across.y(), across.x())) == 0.0) kept.push_back(x);
   }
   std::vector<DistanceSample> samples(kept.size());
-  original.distance->sample(kept, kFar, samples);
-  double largest = 0.0;
-  for (const DistanceSample& one : samples) largest = std::max(largest, std::abs(one.distance));
-  return largest;
+  product.distance->sample(kept, kFar, samples);
+  Deviation deviation;
+  double sum = 0.0;
+  for (const DistanceSample& one : samples) {
+    deviation.largest = std::max(deviation.largest, std::abs(one.distance));
+    sum += one.distance * one.distance;
+  }
+  if (!samples.empty()) deviation.rms = std::sqrt(sum / static_cast<double>(samples.size()));
+  return deviation;
 }
-
-}  // namespace
 
 std::string replaced_words(const HandleShape& shape) {
   const HandleBody& body = shape.body;
@@ -98,7 +96,9 @@ Product write_shape(const RedesignShapeRequest& request, const Product& original
   UnitDecision unit;
   unit.unit = LengthUnit::kMillimetre;
   unit.source = UnitSource::kMade;
-  outcome.kept_deviation = kept_deviation(shape, solid.mesh.mesh, original);
+  if (is_whole && shape.keeps()) {
+    outcome.kept_deviation = kept_deviation(shape, solid.mesh.mesh, original).largest;
+  }
   const std::string name = original.name + " shaped";
   const HandleSolid* const step = is_whole ? &solid : made.whole ? &*made.whole : nullptr;
   Product product = step != nullptr ? make_product(name, step->mesh.mesh, unit, "redesign.step",

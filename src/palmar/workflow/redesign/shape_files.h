@@ -14,6 +14,13 @@ namespace palmar {
 
 // What a handle shaped anew is written as; parts of redesign_shape().
 
+/// How far what a solid of the shape keeps of a product lies from it, mm; not the ends' roundings.
+struct Deviation {
+  double largest = 0.0, rms = 0.0;
+};
+Deviation kept_deviation(const HandleShape& shape, const TriangleMesh& solid,
+                         const Product& product);
+
 /// The shape as files, and as the product that hands hold. Fills in what the outcome has of them.
 Product write_shape(const RedesignShapeRequest& request, const Product& original,
                     RedesignShapeOutcome& outcome, const Progress& progress);

@@ -73,7 +73,11 @@ std::vector<char> measured_vertices(const TriangleMesh& mesh, const PointCells& 
                                     const std::vector<float>& density, const std::vector<int>& seen,
                                     bool is_one_height) {
   constexpr float kSparsely = 0.1F;  // of the usual density
-  const double least_views = is_one_height ? 3.0 : 2.75, share = is_one_height ? 0.45 : 0.4;
+  constexpr int kFewSee = 7;         // photographs a vertex; then two that agree must do
+  std::vector<int> usually = seen;
+  const bool is_sparse = !usually.empty() && median(usually) < kFewSee;
+  const double least_views = is_sparse ? 2.0 : is_one_height ? 3.0 : 2.75;
+  const double share = is_one_height ? 0.45 : 0.4;
   const float least = kSparsely * median(density);
   std::vector<char> measured(mesh.vertices.size(), 0);
   for (std::size_t i = 0; i < measured.size(); ++i) {

@@ -1,0 +1,78 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/workflow/words/hold_words.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "palmar/core/error.h"
+#include "palmar/core/nearest_name.h"
+#include "palmar/formats/text_scan.h"
+#include "palmar/records/hold/hold_file.h"
+#include "palmar/workflow/words/number_words.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kMostNumber = 100'000;
+
+/// The text as a whole number; nothing if it is none. Throws UsageError out of range.
+std::optional<int> whole_number(const std::string& what, const std::string& text) {
+  const auto value = parse_integer(text);
+  if (!value) return std::nullopt;
+  if (*value < 1 || *value > kMostNumber) {
+    throw UsageError(fmt::format("{} is {}; a number from 1 is required", what, text));
+  }
+  return static_cast<int>(*value);
+}
+
+HoldPurpose parse_purpose(const std::string& text) {
+  if (text == "use") return HoldPurpose::kUse;
+  if (text == "hand-over" || text == "hand_over") return HoldPurpose::kHandOver;
+  throw UsageError("setting \"purpose\": \"" + text +
+                   "\" is not known; use or hand-over is allowed");
+}
+
+}  // namespace
+
+HoldRequest hold_request(const HoldWords& words) {
+  HoldRequest result;
+  if (!words.hold.empty()) {
+    result.number = whole_number("setting \"hold\"", words.hold);
+    if (!result.number) result.hold = read_hold(words.hold).hold;
+  }
+  if (!words.part.empty()) {
+    result.part = whole_number("setting \"part\"", words.part);
+    if (!result.part) result.part_name = words.part;
+  }
+  result.along = words.along;
+  if (!words.up.empty()) result.up = parse_direction("setting \"up\"", words.up);
+  if (words.toward == "up" || words.toward == "down") {
+    const Vec3 up = result.up.value_or(Vec3::UnitZ());
+    result.toward = words.toward == "up" ? up : Vec3(-up);
+  } else if (!words.toward.empty()) {
+    result.toward = parse_direction("setting \"toward\"", words.toward);
+  }
+  result.purpose = parse_purpose(words.purpose);
+  return result;
+}
+
+std::string grip_list() {
+  std::string list = "any, power";
+  for (int g = 0; g < kGripCount; ++g) list += fmt::format(", {}", name_of(static_cast<Grip>(g)));
+  return list;
+}
+
+std::optional<Grip> parse_grip(const std::string& text) {
+  if (text == "any" || text == "auto" || text == "power") return std::nullopt;
+  if (const std::optional<Grip> grip = grip_named(text)) return grip;
+  std::vector<std::string> known = {"any", "power"};
+  for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));
+  const std::string nearest = nearest_name(text, known);
+  throw UsageError(fmt::format("setting \"grip\": \"{}\" is not known{}; {} is allowed", text,
+                               nearest.empty() ? "" : fmt::format(", did you mean {}?", nearest),
+                               grip_list()));
+}
+
+}  // namespace palmar
