@@ -31,7 +31,12 @@ int run_mri(const PhantomArguments& arguments, const Context& context) {
   PhantomMriRequest request = arguments.request;
   request.person.seed = context.common.seed;
   request.person.has_fixture = !arguments.no_fixture;
-  if (arguments.is_free) request.person.dispersion = kFreePerson;
+  if (arguments.is_free) {
+    request.person.dispersion = kFreePerson;
+    // What a field of view of 200 mm shows.
+    request.person.dispersion.shortest = PersonDispersion{}.shortest;
+    request.person.dispersion.longest = PersonDispersion{}.longest;
+  }
   if (arguments.no_markers) request.person.markers = 0;
   request.person.side = parse_side(arguments.side);
   request.grid.oblique = arguments.oblique_deg * std::numbers::pi / 180.0;
@@ -99,8 +104,7 @@ void add_phantom_commands(CLI::App& app, Context& context) {
   verb->add_flag("--no-fixture", o->no_fixture, "No paper clay below the wrist");
   verb->add_flag("--both-hands", o->request.both_hands,
                  "The other hand is beside it, on the patient's left");
-  verb->add_flag("--free", o->is_free,
-                 "A person whose proportions and axes differ from the start hand's as people's do");
+  verb->add_flag("--free", o->is_free, kFreeHelp);
   verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

@@ -9,6 +9,7 @@
 #include "hand/side_argument.h"
 #include "palmar/core/error.h"
 #include "palmar/workflow/phantom/phantom_photos.h"
+#include "phantom/phantom_output.h"
 #include "product/colour_argument.h"
 
 namespace palmar::cli {
@@ -103,6 +104,11 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--motion-mm", p.motion, "Shift of the hand between positions, RMS")
       ->capture_default_str();
+  verb->add_option(
+          "--finger-motion-mm", o->request.restless,
+          "How far every fingertip is from where it was in the first position, RMS: fingers "
+          "bend and spread at their knuckles")
+      ->capture_default_str();
   verb->add_option("--motion-deg", p.motion_turn, "And turn, RMS")->capture_default_str();
   verb->add_flag("--light-on-rig", p.light_on_rig, "The lamps go round with the cameras");
   verb->add_flag("--clutter", p.clutter, "Warm things behind the hand, no cloth");
@@ -110,8 +116,7 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
   verb->add_option("--block-mm", o->block,
                    "A cardboard box of these edges instead of the hand: width,depth,height");
   verb->add_flag("--no-hand", o->request.no_hand, "The board alone");
-  verb->add_flag("--free", o->request.is_free,
-                 "A person whose proportions and axes differ from the start hand's as people's do");
+  verb->add_flag("--free", o->request.is_free, kFreeHelp);
   verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

@@ -30,7 +30,10 @@ struct PhantomScanArguments {
 
 PaintedHandOptions painted_options(const PhantomScanArguments& arguments, std::uint64_t seed) {
   PaintedHandOptions options = arguments.request.person;
-  if (arguments.is_free) options.dispersion = kFreePerson;
+  if (arguments.is_free) {
+    options.dispersion = kFreePerson;
+    options.paint.is_tinted = true;
+  }
   options.seed = seed;
   options.side = parse_side(arguments.side);
   options.paint.skin = parse_colour("--skin-colour", arguments.skin);
@@ -117,8 +120,7 @@ void add_phantom_scan(CLI::App& phantom, Context& context) {
   verb->add_flag("--ideal", o->ideal, "No noise, no holes");
   verb->add_flag("--mirrored", o->request.mirrored,
                  "Mirror the scans, as a wrong export does; the truth stays");
-  verb->add_flag("--free", o->is_free,
-                 "A person whose proportions and axes differ from the start hand's as people's do");
+  verb->add_flag("--free", o->is_free, kFreeHelp);
   verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

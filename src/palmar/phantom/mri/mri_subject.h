@@ -43,8 +43,8 @@ struct MriSubject {
 };
 
 struct MriSubjectOptions {
-  std::uint64_t seed = 1;       ///< of the person: size, proportions, axes, bone shapes
-  PersonDispersion dispersion;  ///< how far the person differs from the base
+  std::uint64_t seed = 1;         ///< of the person: size, proportions, axes, bone shapes
+  PersonDispersion dispersion{};  ///< how far the person differs from the base
   Side side = Side::kRight;
   bool has_fixture = true;  ///< paper clay below the wrist
   int markers = 12;         ///< 5 mm capsules round the thumb ball

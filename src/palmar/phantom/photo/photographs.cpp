@@ -164,11 +164,12 @@ class Shutter {
     const PhotoLens& lens = shot_.pose.lens;
     // Directions at the corners of the pixels; between them they are as good as linear.
     const int columns = lens.width + 1;
+    const LensTerms terms = lens_terms(stage_.options, shot_.camera);
     corners_.resize(static_cast<std::size_t>(columns) * (lens.height + 1));
     parallel_for(lens.height + 1, [&](int y) {
       for (int x = 0; x < columns; ++x) {
         corners_[static_cast<std::size_t>(y) * columns + x] =
-            bent(lens.direction_of({x - 0.5, y - 0.5}));
+            bent(terms, lens.direction_of({x - 0.5, y - 0.5}));
       }
     });
     std::vector<Vec3f> light(static_cast<std::size_t>(lens.width) * lens.height);
@@ -185,19 +186,6 @@ class Shutter {
   }
 
  private:
-  /// A direction with what PhotoLens doesn't have.
-  Eigen::Vector2d bent(const Eigen::Vector2d& d) const {
-    const PhotographsOptions& options = stage_.options;
-    if (options.decentring == 0.0 && options.sixth == 0.0) return d;
-    RandomStream random(options.seed, 5000 + static_cast<std::uint64_t>(shot_.camera));
-    const double p1 = options.decentring * random.normal();
-    const double p2 = options.decentring * random.normal();
-    const double k3 = options.sixth * random.normal();
-    const double x = d.x(), y = d.y(), r2 = d.squaredNorm();
-    return (1.0 + k3 * r2 * r2 * r2) * d + Eigen::Vector2d(2 * p1 * x * y + p2 * (r2 + 2 * x * x),
-                                                           p1 * (r2 + 2 * y * y) + 2 * p2 * x * y);
-  }
-
   /// What the lens leaves of the light.
   float darkened(int x, int y) const {
     const PhotoLens& lens = shot_.pose.lens;

@@ -15,7 +15,8 @@ namespace palmar {
 namespace {
 
 // Streams of the seed.
-constexpr std::uint64_t kLenses = 1000, kShots = 2000, kMotions = 3000, kTilts = 4000;
+constexpr std::uint64_t kLenses = 1000, kShots = 2000, kMotions = 3000, kTilts = 4000,
+                        kTerms = 5000;
 
 /// One body of a make: focal lengths within 1 %, middles within 1 % of the picture.
 PhotoLens lens_of(const PhotographsOptions& options, int camera) {
@@ -67,6 +68,20 @@ void PhotographsOptions::check() const {
   require(tone >= 0 && tone <= 1, "tone", tone, "0 to 1");
   require(motion >= 0 && motion <= 50, "motion", motion, "0 to 50 mm");
   require(motion_turn >= 0 && motion_turn <= 30, "motion_turn", motion_turn, "0 to 30 deg");
+}
+
+LensTerms lens_terms(const PhotographsOptions& options, int camera) {
+  RandomStream random(options.seed, kTerms + static_cast<std::uint64_t>(camera));
+  const double p1 = options.decentring * random.normal();
+  const double p2 = options.decentring * random.normal();
+  return {p1, p2, options.sixth * random.normal()};
+}
+
+Eigen::Vector2d bent(const LensTerms& terms, const Eigen::Vector2d& direction) {
+  const double x = direction.x(), y = direction.y(), r2 = direction.squaredNorm();
+  const double radial = 1.0 + terms.k3 * r2 * r2 * r2;
+  return {radial * x + 2.0 * terms.p1 * x * y + terms.p2 * (r2 + 2.0 * x * x),
+          radial * y + terms.p1 * (r2 + 2.0 * y * y) + 2.0 * terms.p2 * x * y};
 }
 
 PhotoShoot plan_photographs(const PhotographsOptions& options) {
