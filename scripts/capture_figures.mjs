@@ -16,8 +16,7 @@
 import { execFileSync, spawnSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
-import { dirname } from "node:path";
+import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const root = dirname(dirname(fileURLToPath(import.meta.url)));
@@ -31,7 +30,9 @@ const set = option("--set", "development");
 const program = option("--program", join(root, "build", "release", "bin", "palmar"));
 const most = Number(option("--subjects", "1000"));
 const folder = join(root, "build", "capture_figures", set);
-const version = createHash("sha256").update(readFileSync(program)).digest("hex");
+/** Of everything that makes and measures: the program and those that it starts. */
+const version = ["palmar", "palmar-capture", "palmar-photo", "palmar-dicom"].map((name) => join(dirname(program), name))
+  .filter(existsSync).reduce((hash, file) => hash.update(readFileSync(file)), createHash("sha256")).digest("hex");
 
 /** Seeds by kind of one set: lines `photos = [1, 2]` under `[development]` or `[final]`. */
 function read_seeds() {
@@ -60,7 +61,6 @@ const side_of = (seed) => ["--side", seed % 2 ? "right" : "left"];
 const cameras = ["--jpeg", "70", "--decentring", "0.0005", "--sixth", "0.05", "--vignetting", "0.3", "--tone", "0.3",
   "--gloss", "0.04", "--noise", "6"];
 
-const surveyed = "#surveyed";
 const kinds = {
   photos: {
     title: "Photographs",

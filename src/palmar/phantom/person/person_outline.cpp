@@ -73,6 +73,7 @@ void shape_fingers(TriangleMesh& skin, const Hand& hand, std::uint64_t seed,
                    const PersonDispersion& dispersion) {
   RandomStream random(seed, kFingers);
   const std::array<double, kFingerCount> widening = surveyed_widenings(hand, seed, dispersion);
+  const HandCreases creases(hand.skin, hand.skeleton);
   const double blunter = spread(random, dispersion.fingertip);
   const double thicker = dispersion.knuckle + spread(random, dispersion.knuckle);
   for (int f = 0; f < kFingerCount; ++f) {
@@ -85,6 +86,8 @@ void shape_fingers(TriangleMesh& skin, const Hand& hand, std::uint64_t seed,
     }
     axis.node.push_back(hand.skeleton.fingertips[f]);
     const Vec3& across = hand.skeleton.joint(joint_of(*segments[1])).dofs.back().axis;
+    const CreasePlane& crease = creases.proximal_crease(*segments[0]);
+    const double rise = 0.6 * crease.value(axis.node[1]);
     double length = 0.0;
     for (std::size_t k = 0; k + 1 < axis.node.size(); ++k) {
       joint.push_back(length);
@@ -95,8 +98,8 @@ void shape_fingers(TriangleMesh& skin, const Hand& hand, std::uint64_t seed,
     for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
       if (finger_of(hand.segment[i]) != finger) continue;
       const FingerAxis::Foot foot = axis.foot(hand.skin.vertices[i]);
-      // From its base crease on, about half way to the PIP joint.
-      const double base = std::clamp((foot.along - 0.35 * joint[1]) / (0.4 * joint[1]), 0.0, 1.0);
+      // Grows from the base crease to 0.6 of the way to the PIP joint.
+      const double base = std::clamp(crease.value(hand.skin.vertices[i]) / rise, 0.0, 1.0);
       const double u = std::clamp((foot.along - joint.back()) / (length - joint.back()), 0.0, 1.0);
       double larger = own_tip * smooth(u);
       for (std::size_t k = 1; k < joint.size(); ++k) {
