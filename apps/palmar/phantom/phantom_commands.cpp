@@ -93,6 +93,19 @@ void add_phantom_commands(CLI::App& app, Context& context) {
   verb->add_option("--bias", o->request.scanner.bias,
                    "Share by which brightness falls across the image; 0: even")
       ->capture_default_str();
+  verb->add_option("--fat-shift-mm", o->request.scanner.fat_shift,
+                   "Chemical shift: how far fat and marrow lie off along the rows")
+      ->capture_default_str();
+  verb->add_option("--acquired", o->request.scanner.acquired,
+                   "Share of the resolution that is acquired; below 1 edges ring (Gibbs)")
+      ->capture_default_str();
+  verb->add_option("--marrow-texture", o->request.scanner.marrow_texture,
+                   "Unevenness of marrow, as a share")
+      ->capture_default_str();
+  verb->add_option(
+          "--mask", o->request.scanner.mask,
+          "Signals below this many deviations of the noise are 0, as some scanners mask air")
+      ->capture_default_str();
   verb->add_option("--oblique-deg", o->oblique_deg, "Turn of the slices out of the coronal plane")
       ->capture_default_str();
   verb->add_option("--offset-mm", o->offset,
