@@ -61,6 +61,9 @@ const side_of = (seed) => ["--side", seed % 2 ? "right" : "left"];
 const cameras = ["--jpeg", "70", "--decentring", "0.0005", "--sixth", "0.05", "--vignetting", "0.3", "--tone", "0.3",
   "--gloss", "0.04", "--noise", "6"];
 
+/** What scanners do: fat off by a voxel, edges that ring, a coil that falls to 0.4, uneven marrow, masked air. */
+const scanner = ["--fat-shift-mm", "0.8", "--acquired", "0.8", "--marrow-texture", "0.12", "--mask", "3", "--bias", "0.6"];
+
 const kinds = {
   photos: {
     title: "Photographs",
@@ -70,7 +73,7 @@ const kinds = {
       "moves": ["--motion-mm", "1", "--motion-deg", "0.5", "--finger-motion-mm", "1"],
     },
     make: (seed, words) => ["phantom", "photos", "--free", ...cameras, ...skin_of(seed), ...side_of(seed), ...words],
-    find: ["hand", "from-photos", "person/photos", "--posture", "person/photos=reference", "--lenses",
+    find: () => ["hand", "from-photos", "person/photos", "--posture", "person/photos=reference", "--lenses",
       "person/calibration", "--truth", "person/truth/subject.json", "--out", "a.hand.glb", "--work", "w"],
     measure: (at, found) => ({ ...skeleton_errors(at, found), ...surface_errors(at) }),
   },
@@ -79,17 +82,25 @@ const kinds = {
     page: "scan.md",
     cases: { "lines and dots": [], "no lines": ["--no-creases"] },
     make: (seed, words) => ["phantom", "scan", "--free", ...skin_of(seed), ...side_of(seed), ...words],
-    find: ["hand", "from-scan", "person/scan", "--truth", "person/truth/subject.json", "--out", "a.hand.glb", "--work", "w"],
+    find: () => ["hand", "from-scan", "person/scan/reference.ply", "person/scan/finger_flexion.ply", "person/scan/finger_abduction.ply", "--truth", "person/truth/subject.json", "--out", "a.hand.glb", "--work", "w"],
     measure: skeleton_errors,
   },
   quick: {
     title: "One photograph",
     page: "outline.md",
-    cases: { "sheet": [], "card": ["--sheet", "card"] },
+    cases: { "sheet": [], "card": ["--sheet", "card"] }, // both for making and for finding
     make: (seed, words) => ["phantom", "sheet", "--free", ...side_of(seed), "--skin", skin_names[seed % 4],
       "--table", tables[(seed >> 2) % 4], "--tilt-deg", String(2 + seed % 9), ...words],
-    find: ["hand", "quick", "person/photo.jpg", "--out", "a.hand.glb"],
+    find: (words) => ["hand", "quick", "person/photo.jpg", "--out", "a.hand.glb", ...words],
     measure: quick_errors,
+  },
+  mri: {
+    title: "MR images",
+    page: "mri.md",
+    cases: { "surface coil": [] },
+    make: (seed, words) => ["phantom", "mri", "--free", ...side_of(seed), ...scanner, ...words],
+    find: () => ["hand", "from-mri", "person/mri", "--out", "a.hand.glb", "--work", "w", "--no-report"],
+    measure: image_errors,
   },
 };
 
@@ -240,6 +251,40 @@ function quick_errors(at, found) {
   return result;
 }
 
+/** Bones, skin, dimensions and axes from MR images; patient frame. */
+function image_errors(at, found) {
+  const truth = JSON.parse(readFileSync(join(at, "person", "truth", "subject.json"), "utf8"));
+  const bones = { found: 0, wrong: [], distance: [], p95: [] };
+  const mine = join(at, "w", "reference", "bones"), theirs = join(at, "person", "truth", "reference", "bones");
+  for (const file of readdirSync(mine).filter((name) => !/^(radius|ulna)/.test(name))) {
+    if (!existsSync(join(theirs, file))) continue; // without a name
+    const off = distances(read_ply(join(mine, file)).points, read_ply(join(theirs, file))).sort((a, b) => a - b);
+    ++bones.found;
+    if (mean(off) > 3) bones.wrong.push(file.replace(".ply", ""));
+    else {
+      bones.distance.push(mean(off));
+      bones.p95.push(off[Math.floor(0.95 * off.length)]);
+    }
+  }
+  const skin = read_ply(join(at, "w", "reference", "skin.ply"));
+  const off = distances(skin.points.filter((_, k) => k % 5 === 0), read_ply(join(at, "person", "truth", "reference", "skin.ply")))
+    .filter((d) => d < 5); // the image cuts the forearm
+  const result = { bones, skin: mean(off), length: [], width: [], thickness: [], girth: [], axes: [], mcp: [], pip: [] };
+  for (const [name, value] of Object.entries(found.dimensions)) {
+    const kind = /(length|width|thickness|circumference)_mm$/.exec(name);
+    if (kind && name in truth.dimensions) result[kind[1] === "circumference" ? "girth" : kind[1]].push(value - truth.dimensions[name]);
+  }
+  for (const joint of found.joints) {
+    const known = truth.axes_at_reference.find((axis) => axis.joint === joint.dof);
+    if (!known || !joint.is_measured) continue;
+    const angle = Math.acos(Math.min(1, Math.abs(dot(joint.axis_patient, known.axis)))) * 180 / Math.PI;
+    if (/mcp_flexion/.test(joint.dof)) result.mcp.push(angle);
+    if (/pip_flexion/.test(joint.dof)) result.pip.push(angle);
+    if (joint.axis_error_deg) result.axes.push(angle / (2.448 * joint.axis_error_deg));
+  }
+  return result;
+}
+
 function run_case(kind, seed, name, words) {
   const at = join(folder, `${kind}-${seed}-${name.replaceAll(" ", "_")}`);
   const kept = join(at, "result.json");
@@ -254,7 +299,7 @@ function run_case(kind, seed, name, words) {
   const made = palmar(["--seed", String(seed), ...kinds[kind].make(seed, words), "--out", "person"]);
   const result = { version, seed, name };
   const start = Date.now();
-  const found = made.status === 0 ? palmar(kinds[kind].find) : made;
+  const found = made.status === 0 ? palmar(kinds[kind].find(words)) : made;
   result.seconds = (Date.now() - start) / 1000;
   if (found.status === 0) {
     const json = JSON.parse(found.stdout);
@@ -315,7 +360,19 @@ function quick_table(results) {
   return table(head, rows) + "\n\nRMS (mean), mm." + (refused.length ? `\n\nRefused:\n\n${refused.join("\n")}` : "");
 }
 
+function image_table(results) {
+  const head = ["seed", "bones found of 27, misnamed", "bones mean, 95 %, mm", "skin, mm", "lengths", "widths", "thicknesses", "girth",
+    "MCP axes mean, worst, °", "PIP axes mean, worst, °", "axes within the stated 95 %", "s"];
+  const rows = results.map((r) => r.refusal ? [r.seed, r.refusal, ...Array(head.length - 2).fill("")] : [
+    r.seed, `${r.bones.found}, ${r.bones.wrong.length}${r.bones.wrong.length ? ` (${r.bones.wrong.join(", ")})` : ""}`,
+    `${two(mean(r.bones.distance))}, ${two(mean(r.bones.p95))}`, two(r.skin), off(r.length), off(r.width), off(r.thickness), one(r.girth[0]),
+    r.mcp.length ? `${one(mean(r.mcp))}, ${worst(r.mcp)}` : "–", r.pip.length ? `${one(mean(r.pip))}, ${worst(r.pip)}` : "–",
+    `${r.axes.filter((a) => a <= 1).length} of ${r.axes.length}`, r.seconds.toFixed(0)]);
+  return table(head, rows);
+}
+
 function text_of(kind, results) {
+  if (kind === "mri") return image_table(results);
   return kind === "quick" ? quick_table(results) : skeleton_table(results, kind === "photos");
 }
 

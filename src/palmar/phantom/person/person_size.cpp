@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/phantom/person/person_size.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "palmar/core/enum_index.h"
+#include "palmar/core/error.h"
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/phantom/person/person_random.h"
@@ -77,39 +81,64 @@ PersonSize drawn_size(std::uint64_t seed, const PersonDispersion& dispersion) {
   return drawn_size(random, dispersion);
 }
 
-std::vector<SizedDimension> surveyed_lengths(const HandDimensions& base, const PersonSize& size,
-                                             std::uint64_t seed) {
-  RandomStream random(seed, kLengths);
-  Targets targets;
-  const AnsurFigures& ansur = ansur2_figures(size.sex);
-  const GreinerFigures& greiner = greiner_figures(size.sex);
-  const double palm = ansur.palm.mean + ansur.palm_slope * (size.length - ansur.length.mean) +
-                      spread(random, ansur.palm_residual);
-  set_length(targets, Segment::kPalm, palm);
+namespace {
+
+// Segments of the four fingers that hand length and palm leave; nothing if one is out of
+// proportion.
+std::optional<Targets> finger_lengths(const HandDimensions& base, const PersonSize& size,
+                                      double palm, RandomStream& random) {
   constexpr std::array<double, 4> kOfMiddle{0.91, 1.0, 0.93, 0.76};
+  constexpr std::array<double, 3> kLeast{0.7, 0.85, 0.9}, kMost{1.4, 1.15, 1.12};
+  const GreinerFigures& greiner = greiner_figures(size.sex);
+  Targets targets;
   for (int f = 0; f < 4; ++f) {
     const auto segments = segments_of(static_cast<Finger>(f + 1));
     const auto& link = greiner.link[f];
-    const double usual = kOfMiddle[f] * (size.length - palm) -
-                         (link[1].mean + link[2].mean) * size.length / greiner.length.mean;
-    std::array<double, 3> part{};
-    do {
-      const double finger =
-          kOfMiddle[f] * (size.length - palm) * (f == 1 ? 1.0 : 1.0 + spread(random, 0.03));
-      part[1] = link_length(link[1], greiner.length, size.length, random);
-      part[2] = link_length(link[2], greiner.length, size.length, random);
-      part[0] = finger - part[1] - part[2];
-    } while (part[0] < 0.7 * usual || part[0] > 1.5 * usual);
-    // The middle finger's proximal segment is what hand length leaves.
-    for (std::size_t k = f == 1 ? 1 : 0; k < 3; ++k) set_length(targets, *segments[k], part[k]);
+    const double whole = kOfMiddle[f] * (size.length - palm);
+    std::array<double, 3> usual{}, part{};
+    usual[0] = part[0] = whole * (f == 1 ? 1.0 : 1.0 + spread(random, 0.03));
+    for (std::size_t k = 1; k < 3; ++k) {
+      usual[k] = link[k].mean * size.length / greiner.length.mean;
+      part[k] = link_length(link[k], greiner.length, size.length, random);
+      usual[0] -= usual[k];
+      part[0] -= part[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double made_of = base.segment[index_of(*segments[k])].length;
+      if (part[k] < std::max(kLeast[k] * usual[k], 0.55 * made_of)) return {};
+      if (part[k] > kMost[k] * usual[k]) return {};
+      // The middle finger's proximal segment is what hand length leaves.
+      if (f != 1 || k > 0) set_length(targets, *segments[k], part[k]);
+    }
   }
-  const double larger = size.length / base.hand_length;
-  set_length(targets, Segment::kThumbProximal,
-             base.segment[index_of(Segment::kThumbProximal)].length * larger *
-                 (1.0 + spread(random, 0.085)));
-  set_length(targets, Segment::kThumbDistal,
-             link_length(greiner.thumb_distal, greiner.length, size.length, random));
   return targets;
+}
+
+}  // namespace
+
+std::vector<SizedDimension> surveyed_lengths(const HandDimensions& base, const PersonSize& size,
+                                             std::uint64_t seed) {
+  RandomStream random(seed, kLengths);
+  const AnsurFigures& ansur = ansur2_figures(size.sex);
+  const GreinerFigures& greiner = greiner_figures(size.sex);
+  const double usual = ansur.palm.mean + ansur.palm_slope * (size.length - ansur.length.mean);
+  constexpr int kTries = 20'000;
+  for (int k = 0; k < kTries; ++k) {
+    const double palm = usual + spread(random, ansur.palm_residual);
+    std::optional<Targets> targets = finger_lengths(base, size, palm, random);
+    if (!targets) continue;
+    set_length(*targets, Segment::kPalm, palm);
+    const double larger = size.length / base.hand_length;
+    set_length(*targets, Segment::kThumbProximal,
+               base.segment[index_of(Segment::kThumbProximal)].length * larger *
+                   (1.0 + spread(random, 0.085)));
+    set_length(*targets, Segment::kThumbDistal,
+               link_length(greiner.thumb_distal, greiner.length, size.length, random));
+    return *targets;
+  }
+  throw InputError(fmt::format(
+      "a free person with a hand of {:.0f} mm can't be made from a start hand of {:.0f} mm",
+      size.length, base.hand_length));
 }
 
 std::array<double, kFingerCount> surveyed_widenings(const Hand& hand, std::uint64_t seed,

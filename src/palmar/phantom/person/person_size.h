@@ -35,8 +35,11 @@ std::vector<SizedDimension> surveyed_lengths(const HandDimensions& base, const P
 ///   middle, distal segments Greiner 1991, in proportion to hand length, scatter at given length
 ///   fingers                 index, ring and little 0.91, 0.93 and 0.76 of the middle one within 3
 ///   %
-///                           (our choice); the proximal segment is what the others leave; a finger
-///                           whose proximal segment would be 0.7 or 1.5 of the mean is drawn again
+///                           (our choice); the proximal segment is what the others leave. Palm
+///                           and fingers are drawn again until all segments lie within 0.7 to 1.4,
+///                           0.85 to 1.15 and 0.9 to 1.12 of their means: Greiner's scatter has
+///                           errors of measurement in it, and joints would lie out of proportion to
+///                           creases
 ///   thumb, distal           Greiner 1991; proximal: the start hand's within 8.5 %
 /// Widths and thicknesses follow in surveyed_widenings().
 Hand sized_hand(const Hand& base, std::uint64_t seed, const PersonDispersion& dispersion);

@@ -70,7 +70,12 @@ void make_joints(SubjectPerson& person, std::uint64_t seed, const PersonDispersi
       const Vec3 along = (node[k + 1] - node[k]).normalized();
       const Vec3 palmar = joint.dofs.back().axis.cross(along);
       const double dorsal = 0.5 + spread(random, 0.5 * dispersion.centre);
-      const double distal = spread(random, dispersion.centre);
+      double distal = spread(random, dispersion.centre);
+      // The last bone is no stub: 15 to 20 mm in people, and the pulp.
+      constexpr double kLeastEnd = 15.5;  // mm
+      if (dispersion.is_free && k + 1 == count) {
+        distal = std::min(distal, (node[count] - node[k]).norm() - kLeastEnd);
+      }
       node[k] += distal * along - dorsal * palmar;
       if (k > 0) node[k] = sunk(skin, node[k], palmar, least, 3.0);
     }
@@ -323,7 +328,7 @@ void relax_own_tissue(SubjectPerson& person, const Hand& hand, std::uint64_t see
   give_relief(open.skin, open.skeleton, seed, dispersion.relief);
   lengthen_forearm(open.skin, open.skeleton.joint(JointId::kWrist).centre);
   find_fingertips(open, hand.segment);
-  make_joints(open, seed, {});
+  make_joints(open, seed, {.axis = 0.0, .slant = 0.0, .centre = 0.0});
   open.postures[ScanPosture::kReference] = person.reference;
   const std::vector<SubjectBone> bones = make_subject_bones(open, seed);
   person.skin = open.skin;
