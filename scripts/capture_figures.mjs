@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // node scripts/capture_figures.mjs [--set development|final] [--only photos,scan,quick,mri] [--subjects N]
-//                                  [--program PALMAR] [--page]
+//                                  [--program PALMAR --commit HASH] [--page]
 //
 // How far hands from photographs, scans, one photograph and MR images are off, from scratch: makes free persons
 // (docs/method/phantom.md) of the seeds in docs/method/capture_seeds.toml, gives their pictures to the program that
@@ -53,7 +53,7 @@ function read_seeds() {
 /** Skins and sides go round with the seeds. */
 const skins = ["#e0b59c", "#cc9980", "#a87558", "#6b4733"];
 const skin_names = ["light", "light", "middle", "dark"];
-const tables = ["wood", "grey", "blue", "dark"];
+const tables = ["wood", "grey", "blue", "dark"], card_tables = ["grey", "blue"]; // a card must not lie on wood
 const skin_of = (seed) => ["--skin-colour", skins[seed % skins.length]];
 const side_of = (seed) => ["--side", seed % 2 ? "right" : "left"];
 
@@ -90,7 +90,7 @@ const kinds = {
     page: "outline.md",
     cases: { "sheet": [], "card": ["--sheet", "card"] }, // both for making and for finding
     make: (seed, words) => ["phantom", "sheet", "--free", ...side_of(seed), "--skin", skin_names[seed % 4],
-      "--table", tables[(seed >> 2) % 4], "--tilt-deg", String(2 + seed % 9), ...words],
+      "--table", words.length ? card_tables[(seed >> 2) % 2] : tables[(seed >> 2) % 4], "--tilt-deg", String(2 + seed % 9), ...words],
     find: (words) => ["hand", "quick", "person/photo.jpg", "--out", "a.hand.glb", ...words],
     measure: quick_errors,
   },
@@ -386,6 +386,8 @@ function put_into_page(kind, text) {
 }
 
 const git = (...words) => execFileSync("git", words, { cwd: root, encoding: "utf8" }).trim();
+/** What the program of this tree is made from; --commit says it of another one. */
+const commit_here = () => git("rev-parse", "--short=8", "HEAD") + (git("status", "--porcelain", "src", "apps") ? " and changes" : "");
 const seeds = read_seeds();
 const wanted = option("--only", Object.keys(kinds).join(",")).split(",");
 for (const kind of wanted) {
@@ -396,7 +398,7 @@ for (const kind of wanted) {
   }
   const when = new Date().toISOString().slice(0, 10);
   const head = `${kinds[kind].title}, set "${set}", seeds ${seeds[kind].slice(0, most).join(", ")}: \`node scripts/capture_figures.mjs ` +
-    `--set ${set} --only ${kind}\`, ${when}, commit ${git("rev-parse", "--short=8", "HEAD")}${git("status", "--porcelain", "src", "apps") ? " and changes" : ""}.`;
+    `--set ${set} --only ${kind}\`, ${when}, commit ${option("--commit", commit_here())}.`;
   const text = `\n${head}\n\n${text_of(kind, results)}\n`;
   console.log(text);
   if (process.argv.includes("--page")) put_into_page(kind, text);
