@@ -398,7 +398,7 @@ for (const kind of wanted) {
   }
   const when = new Date().toISOString().slice(0, 10);
   const head = `${kinds[kind].title}, set "${set}", seeds ${seeds[kind].slice(0, most).join(", ")}: \`node scripts/capture_figures.mjs ` +
-    `--set ${set} --only ${kind}\`, ${when}, commit ${option("--commit", commit_here())}.`;
+    `--set ${set} --only ${kind}${most < seeds[kind].length ? ` --subjects ${most}` : ""}\`, ${when}, commit ${option("--commit", commit_here())}.`;
   const text = `\n${head}\n\n${text_of(kind, results)}\n`;
   console.log(text);
   if (process.argv.includes("--page")) put_into_page(kind, text);
