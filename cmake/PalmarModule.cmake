@@ -23,7 +23,7 @@ function(palmar_add_tests program)
   add_test(NAME ${program} COMMAND ${program})
   set_tests_properties(${program} PROPERTIES TIMEOUT 1500 LABELS "${ARGN}")
   palmar_use_headers(${program} palmar_test_headers)
-  target_compile_options(${program} PRIVATE ${palmar_tries})
+  target_compile_options(${program} PRIVATE ${palmar_once})
   palmar_batches(${program} 6)
   if("release" IN_LIST ARGN)
     set_target_properties(${program} PROPERTIES EXCLUDE_FROM_ALL TRUE)
@@ -63,12 +63,12 @@ endfunction()
 
 # With -O2 GCC 12 makes vector instructions only of loops whose length it knows, with -O3 of all that gain by
 # it: contact, distances and geodesics take half of the time. Where headers are precompiled, their -O counts.
-# What tests cost is compiling them: -O1 takes a quarter less than -O2.
+# What tests and commands cost is compiling them: -O1 takes a quarter less than -O2.
 set(palmar_computes "")
-set(palmar_tries "")
+set(palmar_once "")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(palmar_computes $<$<CONFIG:Release>:-O3>)
-  set(palmar_tries $<$<CONFIG:Release>:-O1>)
+  set(palmar_once $<$<CONFIG:Release>:-O1>)
 endif()
 
 if(PALMAR_PRECOMPILE)
@@ -91,10 +91,11 @@ if(PALMAR_PRECOMPILE)
   palmar_shareable(palmar_json_headers)
   palmar_headers(palmar_command_headers HEADERS ${palmar_common} <CLI/CLI.hpp> <nlohmann/json.hpp>
                  LINKS Eigen3::Eigen CLI11::CLI11 fmt::fmt nlohmann_json::nlohmann_json)
+  target_compile_options(palmar_command_headers PRIVATE ${palmar_once})
   if(PALMAR_TESTS)
     palmar_headers(palmar_test_headers HEADERS <gmock/gmock.h> <gtest/gtest.h> ${folder}/eigen_instances.h
                    LINKS Eigen3::Eigen GTest::gmock fmt::fmt)
-    target_compile_options(palmar_test_headers PRIVATE ${palmar_tries})
+    target_compile_options(palmar_test_headers PRIVATE ${palmar_once})
   endif()
 endif()
 

@@ -44,6 +44,8 @@ libraries=$(for program in "${programs[@]}"; do ldd "build/release/bin/$program"
             sed -nE 's/.* => (\/[^ ]+) .*/\1/p; s/^\s*(\/[^ ]+ld-linux[^ ]+) .*/\1/p' | sort -u)
 cp -L $libraries "$root/lib/"
 cp -a build/release/share/palmar "$root/share/"
+mkdir "$root/lib/palmar"
+cp -a build/release/lib/palmar/slicer "$root/lib/palmar/"
 cp -a build/release/manual/man "$root/share/"
 cp -a build/release/manual/completions examples CHANGELOG.md LICENSE docs/developing/third-party.md "$root/share/doc/palmar/"
 # The licence of every library, by the Debian package that it is from.

@@ -19,7 +19,7 @@ palmar_python_packages=(pybind11-dev python3-dev python3-numpy)
 palmar_check_packages=(
   libopencv-contrib-dev libgdcm-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  clang-format
+  clang-format libxml2-utils
   "${palmar_python_packages[@]}"
 )
 

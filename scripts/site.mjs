@@ -120,7 +120,7 @@ function navigation(place) {
     .sort(([, a], [, b]) => (a.title < b.title ? -1 : 1)).map(([one, page]) => link(one, page.title)).join("");
   return `<nav>${link("index.html", "<strong>Palmar</strong>")}${link("gallery.html", "Gallery")}${link("docs/glossary.html", "Glossary")}` +
     `${link("CHANGELOG.html", "Changes")}<b>Using</b>${link("docs/using/index.html", "By task")}${group("docs/using")}` +
-    `<b>Reference</b>${link("reference/index.html", "Commands and options")}` +
+    `<b>Reference</b>${link("reference/index.html", "Commands and options")}${group("docs/using/files")}` +
     `<b>Method</b>${link("docs/method/index.html", "Overview")}${group("docs/method")}` +
     `<b>Developing</b>${link("docs/developing/index.html", "Overview")}${group("docs/developing")}</nav>`;
 }

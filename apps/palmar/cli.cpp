@@ -3,6 +3,7 @@
 #include "cli.h"
 
 #include "help_pages.h"
+#include "slicer_module.h"
 
 #include <signal.h>
 #include <unistd.h>
@@ -21,6 +22,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/setting_names.h"
+#include "palmar/formats/text_scan.h"
 
 namespace palmar::cli {
 namespace {
@@ -145,6 +147,10 @@ Progress make_progress(const CommonOptions& common) {
   install_interrupt_handler();
   Progress progress;
   progress.cancel = &interrupted;
+  if (is_module()) {
+    progress.report = progress_for_a_panel();
+    return progress;
+  }
   if (has_watcher()) {
     progress.report = lines_for_a_watcher();
     return progress;
@@ -174,6 +180,7 @@ Progress make_progress(const CommonOptions& common) {
 }
 
 void finish_progress() {
+  finish_panel();
   if (progress_line_open) std::fprintf(stderr, "\r\033[K");
   progress_line_open = false;
 }
@@ -184,7 +191,8 @@ void note(const CommonOptions& common, const std::string& text) {
   std::fprintf(stderr, "palmar: %s\n", with_setting_names(text, option_named).c_str());
 }
 
-void print(const std::string& text) {
+void print(const std::string& given) {
+  const std::string text = is_module() ? xml_escaped(given) : given;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     throw OutputError("standard output can't be written to (disk full or pipe closed)");
   }

@@ -66,23 +66,10 @@ std::size_t rank_in(const std::string& title, const CLI::Option& option) {
   return 0;
 }
 
-/// Groups in the order above, the others after them.
 std::string grouped(const CLI::App& app, const CLI::Formatter& format) {
-  std::vector<std::string> titles;
-  for (const Group& one : groups()) titles.emplace_back(one.title);
-  for (const std::string& title : app.get_groups()) {
-    if (std::find(titles.begin(), titles.end(), title) == titles.end()) titles.push_back(title);
-  }
   std::string text;
-  for (const std::string& title : titles) {
-    auto options = app.get_options([&](const CLI::Option* option) {
-      return option->get_group() == title && option->nonpositional();
-    });
-    if (title.empty() || options.empty()) continue;
-    std::stable_sort(options.begin(), options.end(), [&](const auto* one, const auto* other) {
-      return rank_in(title, *one) < rank_in(title, *other);
-    });
-    text += format.make_group(title, false, options);
+  for (const std::string& title : option_groups(app)) {
+    text += format.make_group(title, false, options_in_group(app, title));
   }
   return text;
 }
@@ -177,6 +164,28 @@ void arrange(CLI::App& verb) {
 }
 
 }  // namespace
+
+std::vector<std::string> option_groups(const CLI::App& app) {
+  std::vector<std::string> titles;
+  for (const Group& one : groups()) titles.emplace_back(one.title);
+  for (const std::string& title : app.get_groups()) {
+    if (std::find(titles.begin(), titles.end(), title) == titles.end()) titles.push_back(title);
+  }
+  std::erase_if(titles, [&](const std::string& title) {
+    return title.empty() || options_in_group(app, title).empty();
+  });
+  return titles;
+}
+
+std::vector<const CLI::Option*> options_in_group(const CLI::App& app, const std::string& title) {
+  auto options = app.get_options([&](const CLI::Option* option) {
+    return option->get_group() == title && option->nonpositional();
+  });
+  std::stable_sort(options.begin(), options.end(), [&](const auto* one, const auto* other) {
+    return rank_in(title, *one) < rank_in(title, *other);
+  });
+  return options;
+}
 
 std::string example_text(const std::string& example) {
   std::vector<std::string> lines;

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli.h"
@@ -20,6 +21,7 @@
 #include "palmar/core/text.h"
 #include "palmar/core/version.h"
 #include "palmar/workflow/hand/load_hand.h"
+#include "slicer_module.h"
 #include "text.h"
 
 namespace palmar::cli {
@@ -115,10 +117,12 @@ int run(int argc, char** argv) {
       "6 an optional program is missing, 130 cancelled.");
   add_commands(app, context);
   arrange_help(app);
+  add_descriptions(app);
 
   std::vector<std::string> notes;
-  std::vector<std::string> words =
-      with_present_names(app, std::vector<std::string>(argv + 1, argv + argc), notes);
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (is_module()) words = module_words(words);
+  words = with_present_names(app, std::move(words), notes);
   try {
     std::reverse(words.begin(), words.end());  // as the parser takes them
     app.parse(words);

@@ -151,19 +151,21 @@ SparseField field_from_bytes(std::string_view bytes) {
   Unpacker unpacker(bytes, "a field");
   const std::size_t count = unpacker.take_count(1 + sizeof(float));
   SparseField field;
+  field.vertex.resize(count);
+  field.value.resize(count);
   std::uint32_t last = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (int& vertex : field.vertex) {
     last += unpacker.take_leb128();
-    field.vertex.push_back(static_cast<int>(last));
+    vertex = static_cast<int>(last);
   }
   const std::string_view rest = unpacker.rest();
   if (rest.size() != count * sizeof(float)) unpacker.fail();
   std::string plain(rest.size(), '\0');
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    plain[(i % count) * sizeof(float) + i / count] = rest[i];
+  for (std::size_t b = 0; b < sizeof(float); ++b) {
+    for (std::size_t i = 0; i < count; ++i) plain[i * sizeof(float) + b] = rest[b * count + i];
   }
   for (std::size_t i = 0; i < count; ++i) {
-    field.value.push_back(read_value<float>(plain, i * sizeof(float)));
+    field.value[i] = read_value<float>(plain, i * sizeof(float));
   }
   return field;
 }

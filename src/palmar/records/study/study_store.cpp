@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
 #include "palmar/core/version.h"
 #include "palmar/formats/bytes.h"
 #include "palmar/formats/sha256.h"
@@ -30,6 +31,8 @@
 
 namespace palmar {
 namespace {
+
+constexpr int kReadAhead = 64;  // records
 
 namespace fs = std::filesystem;
 
@@ -426,8 +429,24 @@ void StudyStore::for_each(bool with_fields,
     reader = std::make_unique<StudyTableReader>(*impl_->file, with_fields);
     return 0;
   });
-  StudyRecord record;
-  while (impl_->read([&] { return reader->next(record); })) visit(record);
+  if (!with_fields) {
+    StudyRecord record;
+    while (impl_->read([&] { return reader->next(record); })) visit(record);
+    return;
+  }
+  // Unpacking is most of it, and goes on all threads.
+  std::vector<StudyRecord> records(kReadAhead);
+  std::vector<PackedFields> packed(kReadAhead);
+  for (int count = kReadAhead; count == kReadAhead;) {
+    impl_->read([&] {
+      for (count = 0; count < kReadAhead; ++count) {
+        if (!reader->next(records[count], packed[count])) break;
+      }
+      parallel_for(count, [&](int i) { unpack_fields(packed[i], records[i]); });
+      return 0;
+    });
+    for (int i = 0; i < count; ++i) visit(records[i]);
+  }
 }
 
 StudyRecord StudyStore::record(std::int64_t number) const {
@@ -478,7 +497,13 @@ void StudyStore::finish() {
   Draft draft{beside(impl_->path, ".finishing")};
   write_draft(impl_->path, draft, [&] {
     build_store(draft.path, impl_->head(), true, [&](StudyTableWriter& writer) {
-      for_each(true, [&](const StudyRecord& record) { writer.write(record); });
+      StudyTableReader reader(*impl_->file, true);
+      StudyRecord record;
+      PackedFields fields;
+      while (reader.next(record, fields)) {
+        unpack_fields(fields, record);
+        writer.write(record, fields);
+      }
     });
   });
   guarded(impl_->path, true, [&] {

@@ -209,6 +209,11 @@ std::int64_t StudyTableWriter::quantity_id(const std::string& key) {
 }
 
 void StudyTableWriter::write(const StudyRecord& record) {
+  write(record,
+        {pack(field_bytes(record.skin_pressure)), pack(field_bytes(record.product_pressure))});
+}
+
+void StudyTableWriter::write(const StudyRecord& record, const PackedFields& packed) {
   // Keys that are not in the catalogue get their number by name within the first record that has
   // them, not by the order in which a record lists them.
   std::set<std::string> keys;
@@ -262,7 +267,7 @@ void StudyTableWriter::write(const StudyRecord& record) {
   for (const IndexRecord& index : sorted.indices) {
     index_.bind(1, record.number).bind(2, quantity_id(index.key)).bind(3, index.value).run();
   }
-  field_.bind(1, record.number).bind_blob(2, pack(skin)).bind_blob(3, pack(product)).run();
+  field_.bind(1, record.number).bind_blob(2, packed.skin).bind_blob(3, packed.product).run();
   if (record.hold && hold_) write_hold(record.number, *record.hold);
   if (fallback_) write_fallbacks(record.number, record.fallbacks);
 }
@@ -361,6 +366,13 @@ StudyTableReader::StudyTableReader(SqliteFile& file, bool with_fields,
 }
 
 bool StudyTableReader::next(StudyRecord& record) {
+  PackedFields fields;
+  if (!next(record, fields)) return false;
+  if (with_fields_) unpack_fields(fields, record);
+  return true;
+}
+
+bool StudyTableReader::next(StudyRecord& record, PackedFields& fields) {
   if (!grasp_.next()) return false;
   record = {};
   record.number = grasp_.integer(0);
@@ -383,13 +395,10 @@ bool StudyTableReader::next(StudyRecord& record) {
   try {
     record.posture = posture_from_bytes(grasp_.blob(14));
     record.product_from_hand = rigid_from_bytes(grasp_.blob(15));
-    if (with_fields_) {
-      record.skin_pressure = field_from_bytes(unpack(grasp_.blob(18)));
-      record.product_pressure = field_from_bytes(unpack(grasp_.blob(19)));
-    }
   } catch (const InputError& error) {
     throw InputError(what + ": " + error.what());
   }
+  if (with_fields_) fields = {grasp_.blob(18), grasp_.blob(19)};
   read_regions(record);
   read_indices(record);
   read_hold(record);
@@ -398,6 +407,15 @@ bool StudyTableReader::next(StudyRecord& record) {
     throw InputError(what + " is damaged: its values don't have the checksum they were kept with");
   }
   return true;
+}
+
+void unpack_fields(const PackedFields& fields, StudyRecord& record) {
+  try {
+    record.skin_pressure = field_from_bytes(unpack(fields.skin));
+    record.product_pressure = field_from_bytes(unpack(fields.product));
+  } catch (const InputError& error) {
+    throw InputError("grasp " + std::to_string(record.number) + ": " + error.what());
+  }
 }
 
 void StudyTableReader::read_regions(StudyRecord& record) {

@@ -24,12 +24,19 @@ namespace palmar {
 inline constexpr int kStudyApplicationId = 0x504C4D52;  ///< "PLMR"
 inline constexpr int kStudyPageSize = 16384;            ///< bytes
 
+/// A record's fields as they lie in the file.
+struct PackedFields {
+  std::string skin, product;
+};
+
 /// Writes records into the tables of an open file.
 class StudyTableWriter {
  public:
   StudyTableWriter(SqliteFile& file, const StudyPlan& plan);
   /// All rows of one record; the caller begins and ends the transaction.
   void write(const StudyRecord& record);
+  /// The same of a record whose fields are there packed, too: packing is most of the time.
+  void write(const StudyRecord& record, const PackedFields& fields);
   /// The time it took; only while the store isn't finished.
   void write_time(const StudyRecord& record);
   /// SHA-256 of what add_to_digest() got and of all records written, in their order.
@@ -55,6 +62,8 @@ class StudyTableReader {
   /// Of one number only, if given.
   StudyTableReader(SqliteFile& file, bool with_fields, std::optional<std::int64_t> only = {});
   bool next(StudyRecord& record);
+  /// The same with the fields left packed; unpack_fields() may follow on another thread.
+  bool next(StudyRecord& record, PackedFields& fields);
 
  private:
   void read_regions(StudyRecord& record);
@@ -69,6 +78,9 @@ class StudyTableReader {
   // A row that isn't taken yet.
   bool has_region_ = false, has_index_ = false, has_hold_ = false, has_fallback_ = false;
 };
+
+/// Gives a record its fields. Throws InputError: they are damaged.
+void unpack_fields(const PackedFields& fields, StudyRecord& record);
 
 /// Text of a key of table `study`, or "".
 std::string study_value(SqliteFile& file, const std::string& key);

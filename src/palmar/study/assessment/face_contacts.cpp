@@ -3,12 +3,12 @@
 #include "palmar/study/assessment/face_contacts.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "palmar/core/error.h"
 
 namespace palmar {
-namespace {}  // namespace
 
 FaceAreas::FaceAreas(const TriangleMesh& map, const std::vector<int>& face_of_triangle)
     : start_(map.vertices.size() + 1, 0), triangle_(map.triangles), face_(face_of_triangle) {
@@ -22,33 +22,36 @@ FaceAreas::FaceAreas(const TriangleMesh& map, const std::vector<int>& face_of_tr
   }
   for (const Triangle& t : triangle_) {
     for (const int v : t) ++start_[v + 1];
-    area_.push_back(0.5 * (map.vertices[t[1]] - map.vertices[t[0]])
-                              .cross(map.vertices[t[2]] - map.vertices[t[0]])
-                              .norm());
+    third_.push_back((map.vertices[t[1]] - map.vertices[t[0]])
+                         .cross(map.vertices[t[2]] - map.vertices[t[0]])
+                         .norm() /
+                     6.0);
   }
   for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
   corner_.resize(3 * triangle_.size());
   for (std::size_t t = 0; t < triangle_.size(); ++t) {
-    for (const int v : triangle_[t]) corner_[next[v]++] = static_cast<int>(t);
+    for (const int v : triangle_[t]) {
+      corner_[next[v]++] = {static_cast<int>(t), face_[t], third_[t]};
+    }
   }
 }
 
 /// Of the faces that meet at a vertex, that with the highest mean pressure over its triangles
 /// there.
-int FaceAreas::peak_face(const std::vector<double>& pressure, std::size_t vertex) const {
+int FaceAreas::peak_face(const std::vector<double>& pressure, int vertex) const {
   struct Around {
     int face = 0;
     double force = 0.0, area = 0.0;
   };
   std::vector<Around> around;
   for (std::size_t k = start_[vertex]; k < start_[vertex + 1]; ++k) {
-    const int t = corner_[k];
+    const int t = corner_[k].triangle;
     auto one = std::find_if(around.begin(), around.end(),
                             [&](const Around& other) { return other.face == face_[t]; });
     if (one == around.end()) one = around.insert(around.end(), {face_[t]});
-    for (const int v : triangle_[t]) one->force += area_[t] / 3.0 * pressure[v];
-    one->area += area_[t];
+    for (const int v : triangle_[t]) one->force += third_[t] * pressure[v];
+    one->area += 3.0 * third_[t];
   }
   int best = -1;
   double highest = -1.0;
@@ -63,14 +66,21 @@ int FaceAreas::peak_face(const std::vector<double>& pressure, std::size_t vertex
 }
 
 std::vector<FaceContact> FaceAreas::contacts(const std::vector<double>& pressure) const {
+  std::vector<int> all(pressure.size());
+  std::iota(all.begin(), all.end(), 0);
+  return contacts(pressure, all);
+}
+
+std::vector<FaceContact> FaceAreas::contacts(const std::vector<double>& pressure,
+                                             std::span<const int> loaded) const {
   if (pressure.size() != vertex_count()) {
     throw UsageError("faces: " + std::to_string(pressure.size()) + " pressures for a map of " +
                      std::to_string(vertex_count()) + " vertices");
   }
   std::vector<FaceContact> all(faces_);
-  std::size_t peak_vertex = 0;
+  int peak_vertex = 0;
   double peak = 0.0;
-  for (std::size_t vertex = 0; vertex < pressure.size(); ++vertex) {
+  for (const int vertex : loaded) {
     const double p = pressure[vertex];
     if (!(p > 0.0)) continue;
     if (p > peak) {
@@ -78,10 +88,9 @@ std::vector<FaceContact> FaceAreas::contacts(const std::vector<double>& pressure
       peak_vertex = vertex;
     }
     for (std::size_t k = start_[vertex]; k < start_[vertex + 1]; ++k) {
-      const int t = corner_[k];
-      FaceContact& one = all[face_[t]];
-      one.force += area_[t] / 3.0 * p;
-      one.area += area_[t] / 3.0;
+      FaceContact& one = all[corner_[k].face];
+      one.force += corner_[k].third * p;
+      one.area += corner_[k].third;
       one.peak_pressure = std::max(one.peak_pressure, p);
     }
   }

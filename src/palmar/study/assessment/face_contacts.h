@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "palmar/contact/footprint.h"
@@ -33,16 +34,23 @@ class FaceAreas {
   /// Faces under pressure, ascending; their forces sum up to that of the map, their areas to its
   /// area under pressure. `pressure` in MPa, per vertex of the map; throws UsageError if it isn't.
   std::vector<FaceContact> contacts(const std::vector<double>& pressure) const;
+  /// The same where only the vertices `loaded` may have any.
+  std::vector<FaceContact> contacts(const std::vector<double>& pressure,
+                                    std::span<const int> loaded) const;
   std::size_t vertex_count() const { return start_.size() - 1; }
 
  private:
-  int peak_face(const std::vector<double>& pressure, std::size_t vertex) const;
+  int peak_face(const std::vector<double>& pressure, int vertex) const;
 
+  struct Corner {
+    int triangle = 0, face = 0;
+    double third = 0.0;  ///< of the triangle's area, mm^2
+  };
   std::vector<std::size_t> start_;  ///< per vertex: its first corner
-  std::vector<int> corner_;         ///< triangles, by vertex
+  std::vector<Corner> corner_;      ///< by vertex
   std::vector<Triangle> triangle_;
-  std::vector<double> area_;  ///< per triangle, mm^2
-  std::vector<int> face_;     ///< per triangle
+  std::vector<double> third_;  ///< of each triangle's area, mm^2
+  std::vector<int> face_;      ///< per triangle
   int faces_ = 0;
 };
 

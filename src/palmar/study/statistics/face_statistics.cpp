@@ -113,8 +113,8 @@ std::vector<FaceStatistics> face_statistics(const StudyPlan& plan,
     const StudyTask task = task_at(plan, record.number);
     const FaceAreas* areas = maps.of(task.product, plan.profiles[task.profile].glove_thickness);
     if (areas == nullptr) return;
-    const std::vector<FaceContact> contacts =
-        areas->contacts(dense(record.product_pressure, areas->vertex_count()));
+    const std::vector<FaceContact> contacts = areas->contacts(
+        dense(record.product_pressure, areas->vertex_count()), record.product_pressure.vertex);
     const int population = plan.hands[task.hand].population;
     for (std::size_t c = 0; c < conditions.size(); ++c) {
       const StudyCondition& condition = conditions[c];

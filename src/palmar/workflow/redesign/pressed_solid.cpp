@@ -42,12 +42,17 @@ std::variant<PressedSolid, std::string> write_pressed_solid(const RedesignReques
   const Product& product = original.product();
   const std::optional<Hold> hold = original.hold();
   if (!hold) return product.name + ": held at given coordinates, so that no part is its handle";
+  PressedSolid solid;
+  // A grid that can't be made ends the search; a coarser one that was written before it stays.
+  const auto ended = [&](const Error& error) -> std::variant<PressedSolid, std::string> {
+    if (solid.file.empty()) return error.what();
+    return solid;
+  };
   try {
     HandleShape shape = pressed_handle(original, *hold, pressed, options);
     const bool is_whole = shape.body.is_whole;
     std::optional<CadSource> source;
     if (!is_whole && product.faces != nullptr) source = cad_source_of(request);
-    PressedSolid solid;
     const double end_radius = shape.end_radius;
     for (const double distance : kDistances) {
       shape.follows = outline_grid(shape.body.outlines, distance);
@@ -56,21 +61,24 @@ std::variant<PressedSolid, std::string> write_pressed_solid(const RedesignReques
       const Deviation deviation = kept_deviation(shape, made.handle.mesh.mesh, pressed);
       if (!solid.file.empty() && deviation.rms >= solid.deviation) break;
       const HandleSolid& written = made.whole ? *made.whole : made.handle;
-      solid.file = request.out / (is_whole || made.whole ? "pressed.step" : "pressed-handle.step");
-      solid.volume = written.volume;
-      solid.end_radius = shape.end_radius;
-      solid.largest_deviation = deviation.largest;
-      solid.deviation = deviation.rms;
-      solid.faces = made.handle.faces;
-      solid.poles = made.handle.poles;
-      write_file(solid.file, written.step);
+      PressedSolid next;
+      next.file = request.out / (is_whole || made.whole ? "pressed.step" : "pressed-handle.step");
+      next.volume = written.volume;
+      next.end_radius = shape.end_radius;
+      next.largest_deviation = deviation.largest;
+      next.deviation = deviation.rms;
+      next.faces = made.handle.faces;
+      next.poles = made.handle.poles;
+      write_file(next.file, written.step);
+      if (!solid.file.empty() && solid.file != next.file) std::filesystem::remove(solid.file);
+      solid = next;
       if (solid.deviation <= kWithin) break;
     }
     return solid;
   } catch (const UsageError& error) {
-    return error.what();
+    return ended(error);
   } catch (const NumericalError& error) {
-    return error.what();
+    return ended(error);
   }
 }
 
