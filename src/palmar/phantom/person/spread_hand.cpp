@@ -118,8 +118,8 @@ SpreadHand spread_person(const Hand& base, Side side, const SpreadOptions& optio
   const HandCreases relaxed(person.skin, person.skeleton);
   std::vector<Segment> segment;
   for (const Vec3& v : person.skin.vertices) segment.push_back(relaxed.label(v).segment);
-  // Fingers as thick as people's lie so near to each other that places alone don't say whose skin it
-  // is.
+  // Fingers as thick as people's lie so near to each other that places alone don't say whose skin
+  // it is.
   if (options.dispersion.is_free) segment = base.segment;
   const auto joints_in = [&](const Posture& posture, const TriangleMesh& skin) {
     Skeleton skeleton = subject_skeleton(person, posture);
