@@ -150,7 +150,7 @@ function images({folder, palmarDoes, printed, text, json, csv}) {
 
 function photographs({ask, palmarDoes, json}) {
   palmarDoes("phantom photos --seed 3 --cameras 4 --positions 5 --width-px 540 --height-px 720 --calibration 6 " +
-             "--out photos");
+             "--decentring 1e-5 --sixth 1e-4 --out photos");
   json("cameras.json", "photos/truth/cameras.json");
   json("scan subject.json", "photos/truth/subject.json");
   if (ask("photos calibrate photos/calibration --out lenses.json".split(" ")).code === 6) return;  // without OpenCV

@@ -24,13 +24,19 @@ struct PhantomArguments {
   std::string side = "right", offset = "0,0,0";
   std::vector<std::string> postures;
   double oblique_deg = 0.0;
-  bool no_fixture = false, no_markers = false;
+  bool no_fixture = false, no_markers = false, is_free = false;
 };
 
 int run_mri(const PhantomArguments& arguments, const Context& context) {
   PhantomMriRequest request = arguments.request;
   request.person.seed = context.common.seed;
   request.person.has_fixture = !arguments.no_fixture;
+  if (arguments.is_free) {
+    request.person.dispersion = kFreePerson;
+    // What a field of view of 200 mm shows.
+    request.person.dispersion.shortest = PersonDispersion{}.shortest;
+    request.person.dispersion.longest = PersonDispersion{}.longest;
+  }
   if (arguments.no_markers) request.person.markers = 0;
   request.person.side = parse_side(arguments.side);
   request.grid.oblique = arguments.oblique_deg * std::numbers::pi / 180.0;
@@ -87,6 +93,19 @@ void add_phantom_commands(CLI::App& app, Context& context) {
   verb->add_option("--bias", o->request.scanner.bias,
                    "Share by which brightness falls across the image; 0: even")
       ->capture_default_str();
+  verb->add_option("--fat-shift-mm", o->request.scanner.fat_shift,
+                   "Chemical shift: how far fat and marrow lie off along the rows")
+      ->capture_default_str();
+  verb->add_option("--acquired", o->request.scanner.acquired,
+                   "Share of the resolution that is acquired; below 1 edges ring (Gibbs)")
+      ->capture_default_str();
+  verb->add_option("--marrow-texture", o->request.scanner.marrow_texture,
+                   "Unevenness of marrow, as a share")
+      ->capture_default_str();
+  verb->add_option(
+          "--mask", o->request.scanner.mask,
+          "Signals below this many deviations of the noise are 0, as some scanners mask air")
+      ->capture_default_str();
   verb->add_option("--oblique-deg", o->oblique_deg, "Turn of the slices out of the coronal plane")
       ->capture_default_str();
   verb->add_option("--offset-mm", o->offset,
@@ -98,6 +117,7 @@ void add_phantom_commands(CLI::App& app, Context& context) {
   verb->add_flag("--no-fixture", o->no_fixture, "No paper clay below the wrist");
   verb->add_flag("--both-hands", o->request.both_hands,
                  "The other hand is beside it, on the patient's left");
+  verb->add_flag("--free", o->is_free, kFreeHelp);
   verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

@@ -20,4 +20,10 @@ void print_made_scans(const Context& context, const PhantomPerson& person,
 /// the nearest name.
 std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names);
 
+/// Of --free, which all verbs of palmar phantom have.
+inline constexpr const char* kFreeHelp =
+    "A person further from the start hand: proportions by surveys, axes 6 degrees off, outline, "
+    "webs "
+    "and oblique creases of its own, relaxed by its own soft tissue";
+
 }  // namespace palmar::cli

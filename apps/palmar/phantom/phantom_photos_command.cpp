@@ -9,6 +9,7 @@
 #include "hand/side_argument.h"
 #include "palmar/core/error.h"
 #include "palmar/workflow/phantom/phantom_photos.h"
+#include "phantom/phantom_output.h"
 #include "product/colour_argument.h"
 
 namespace palmar::cli {
@@ -93,7 +94,20 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
       ->capture_default_str();
   verb->add_option("--gloss", p.gloss, "Oily skin: share of the light that it mirrors")
       ->capture_default_str();
+  verb->add_option("--decentring", p.decentring,
+                   "Deviation of the lens' terms p1, p2, which Palmar doesn't calibrate")
+      ->capture_default_str();
+  verb->add_option("--sixth", p.sixth, "And of its term in r^6")->capture_default_str();
+  verb->add_option("--vignetting", p.vignetting, "Share of the light lost in the corners")
+      ->capture_default_str();
+  verb->add_option("--tone", p.tone, "Contrast that the camera adds, 0 to 1")
+      ->capture_default_str();
   verb->add_option("--motion-mm", p.motion, "Shift of the hand between positions, RMS")
+      ->capture_default_str();
+  verb->add_option(
+          "--finger-motion-mm", o->request.restless,
+          "How far every fingertip is from where it was in the first position, RMS: fingers "
+          "bend and spread at their knuckles")
       ->capture_default_str();
   verb->add_option("--motion-deg", p.motion_turn, "And turn, RMS")->capture_default_str();
   verb->add_flag("--light-on-rig", p.light_on_rig, "The lamps go round with the cameras");
@@ -102,6 +116,7 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
   verb->add_option("--block-mm", o->block,
                    "A cardboard box of these edges instead of the hand: width,depth,height");
   verb->add_flag("--no-hand", o->request.no_hand, "The board alone");
+  verb->add_flag("--free", o->request.is_free, kFreeHelp);
   verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

@@ -21,7 +21,7 @@ struct PhantomScanArguments {
   std::string side = "right", unit = "mm", ring, ring_colour = "#c7c7cc";
   std::string skin = "#cc9980", crease = "green", dot = "blue";
   std::vector<std::string> postures;
-  bool no_creases = false, no_dots = false, ideal = false;
+  bool is_free = false, no_creases = false, no_dots = false, ideal = false;
 
   PhantomScanArguments() {
     for (const ScanPosture posture : request.postures) postures.emplace_back(name_of(posture));
@@ -30,6 +30,10 @@ struct PhantomScanArguments {
 
 PaintedHandOptions painted_options(const PhantomScanArguments& arguments, std::uint64_t seed) {
   PaintedHandOptions options = arguments.request.person;
+  if (arguments.is_free) {
+    options.dispersion = kFreePerson;
+    options.paint.is_tinted = true;
+  }
   options.seed = seed;
   options.side = parse_side(arguments.side);
   options.paint.skin = parse_colour("--skin-colour", arguments.skin);
@@ -116,6 +120,7 @@ void add_phantom_scan(CLI::App& phantom, Context& context) {
   verb->add_flag("--ideal", o->ideal, "No noise, no holes");
   verb->add_flag("--mirrored", o->request.mirrored,
                  "Mirror the scans, as a wrong export does; the truth stays");
+  verb->add_flag("--free", o->is_free, kFreeHelp);
   verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

@@ -7,6 +7,7 @@
 #include "hand/side_argument.h"
 #include "palmar/core/error.h"
 #include "palmar/workflow/phantom/phantom_sheet.h"
+#include "phantom/phantom_output.h"
 
 namespace palmar::cli {
 namespace {
@@ -60,6 +61,7 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
   SheetPhotographOptions& p = o->request.photograph;
   verb->add_option("--out", o->request.out, "Folder; photo.jpg, truth.json, truth.ply go into it")
       ->required();
+  verb->add_flag("--free", o->request.is_free, kFreeHelp);
   verb->add_option("--start-hand", o->request.base,
                    "Whose skin's outline the person starts from: \"template\" or a .hand.glb file")
       ->capture_default_str();

@@ -96,14 +96,18 @@ std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineE
   return list;
 }
 
-void allow_for_fullness(PersonEstimate& estimate) {
+void allow_for_build(PersonEstimate& estimate) {
   for (EstimatedDimension& one : estimate.dimensions) {
-    const DimensionKind kind = one.dimension.kind;
-    if (one.is_measured || kind == DimensionKind::kHandLength ||
-        kind == DimensionKind::kSegmentLength) {
-      continue;
+    const auto [kind, segment] = one.dimension;
+    double share = 0.0;
+    if (kind == DimensionKind::kSegmentLength) {
+      share = segment == Segment::kPalm ? kPalmShare : kSegmentShare;
+    } else if (kind == DimensionKind::kSegmentWidth && one.is_measured) {
+      share = kOwnWidth;
+    } else if (kind != DimensionKind::kHandLength && !one.is_measured) {
+      share = kFullness;
     }
-    one.sd = std::hypot(one.sd, kFullness * one.value);
+    one.sd = std::hypot(one.sd, share * one.value);
   }
 }
 
@@ -131,7 +135,7 @@ OutlinePerson person_of_outline(const Hand& template_hand, const Population& pop
     person.outline = outline;
     person.measures = static_cast<int>(measures.size());
     person.estimate = estimate_person(population, measures);
-    allow_for_fullness(person.estimate);
+    allow_for_build(person.estimate);
     person.hand = maker.make(sizes_of(person.estimate)).hand;
     if (person.hand.side != side) person.hand = mirrored(person.hand);
   };

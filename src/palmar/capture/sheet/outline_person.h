@@ -26,16 +26,23 @@ std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineE
 std::vector<KnownMeasure> measures_together(std::vector<KnownMeasure> own,
                                             const std::vector<KnownMeasure>& photo);
 
-/// Share of girth, breadth, widths and thicknesses by which a hand may be fuller or leaner than the
-/// surveys' people of the same length and breadth, as a standard deviation: 0.04. The regressions'
-/// residuals are those of soldiers measured with one tape; of a hand from elsewhere girth and
-/// widths came out 5 to 11 mm too large, up to 6 % of a girth. An allowance of ours, a
-/// little less than the 5 % that breadths at the finger joints vary by about the girth (Greiner
-/// 1991).
-inline constexpr double kFullness = 0.04;
+/// Shares by which a hand may differ from the surveys' people of the same length and breadth, as
+/// standard deviations. The regressions' residuals are those of soldiers measured with one tape,
+/// and their means are in the template's proportions; both are too sure of other hands.
+inline constexpr double kFullness = 0.045;  ///< girth, breadth, widths, thicknesses that weren't
+                                            ///< measured: as breadths at the finger joints vary
+                                            ///< about the girth (Greiner 1991). Of a hand from
+                                            ///< elsewhere these were 5 to 11 mm too large
+/// Lengths of phalanges: rulers of surveys differ by 10 to 20 % from the template's segments (the
+/// middle finger's last one 28.7 mm in Greiner 1991, 35 here, in hands of 194 mm), and free persons
+/// of the phantom (docs/method/outline.md) by 16 % in the root mean square.
+inline constexpr double kSegmentShare = 0.15;
+inline constexpr double kPalmShare = 0.02;  ///< palm, likewise: 3 mm
+inline constexpr double kOwnWidth = 0.03;   ///< a measured width, which the regression thinks to be
+                                            ///< in proportion to the others
 
-/// Widens what is said of widths, thicknesses and girth that weren't measured by kFullness.
-void allow_for_fullness(PersonEstimate& estimate);
+/// Widens what is said of an outline's person by these.
+void allow_for_build(PersonEstimate& estimate);
 
 struct OutlinePerson {
   HandOutline outline;  ///< with what its measures missed on the model taken off

@@ -21,6 +21,7 @@ constexpr double kThumbIpShare = 0.13;     // of the thumb's proximal phalanx: 4
 constexpr double kTransverse = 9.0;        // mm proximal of the MCP joints; 6.8 to 10.3 mm measured
 constexpr double kAboveWeb = 1.5;          // mm; keeps the base crease a loop around one finger
 constexpr double kHighestWeb = 0.7;        // of the proximal phalanx; webs reach 0.35 to 0.5
+constexpr double kWebFacing = 0.3;         // cosine; our choice
 constexpr double kStraight = 0.87;         // cosine; from 30 deg on a finger is bent
 constexpr double kBehindWeb = 6.0;         // mm; where palmar skin ends on the first web
 constexpr double kWebWeight = 0.3;         // against the rays; small: the border bends gently
@@ -245,12 +246,20 @@ Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distan
   for (const Vec3& v : skin.vertices) level.push_back(distal.dot(v - foot));
   double best = -std::numeric_limits<double>::max();
   Vec3 web = Vec3::Zero();
-  // What lies proximal of the joints only matters to determine how far it is from being a web.
-  for (const double least : {0.0, best}) {
+  // A web faces the fingertips; flanks of thick fingers that touch face each other. What lies
+  // proximal of the joints only matters to determine how far it is from being a web.
+  struct Pass {
+    double least, facing;
+  };
+  for (const Pass& pass : {Pass{0.0, kWebFacing}, Pass{0.0, -1.0}, Pass{best, -1.0}}) {
+    const double least = pass.least;
     if (best > 0.0) break;
     for (const Triangle& t : skin.triangles) {
       const double highest = std::max({level[t[0]], level[t[1]], level[t[2]]});
       if (highest < std::max(best, least)) continue;
+      const Vec3 normal = (skin.vertices[t[1]] - skin.vertices[t[0]])
+                              .cross(skin.vertices[t[2]] - skin.vertices[t[0]]);
+      if (distal.dot(normal) < pass.facing * normal.norm()) continue;
       for (int e = 0; e < 3; ++e) {
         const std::size_t i = static_cast<std::size_t>(t[e]),
                           j = static_cast<std::size_t>(t[(e + 1) % 3]);

@@ -96,7 +96,7 @@ void MriSubjectOptions::check() const {
 MriSubject make_mri_subject(const Hand& base, const MriSubjectOptions& options) {
   options.check();
   const Hand right = base.side == Side::kRight ? base : mirrored(base);
-  const SubjectPerson person = make_person(right, options.seed);
+  const SubjectPerson person = make_person(right, options.seed, options.dispersion);
   const std::vector<SubjectBone> bones = make_subject_bones(person, options.seed);
   const SoftTissue tissue(person, bones);
   const std::vector<int> marked = marker_vertices(person, tissue, options.markers);

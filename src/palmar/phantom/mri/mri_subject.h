@@ -12,6 +12,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/hand.h"
 #include "palmar/phantom/mri/tissue_image.h"
+#include "palmar/phantom/person/subject_person.h"
 
 namespace palmar {
 
@@ -42,7 +43,8 @@ struct MriSubject {
 };
 
 struct MriSubjectOptions {
-  std::uint64_t seed = 1;  ///< of the person: size, proportions, axes, bone shapes
+  std::uint64_t seed = 1;         ///< of the person: size, proportions, axes, bone shapes
+  PersonDispersion dispersion{};  ///< how far the person differs from the base
   Side side = Side::kRight;
   bool has_fixture = true;  ///< paper clay below the wrist
   int markers = 12;         ///< 5 mm capsules round the thumb ball

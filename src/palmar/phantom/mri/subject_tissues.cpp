@@ -194,7 +194,7 @@ std::vector<ImagedPart> tissue_parts(const PosedSubject& subject, bool has_fixtu
   const TriangleMesh skin{subject.posed.skin, person.skin.triangles};
   if (has_fixture) parts.push_back({fixture_mesh(skin, wrist), kClay});
   parts.push_back({skin, kSkin});
-  parts.push_back({shrunk_skin(skin, kSkinThickness), kFat});
+  parts.push_back({shrunk_skin(skin, kSkinThickness), kFat, ImagedTissue::kFat});
   parts.push_back({muscle(subject, skin), kMuscle});
   Tendons(subject, skin).draw(parts, tendons);
   // Ligaments and cartilage between the carpals, then the joints of the fingers.
@@ -217,7 +217,8 @@ std::vector<ImagedPart> tissue_parts(const PosedSubject& subject, bool has_fixtu
     parts.push_back({moved(bone.bone.mesh, subject.motion[bone.body]), kCortex});
   }
   for (const SubjectBone& bone : *subject.bones) {
-    parts.push_back({moved(bone.marrow, subject.motion[bone.body]), kMarrow});
+    parts.push_back(
+        {moved(bone.marrow, subject.motion[bone.body]), kMarrow, ImagedTissue::kMarrow});
   }
   for (const Vec3& centre : subject.markers) {
     TriangleMesh ball = make_icosphere(kMarkerRadius, 3);

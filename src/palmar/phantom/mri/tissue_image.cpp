@@ -17,6 +17,7 @@
 #include "palmar/core/random.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/phantom/person/smooth_noise.h"
 
 namespace palmar {
 namespace {
@@ -24,6 +25,8 @@ namespace {
 // Rays are shifted by these shares of a sub-sample, so that none meets a corner of a mesh whose
 // corners lie on the grid.
 constexpr double kShiftJ = 1.0e-6, kShiftK = 0.6180339887e-6;
+
+constexpr std::uint64_t kTextureStream = std::numeric_limits<std::uint64_t>::max() - 1;
 
 // A ray along i passes through the surface of a part.
 struct Crossing {
@@ -88,21 +91,27 @@ void cross_triangle(const PartTriangles& part, int part_index, const Triangle& t
   }
 }
 
-// Adds `signal` times the share of each voxel of a row that [from, to] covers.
+// Adds `signal` times the share of each voxel of a row that [from, to] covers; times the texture
+// there if it isn't empty.
 void add_interval(double from, double to, double signal, std::size_t row_begin, int count,
-                  std::vector<double>& sum) {
+                  const std::vector<double>& texture, std::vector<double>& sum) {
   const double begin = std::max(from + 0.5, 0.0), end = std::min(to + 0.5, double(count));
   if (begin >= end) return;
   const int first = static_cast<int>(begin), last = std::min(static_cast<int>(end), count - 1);
   for (int i = first; i <= last; ++i) {
     const double covered = std::min(end, i + 1.0) - std::max(begin, double(i));
-    if (covered > 0.0) sum[row_begin + static_cast<std::size_t>(i)] += signal * covered;
+    if (covered <= 0.0) continue;
+    const std::size_t at = row_begin + static_cast<std::size_t>(i);
+    sum[at] += signal * covered * (texture.empty() ? 1.0 : texture[at]);
   }
 }
 
 // Mean signal of every voxel of one slice, without field and noise.
 std::vector<double> slice_signal(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
-                                 const SliceRays& rays, std::vector<Crossing>& crossings) {
+                                 const SliceRays& rays, double fat_shift,
+                                 const std::vector<double>& marrow,
+                                 std::vector<Crossing>& crossings) {
+  const std::vector<double> even;
   std::sort(crossings.begin(), crossings.end(), [](const Crossing& p, const Crossing& q) {
     if (p.row != q.row) return p.row < q.row;
     if (p.i != q.i) return p.i < q.i;
@@ -120,8 +129,10 @@ std::vector<double> slice_signal(const std::vector<ImagedPart>& parts, const Vol
     int top = -1;  // the last part that the ray is in
     for (; begin != end; ++begin) {
       if (top >= 0) {
-        add_interval(std::prev(begin)->i, begin->i, share * parts[top].signal, row_begin,
-                     grid.size[0], sum);
+        const ImagedTissue tissue = parts[top].tissue;
+        const double shift = tissue == ImagedTissue::kWater ? 0.0 : fat_shift / grid.spacing[0];
+        add_interval(std::prev(begin)->i + shift, begin->i + shift, share * parts[top].signal,
+                     row_begin, grid.size[0], tissue == ImagedTissue::kMarrow ? marrow : even, sum);
       }
       inside[begin->part] += begin->step;
       if (inside[begin->part] > 0) {
@@ -132,6 +143,50 @@ std::vector<double> slice_signal(const std::vector<ImagedPart>& parts, const Vol
     }
   }
   return sum;
+}
+
+// Relative signal of marrow in the voxels of a slice; empty: even.
+std::vector<double> marrow_texture(const VolumeGrid& grid, int slice, const SmoothNoise& noise,
+                                   double deviation) {
+  std::vector<double> texture;
+  if (deviation <= 0.0) return texture;
+  for (int j = 0; j < grid.size[1]; ++j) {
+    for (int i = 0; i < grid.size[0]; ++i) {
+      texture.push_back(1.0 + deviation * noise.at(grid.to_patient(Vec3(i, j, slice))));
+    }
+  }
+  return texture;
+}
+
+// What a scanner makes of a slice that acquires only a share of its frequencies along rows and
+// columns: the ideal low pass share sinc(share n).
+void limit_resolution(std::vector<double>& slice, int columns, int rows, double share) {
+  if (share >= 1.0) return;
+  constexpr int kReach = 24;  // voxels; its terms are below 2 %
+  std::array<double, kReach + 1> weight{};
+  double whole = 0.0;
+  for (int n = 0; n <= kReach; ++n) {
+    const double x = std::numbers::pi * share * n;
+    weight[n] = n == 0 ? share : share * std::sin(x) / x;
+    whole += (n == 0 ? 1.0 : 2.0) * weight[n];
+  }
+  const auto pass = [&](int count, int lines, std::size_t step, std::size_t line_step) {
+    std::vector<double> line(count);
+    for (int l = 0; l < lines; ++l) {
+      double* const first = slice.data() + static_cast<std::size_t>(l) * line_step;
+      for (int i = 0; i < count; ++i) line[i] = first[static_cast<std::size_t>(i) * step];
+      for (int i = 0; i < count; ++i) {
+        double sum = 0.0;
+        for (int n = std::max(-kReach, -i); n <= std::min(kReach, count - 1 - i); ++n) {
+          sum += weight[std::abs(n)] * line[i + n];
+        }
+        first[static_cast<std::size_t>(i) * step] = sum / whole;
+      }
+    }
+  };
+  const auto width = static_cast<std::size_t>(columns);
+  pass(columns, rows, 1, width);
+  pass(rows, columns, width, 1);
 }
 
 // Share by which the receive field is weaker at a place of the image, 0 to 1: a ramp with a slow
@@ -210,6 +265,8 @@ Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
   }
 
   const ReceiveField field(grid, options.bias, options.seed);
+  constexpr double kTextureWave = 2.5;  // mm
+  const SmoothNoise trabeculae(options.seed, kTextureStream, kTextureWave);
   // Half of the field's fall is lost on average.
   const double noise =
       options.snr > 0.0 ? brightest * (1.0 - 0.5 * options.bias) / options.snr : 0.0;
@@ -222,7 +279,10 @@ Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
       const PartTriangles& part = placed[p];
       cross_triangle(part, p, (*part.triangle)[t], rays, handedness, crossings);
     }
-    const std::vector<double> signal = slice_signal(parts, grid, rays, crossings);
+    std::vector<double> signal =
+        slice_signal(parts, grid, rays, options.fat_shift,
+                     marrow_texture(grid, k, trabeculae, options.marrow_texture), crossings);
+    limit_resolution(signal, grid.size[0], grid.size[1], options.acquired);
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         const std::size_t voxel = grid.at(i, j, k);
@@ -234,8 +294,9 @@ Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
           const double length = noise * std::sqrt(-2.0 * std::log(random.uniform()));
           const double angle = 2.0 * std::numbers::pi * random.uniform();
           value = std::hypot(value + length * std::cos(angle), length * std::sin(angle));
+          if (value < options.mask * noise) value = 0.0;
         }
-        image.value[voxel] = static_cast<float>(value);
+        image.value[voxel] = static_cast<float>(std::abs(value));  // of a magnitude image
       }
     }
   });

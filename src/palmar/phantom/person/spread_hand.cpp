@@ -6,7 +6,6 @@
 
 #include "palmar/capture/skin_registration.h"
 #include "palmar/core/error.h"
-#include "palmar/core/random.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/remesh/subdivide.h"
 #include "palmar/hand/dimensions/dimensions.h"
@@ -16,6 +15,7 @@
 #include "palmar/hand/posture/table_posture.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/template_hand.h"
+#include "palmar/phantom/person/person_random.h"
 #include "palmar/phantom/person/soft_tissue.h"
 #include "palmar/phantom/person/subject_bones.h"
 #include "palmar/phantom/person/subject_creases.h"
@@ -24,10 +24,6 @@ namespace palmar {
 namespace {
 
 constexpr std::uint64_t kHandStream = 77, kPersonStream = 79;
-
-double about_zero(RandomStream& random, double most) {
-  return most * (2.0 * random.uniform() - 1.0);
-}
 
 std::array<double, kFingerCount> tip_heights(const Skeleton& posed) {
   std::array<double, kFingerCount> z{};
@@ -101,14 +97,18 @@ SpreadHand spread_hand(const Hand& hand, const SpreadOptions& options) {
 
 SpreadHand spread_person(const Hand& base, Side side, const SpreadOptions& options) {
   options.check();
-  const SubjectPerson person =
-      make_person(base.side == Side::kRight ? base : mirrored(base), options.seed);
+  const SubjectPerson person = make_person(base.side == Side::kRight ? base : mirrored(base),
+                                           options.seed, options.dispersion);
   const std::vector<SubjectBone> bones = make_subject_bones(person, options.seed);
   const SoftTissue tissue(person, bones);
   RandomStream random(options.seed, kPersonStream);
   const Posture straight = straightened(person, random);
-  Posture spread = straight;
-  fan_out(spread, 1.0 - options.together, random);
+  Posture fan = straight;
+  fan_out(fan, 1.0 - options.together, random);
+  for (const Dof flexion : {Dof::kIndexMcpFlexion, Dof::kMiddleMcpFlexion, Dof::kRingMcpFlexion,
+                            Dof::kLittleMcpFlexion}) {
+    fan[flexion] += spread(random, options.dispersion.table);
+  }
   SubdivisionOptions finer;
   finer.levels = 1;
   const auto skin_in = [&](const Posture& posture) {
@@ -118,6 +118,9 @@ SpreadHand spread_person(const Hand& base, Side side, const SpreadOptions& optio
   const HandCreases relaxed(person.skin, person.skeleton);
   std::vector<Segment> segment;
   for (const Vec3& v : person.skin.vertices) segment.push_back(relaxed.label(v).segment);
+  // Fingers as thick as people's lie so near to each other that places alone don't say whose skin
+  // it is.
+  if (options.dispersion.is_free) segment = base.segment;
   const auto joints_in = [&](const Posture& posture, const TriangleMesh& skin) {
     Skeleton skeleton = subject_skeleton(person, posture);
     const std::vector<Vec3> vertices(
@@ -135,13 +138,13 @@ SpreadHand spread_person(const Hand& base, Side side, const SpreadOptions& optio
   }
   const TriangleMesh flat = skin_in(measured);
   const Skeleton joints = joints_in(measured, flat);
-  const HandCreases creases = subject_creases(flat, joints, options.seed);
+  const HandCreases creases = subject_creases(flat, joints, options.seed, options.dispersion);
   SpreadHand result;
   result.side = side;
   result.dimensions = measure_hand(flat, joints, creases);
-  result.skin = skin_in(spread);
+  result.skin = skin_in(fan);
   result.wrist = hand_sections(flat, joints, creases).wrist_middle;
-  const Skeleton fanned = joints_in(spread, result.skin);
+  const Skeleton fanned = joints_in(fan, result.skin);
   for (std::size_t f = 0; f < 4; ++f) result.fingertips[f] = fanned.fingertips[f + 1];
   if (side == Side::kLeft) {
     for (Vec3& v : result.skin.vertices) v.x() = -v.x();

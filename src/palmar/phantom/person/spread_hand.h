@@ -5,13 +5,15 @@
 #include <cstdint>
 
 #include "palmar/hand/hand.h"
+#include "palmar/phantom/person/subject_person.h"
 
 namespace palmar {
 
 struct SpreadOptions {
-  std::uint64_t seed = 1;  ///< of the person and of how the fingers lie
-  double together = 0.0;   ///< 0: fingers spread as given; 1: side by side
-  void check() const;      ///< throws UsageError: field, value, allowed range
+  PersonDispersion dispersion{};  ///< how far the person differs from the base
+  std::uint64_t seed = 1;         ///< of the person and of how the fingers lie
+  double together = 0.0;          ///< 0: fingers spread as given; 1: side by side
+  void check() const;             ///< throws UsageError: field, value, allowed range
 };
 
 /// A hand with straight fingers, spread, to be placed on a sheet. Hand frame: x radial of a right

@@ -2,34 +2,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/phantom/person/subject_creases.h"
 
-#include <algorithm>
-
 #include "palmar/core/enum_index.h"
-#include "palmar/core/random.h"
+#include "palmar/phantom/person/person_random.h"
 
 namespace palmar {
 namespace {
 
-constexpr std::uint64_t kCreaseStream = 60;
+constexpr std::uint64_t kCreaseStream = 60, kSlopeStream = 63;
 
-double crease_offset(RandomStream& random, double deviation) {
-  return deviation * std::clamp(random.normal(), -2.5, 2.5);
+void slope(CreasePlane& plane, const Vec3& palmar, double angle) {
+  plane.normal = Eigen::AngleAxisd(angle, palmar) * plane.normal;
 }
 
 }  // namespace
 
-HandCreases subject_creases(const TriangleMesh& skin, const Skeleton& skeleton,
-                            std::uint64_t seed) {
+HandCreases subject_creases(const TriangleMesh& skin, const Skeleton& skeleton, std::uint64_t seed,
+                            const PersonDispersion& dispersion) {
   HandCreases creases(skin, skeleton);
-  RandomStream random(seed, kCreaseStream);
+  RandomStream random(seed, kCreaseStream), slopes(seed, kSlopeStream);
   for (int k = 1; k < kSegmentCount; ++k) {
     const auto segment = static_cast<Segment>(k);
     CreasePlane plane = creases.proximal_crease(segment);
-    plane.point += crease_offset(random, 0.8) * plane.normal;
+    plane.point += spread(random, dispersion.crease) * plane.normal;
+    const Finger finger = *finger_of(segment);
+    const int first = static_cast<int>(*segments_of(finger)[0]);
+    const int node = (finger == Finger::kThumb ? 2 : 1) + k - first;
+    slope(plane, creases.palmar_direction(finger, node), spread(slopes, dispersion.crease_slope));
     creases.set_proximal_crease(segment, plane);
   }
   CreasePlane wrist = creases.wrist();
-  wrist.point += crease_offset(random, 1.2) * wrist.normal;
+  wrist.point += spread(random, 1.5 * dispersion.crease) * wrist.normal;
+  slope(wrist, Vec3::UnitZ(), spread(slopes, 0.5 * dispersion.crease_slope));
   creases.set_wrist(wrist);
   return creases;
 }

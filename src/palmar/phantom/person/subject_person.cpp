@@ -11,55 +11,20 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/degrees.h"
-#include "palmar/geometry/mesh/mesh_measures.h"
-#include "palmar/geometry/mesh/section.h"
-#include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/posture/skeleton_in_posture.h"
 #include "palmar/hand/skin/skinning.h"
+#include "palmar/phantom/person/person_outline.h"
+#include "palmar/phantom/person/person_random.h"
+#include "palmar/phantom/person/person_size.h"
 #include "palmar/phantom/person/skin_cover.h"
+#include "palmar/phantom/person/soft_tissue.h"
+#include "palmar/phantom/person/subject_bones.h"
+#include "palmar/phantom/person/subject_creases.h"
 
 namespace palmar {
 namespace {
 
-enum Stream : std::uint64_t { kSize = 1, kOutline, kJoints, kPostures };
-
-// Normal, held to two and a half deviations.
-double spread(RandomStream& random, double deviation) {
-  return deviation * std::clamp(random.normal(), -2.5, 2.5);
-}
-
-// Mean and deviation of hand length and circumference and their correlation, mm: ANSUR II (Gordon
-// et al. 2014), public data, 4082 men and 1986 women.
-struct SizeStatistics {
-  double length, length_sd, girth, girth_sd, correlation;
-};
-constexpr SizeStatistics kMen{193.28, 9.946, 212.28, 10.243, 0.5905};
-constexpr SizeStatistics kWomen{181.08, 10.056, 186.55, 8.820, 0.5697};
-
-Hand sized_hand(const Hand& base, std::uint64_t seed) {
-  RandomStream random(seed, kSize);
-  const SizeStatistics& s = random.uniform() < 0.5 ? kWomen : kMen;
-  const double z = spread(random, 1.0), y = spread(random, 1.0);
-  const double length = std::clamp(s.length + s.length_sd * z, 165.0, 194.0);
-  const double girth = std::clamp(
-      s.girth +
-          s.girth_sd * (s.correlation * z + std::sqrt(1.0 - s.correlation * s.correlation) * y),
-      170.0, 222.0);
-  const double larger = length / base.dimensions.hand_length;
-  std::vector<SizedDimension> targets{{{DimensionKind::kHandLength}, length},
-                                      {{DimensionKind::kHandCircumference}, girth}};
-  // Lengths of phalanges vary by about 3 % beside the hand's size; the middle finger follows.
-  targets.push_back({{DimensionKind::kSegmentLength, Segment::kPalm},
-                     base.dimensions.segment[0].length * larger * (1.0 + spread(random, 0.015))});
-  for (int k = 1; k < kSegmentCount; ++k) {
-    const auto segment = static_cast<Segment>(k);
-    const double own = 1.0 + spread(random, 0.03);
-    if (finger_of(segment) == Finger::kMiddle) continue;
-    targets.push_back({{DimensionKind::kSegmentLength, segment},
-                       base.dimensions.segment[k].length * larger * own});
-  }
-  return make_hand_instance(base, targets).hand;
-}
+enum Stream : std::uint64_t { kJoints = 3, kPostures };
 
 // Angles of the reference scan: a hand placed down relaxed.
 Posture relaxed(const Skeleton& skeleton, RandomStream& random) {
@@ -78,81 +43,13 @@ Posture relaxed(const Skeleton& skeleton, RandomStream& random) {
   return posture;
 }
 
-// Bumps and hollows of an outline of one's own.
-void reshape(TriangleMesh& skin, const Skeleton& skeleton, std::uint64_t seed) {
-  RandomStream random(seed, kOutline);
-  const std::vector<Vec3> normal = vertex_normals(skin);
-  struct Bump {
-    Vec3 place;
-    double width, height;
-  };
-  std::vector<Bump> bumps;
-  for (int k = 0; k < 60; ++k) {
-    const Vec3& place = skin.vertices[random.below(skin.vertices.size())];
-    const double width = 8.0 + 14.0 * random.uniform();
-    bumps.push_back({place, width, spread(random, 0.35)});
-  }
-  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
-  for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
-    const Vec3 v = skin.vertices[i];
-    double out = 0.0;
-    for (const Bump& b : bumps) {
-      out += b.height * std::exp(-(v - b.place).squaredNorm() / (2.0 * b.width * b.width));
-    }
-    // The end of the forearm stays plane.
-    out *= std::clamp((v.y() - wrist + 20.0) / 10.0, 0.0, 1.0);
-    skin.vertices[i] += std::clamp(out, -0.9, 1.2) * normal[i];
-  }
-}
-
-// Draws the stub of the forearm out until no field of view shows its end, which becomes square.
-void lengthen_forearm(TriangleMesh& skin, const Vec3& wrist) {
-  constexpr double kEnd = -85.0;  // mm from the wrist joint
-  const double begin = wrist.y() - 4.0;
-  // The cut: y = c . (1, x, z) through the vertices that face backwards.
-  const std::vector<Vec3> normal = vertex_normals(skin);
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  Vec3 right = Vec3::Zero();
-  for (std::size_t i = 0; i < normal.size(); ++i) {
-    const Vec3& v = skin.vertices[i];
-    if (v.y() > begin || normal[i].y() > -0.8) continue;
-    const Vec3 row(1.0, v.x(), v.z());
-    sum += row * row.transpose();
-    right += v.y() * row;
-  }
-  if (!(sum(0, 0) >= 3.0)) return;  // closed in another way
-  const Vec3 plane = sum.ldlt().solve(right);
-  for (Vec3& v : skin.vertices) {
-    if (v.y() >= begin) continue;
-    const double end = std::min(plane.dot(Vec3(1.0, v.x(), v.z())), begin - 5.0);
-    const double u = std::clamp((begin - v.y()) / (begin - end), 0.0, 1.05);
-    const double longer = (begin - wrist.y() - kEnd) / (begin - end);
-    v.y() = begin - (begin - end) * (u + (longer - 1.0) * u * u);
-    const double wider = 1.0 + 0.14 * u * u;
-    v.x() = wrist.x() + wider * (v.x() - wrist.x());
-    v.z() = wrist.z() + wider * (v.z() - wrist.z());
-  }
-}
-
-double finger_width(const TriangleMesh& skin, const Vec3& joint, const Vec3& axis,
-                    const Vec3& along) {
-  double best = 1e9, width = 15.0;
-  for (const SectionCurve& curve : plane_section(skin, joint, along)) {
-    const double d = (curve_centre(curve) - joint).norm();
-    if (d >= best) continue;
-    best = d;
-    width = extent(curve.point, axis);
-  }
-  return width;
-}
-
 Vec3 tilted(const Vec3& axis, RandomStream& random, double deviation) {
   const Vec3 tilt(spread(random, deviation), spread(random, deviation), spread(random, deviation));
   return (axis + tilt).normalized();
 }
 
 // Joints that don't turn as Hand's do, at places and about axes a little off those of the base.
-void make_joints(SubjectPerson& person, std::uint64_t seed) {
+void make_joints(SubjectPerson& person, std::uint64_t seed, const PersonDispersion& dispersion) {
   RandomStream random(seed, kJoints);
   const MeshDistance skin(person.skin);
   Skeleton& skeleton = person.skeleton;
@@ -164,7 +61,7 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
     node[count] = skeleton.fingertips[f];
     const Joint& second = skeleton.joint(joint_of(*segments[1]));
     const Vec3 finger = (node[2] - node[0]).normalized();
-    person.finger_width[f] = finger_width(person.skin, node[1], second.dofs.back().axis, finger);
+    person.finger_width[f] = finger_breadth(person.skin, node[1], second.dofs.back().axis, finger);
     // Joints of bones lie up to 1 mm dorsal of those of the base, or elsewhere by half a
     // millimetre, but so deep that there's room for the bones between them and the skin.
     const double least = 0.25 * person.finger_width[f] + kLeastSkinCover;
@@ -172,7 +69,13 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
       const Joint& joint = skeleton.joint(joint_of(*segments[k]));
       const Vec3 along = (node[k + 1] - node[k]).normalized();
       const Vec3 palmar = joint.dofs.back().axis.cross(along);
-      const double dorsal = 0.5 + spread(random, 0.25), distal = spread(random, 0.5);
+      const double dorsal = 0.5 + spread(random, 0.5 * dispersion.centre);
+      double distal = spread(random, dispersion.centre);
+      // The last bone is no stub: 15 to 20 mm in people, and the pulp.
+      constexpr double kLeastEnd = 15.5;  // mm
+      if (dispersion.is_free && k + 1 == count) {
+        distal = std::min(distal, (node[count] - node[k]).norm() - kLeastEnd);
+      }
       node[k] += distal * along - dorsal * palmar;
       if (k > 0) node[k] = sunk(skin, node[k], palmar, least, 3.0);
     }
@@ -183,9 +86,9 @@ void make_joints(SubjectPerson& person, std::uint64_t seed) {
       joint.flexion = model.dofs.back().dof;
       joint.centre = node[k];
       joint.along = (node[k + 1] - node[k]).normalized();
-      const Vec3 axis = tilted(model.dofs.back().axis, random, 0.02);
+      const Vec3 axis = tilted(model.dofs.back().axis, random, dispersion.axis);
       joint.axis = (axis - axis.dot(joint.along) * joint.along).normalized();
-      joint.axis = (joint.axis + spread(random, 0.015) * joint.along).normalized();
+      joint.axis = (joint.axis + spread(random, dispersion.slant) * joint.along).normalized();
       joint.radius = (k == 0 ? 0.38 : 0.25) * person.finger_width[f];
       joint.ellipse = 0.09 + spread(random, 0.02);
       joint.creep = 0.3 + spread(random, 0.08);
@@ -406,23 +309,52 @@ void make_postures(SubjectPerson& person, std::uint64_t seed) {
   all[ScanPosture::kGrasp] = grasp;
 }
 
+void find_fingertips(SubjectPerson& person, const std::vector<Segment>& segment) {
+  for (int f = 0; f < kFingerCount; ++f) {
+    person.skeleton.fingertips[f] =
+        fingertip_of(person.skin.vertices, segment, person.skeleton, static_cast<Finger>(f));
+  }
+}
+
+// Outline and reference posture of a free person: the hand in its own posture, with the joints of
+// its skeleton, is relaxed as a person's skin follows its bones.
+void relax_own_tissue(SubjectPerson& person, const Hand& hand, std::uint64_t seed,
+                      const PersonDispersion& dispersion) {
+  SubjectPerson open;
+  open.reference = reference_posture(hand.skeleton);
+  open.skin = hand.skin;
+  open.skeleton = hand.skeleton;
+  shape_fingers(open.skin, hand, seed, dispersion);
+  give_relief(open.skin, open.skeleton, seed, dispersion.relief);
+  lengthen_forearm(open.skin, open.skeleton.joint(JointId::kWrist).centre);
+  find_fingertips(open, hand.segment);
+  make_joints(open, seed, {.axis = 0.0, .slant = 0.0, .centre = 0.0});
+  open.postures[ScanPosture::kReference] = person.reference;
+  const std::vector<SubjectBone> bones = make_subject_bones(open, seed);
+  person.skin = open.skin;
+  person.skin.vertices = SoftTissue(open, bones).pose(person.reference).skin;
+  person.skeleton = subject_skeleton(open, person.reference);
+}
+
 }  // namespace
 
-SubjectPerson make_person(const Hand& base, std::uint64_t seed) {
-  const Hand hand = sized_hand(base, seed);
+SubjectPerson make_person(const Hand& base, std::uint64_t seed,
+                          const PersonDispersion& dispersion) {
+  const Hand hand = sized_hand(base, seed, dispersion);
   RandomStream random(seed, kPostures + 1);
   SubjectPerson person;
   person.reference = relaxed(hand.skeleton, random);
-  person.skin = hand.skin;
-  person.skin.vertices = pose_skin(hand, person.reference);
-  person.skeleton = skeleton_in_posture(hand.skeleton, person.reference);
-  reshape(person.skin, person.skeleton, seed);
-  lengthen_forearm(person.skin, person.skeleton.joint(JointId::kWrist).centre);
-  for (int f = 0; f < kFingerCount; ++f) {
-    person.skeleton.fingertips[f] =
-        fingertip_of(person.skin.vertices, hand.segment, person.skeleton, static_cast<Finger>(f));
+  if (dispersion.is_free) {
+    relax_own_tissue(person, hand, seed, dispersion);
+  } else {
+    person.skin = hand.skin;
+    person.skin.vertices = pose_skin(hand, person.reference);
+    person.skeleton = skeleton_in_posture(hand.skeleton, person.reference);
+    give_relief(person.skin, person.skeleton, seed, dispersion.relief);
+    lengthen_forearm(person.skin, person.skeleton.joint(JointId::kWrist).centre);
   }
-  make_joints(person, seed);
+  find_fingertips(person, hand.segment);
+  make_joints(person, seed, dispersion);
   make_postures(person, seed);
   return person;
 }

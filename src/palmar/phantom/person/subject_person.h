@@ -8,6 +8,7 @@
 #include "palmar/capture/mri/scan_posture.h"
 #include "palmar/hand/hand.h"
 #include "palmar/phantom/mri/held_bar.h"
+#include "palmar/phantom/person/person_dispersion.h"
 #include "palmar/phantom/person/subject_joints.h"
 
 namespace palmar {
@@ -23,9 +24,9 @@ struct SubjectPerson {
   HeldBar bar;                                      ///< that fingers are closed on in kGrasp
 };
 
-/// `base`: a right hand. Hand length and circumference follow the survey of ANSUR II (Gordon et al.
-/// 2014), women and men alike often, hand length held to what a field of view of 200 mm shows (165
-/// to 194 mm); the palm's share and every finger vary by themselves.
-SubjectPerson make_person(const Hand& base, std::uint64_t seed);
+/// `base`: a right hand. Size and proportions: sized_hand(). An outline of one's own by bumps and
+/// hollows, joints that aren't quite those of the base, postures of eight scans.
+SubjectPerson make_person(const Hand& base, std::uint64_t seed,
+                          const PersonDispersion& dispersion = {});
 
 }  // namespace palmar

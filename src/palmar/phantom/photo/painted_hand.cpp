@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "palmar/core/random.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
@@ -19,20 +19,18 @@
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/skin/creases.h"
 #include "palmar/hand/template_hand.h"
+#include "palmar/phantom/person/person_random.h"
 #include "palmar/phantom/person/smooth_noise.h"
 #include "palmar/phantom/person/soft_tissue.h"
 #include "palmar/phantom/person/subject_bones.h"
 #include "palmar/phantom/person/subject_creases.h"
 #include "palmar/phantom/person/subject_person.h"
+#include "palmar/phantom/photo/skin_tint.h"
 
 namespace palmar {
 namespace {
 
-enum Stream : std::uint64_t { kPattern = 61, kDots };
-
-double some(RandomStream& random, double deviation) {
-  return deviation * std::clamp(random.normal(), -2.5, 2.5);
-}
+enum Stream : std::uint64_t { kPattern = 61, kDots, kRestless = 67 };
 
 /// A place on the surface of the reference posture that goes with it.
 struct SkinPlace {
@@ -94,8 +92,8 @@ std::vector<std::pair<Segment, SkinPlace>> place_dots(const SubjectPerson& perso
                                                        {is_last ? 0.42 : 0.62, -0.6},
                                                        {is_last ? 0.42 : 0.62, 0.6}}};
       for (const auto& [share, side] : spot) {
-        const Vec3 from = joint.centre + (share + some(random, 0.02)) * along;
-        add(*chain[k], from, -palmar + (side + some(random, 0.04)) * aside);
+        const Vec3 from = joint.centre + (share + spread(random, 0.02)) * along;
+        add(*chain[k], from, -palmar + (side + spread(random, 0.04)) * aside);
       }
     }
   }
@@ -156,6 +154,8 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
   }
   const SmoothNoise coarse(options.seed, kPattern, 9.0), middle(options.seed + 1, kPattern, 3.0),
       fine(options.seed + 2, kPattern, 1.2);
+  std::optional<SkinTint> tint;
+  if (paint.is_tinted) tint.emplace(person, creases, options.seed);
   result.colour.resize(skin.vertices.size());
   parallel_for(static_cast<int>(skin.vertices.size()), [&](int v) {
     const Vec3& p = skin.vertices[v];
@@ -167,6 +167,7 @@ Paint painted(const SubjectPerson& person, const TriangleMesh& skin, const HandC
     Srgb colour = tone * paint.skin.cwiseProduct(Srgb(static_cast<float>(0.94 + 0.10 * palm),
                                                       static_cast<float>(0.92 + 0.10 * palm),
                                                       static_cast<float>(0.90 + 0.12 * palm)));
+    if (tint) colour = tint->at(p, creases.label(p).segment, colour);
     const auto ink = [&](const Srgb& with, double depth) {
       // Edges fade over 0.3 mm.
       const double share = paint.coverage * std::clamp(depth / 0.3 + 0.5, 0.0, 1.0);
@@ -241,6 +242,21 @@ std::vector<double> ring_heights(const SubjectPerson& person, const TriangleMesh
   return height;
 }
 
+/// The posture with every finger a little elsewhere, so that its tip moves by `move` mm (root of
+/// the mean square): flexion and abduction of the knuckle, for the thumb those of its saddle joint.
+Posture fidgeted(const SubjectPerson& person, Posture posture, double move, RandomStream& random) {
+  for (int f = 0; f < kFingerCount; ++f) {
+    const Joint& joint =
+        f == 0 ? person.skeleton.joint(JointId::kThumbCmc)
+               : person.skeleton.joint(joint_of(*segments_of(static_cast<Finger>(f))[0]));
+    const double reach = (person.skeleton.fingertips[f] - joint.centre).norm();
+    for (const JointDof& dof : joint.dofs) {
+      posture[dof.dof] += random.normal() * move / (std::numbers::sqrt2 * reach);
+    }
+  }
+  return posture;
+}
+
 }  // namespace
 
 void SkinPaint::check() const {
@@ -257,6 +273,12 @@ void SkinPaint::check() const {
 
 void PaintedHandOptions::check() const {
   paint.check();
+  if (takes < 1 || takes > 360) {
+    throw UsageError(fmt::format("takes is {}; 1 to 360 is allowed", takes));
+  }
+  if (!(restless >= 0.0 && restless <= 10.0)) {
+    throw UsageError(fmt::format("restless is {} mm; 0 to 10 is allowed", restless));
+  }
   if (levels < 0 || levels > 3) {
     throw UsageError(fmt::format("levels is {}; 0 to 3 is allowed", levels));
   }
@@ -266,13 +288,14 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
                               const PaintedHandOptions& options) {
   options.check();
   const Hand right = base.side == Side::kRight ? base : mirrored(base);
-  const SubjectPerson person = make_person(right, options.seed);
+  const SubjectPerson person = make_person(right, options.seed, options.dispersion);
   const std::vector<SubjectBone> bones = make_subject_bones(person, options.seed);
   const SoftTissue tissue(person, bones);
   SubdivisionOptions finer;
   finer.levels = options.levels;
   const TriangleMesh reference = subdivide(person.skin, finer);
-  const HandCreases creases = subject_creases(person.skin, person.skeleton, options.seed);
+  const HandCreases creases =
+      subject_creases(person.skin, person.skeleton, options.seed, options.dispersion);
   const Paint paint = painted(person, reference, creases, options);
 
   std::vector<double> ring;
@@ -335,6 +358,14 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
     for (Vec3& v : skin.vertices) v = side(v);
     result.skin = std::move(skin.vertices);
   }
+  RandomStream random(options.seed, kRestless);
+  for (int take = 1; take < options.takes; ++take) {
+    const Posture posture =
+        fidgeted(person, person.postures.at(postures.at(0)), options.restless, random);
+    TriangleMesh skin = subdivide({tissue.pose(posture).skin, person.skin.triangles}, finer);
+    for (Vec3& v : skin.vertices) v = side(v);
+    hand.takes.push_back(std::move(skin.vertices));
+  }
   return hand;
 }
 
@@ -343,7 +374,11 @@ ColouredMesh surface_of(const PaintedHand& hand, ScanPosture posture) {
   if (found == hand.postures.end()) {
     throw UsageError(fmt::format("{} wasn't posed in {}", hand.name, name_of(posture)));
   }
-  ColouredMesh surface{{found->second.skin, hand.triangles}, hand.colour};
+  return surface_of(hand, found->second.skin);
+}
+
+ColouredMesh surface_of(const PaintedHand& hand, const std::vector<Vec3>& skin) {
+  ColouredMesh surface{{skin, hand.triangles}, hand.colour};
   if (!hand.ring.empty()) {
     const std::vector<Vec3> normal = vertex_normals(surface.mesh);
     for (std::size_t v = 0; v < normal.size(); ++v) {

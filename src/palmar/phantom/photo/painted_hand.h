@@ -12,6 +12,7 @@
 #include "palmar/capture/mri/scan_posture.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 #include "palmar/hand/hand.h"
+#include "palmar/phantom/person/subject_person.h"
 
 namespace palmar {
 
@@ -27,6 +28,7 @@ struct SkinPaint {
   double dot_diameter = 3.0;  ///< mm
   double texture = 0.07;      ///< relative contrast of the skin's own pattern
   bool has_creases = true, has_dots = true;
+  bool is_tinted = false;  ///< redder where blood shows through, nails: see SkinTint
   Srgb ring_colour{0.78F, 0.78F, 0.80F};
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
@@ -34,9 +36,12 @@ struct SkinPaint {
 struct PaintedHandOptions {
   std::uint64_t seed = 1;  ///< of the person, see make_person(), and of the pattern on its skin
   Side side = Side::kRight;
+  PersonDispersion dispersion{};  ///< how far the person differs from the base
   SkinPaint paint;
   std::optional<Finger> ring;  ///< that wears one, on its proximal phalanx: 5 mm wide, 1.2 mm thick
-  int levels = 2;              ///< 0 to 3: how often triangles with edges of 2 mm are cut into four
+  int takes = 1;          ///< of the first posture: photographs between which fingers move a little
+  double restless = 0.0;  ///< how far each fingertip moves from take to take, RMS, mm
+  int levels = 2;         ///< 0 to 3: how often triangles with edges of 2 mm are cut into four
   void check() const;
 };
 
@@ -69,6 +74,7 @@ struct PaintedHand {
   std::vector<double> ring;   ///< per vertex: how far a ring stands off the skin, mm; empty: none
   HandDimensions dimensions;  ///< from the painted creases
   std::map<ScanPosture, PaintedPosture> postures;
+  std::vector<std::vector<Vec3>> takes;  ///< skins of the takes after the first
 };
 
 /// `base`: whose skin's outline the person starts from; `postures`: which are made.
@@ -77,5 +83,7 @@ PaintedHand make_painted_hand(const Hand& base, const std::vector<ScanPosture>& 
 
 /// One of its postures as a coloured surface, with the ring if one is worn.
 ColouredMesh surface_of(const PaintedHand& hand, ScanPosture posture);
+/// The same with its skin somewhere else.
+ColouredMesh surface_of(const PaintedHand& hand, const std::vector<Vec3>& skin);
 
 }  // namespace palmar

@@ -164,10 +164,12 @@ class Shutter {
     const PhotoLens& lens = shot_.pose.lens;
     // Directions at the corners of the pixels; between them they are as good as linear.
     const int columns = lens.width + 1;
+    const LensTerms terms = lens_terms(stage_.options, shot_.camera);
     corners_.resize(static_cast<std::size_t>(columns) * (lens.height + 1));
     parallel_for(lens.height + 1, [&](int y) {
       for (int x = 0; x < columns; ++x) {
-        corners_[static_cast<std::size_t>(y) * columns + x] = lens.direction_of({x - 0.5, y - 0.5});
+        corners_[static_cast<std::size_t>(y) * columns + x] =
+            bent(terms, lens.direction_of({x - 0.5, y - 0.5}));
       }
     });
     std::vector<Vec3f> light(static_cast<std::size_t>(lens.width) * lens.height);
@@ -176,7 +178,7 @@ class Shutter {
         Vec3f sum = Vec3f::Zero();
         for (int s = 0; s < kSide * kSide; ++s) sum += sample(x, y, s);
         light[static_cast<std::size_t>(y) * lens.width + x] =
-            sum / static_cast<float>(kSide * kSide);
+            darkened(x, y) * sum / static_cast<float>(kSide * kSide);
       }
     });
     blur(light, lens.width, lens.height);
@@ -184,6 +186,14 @@ class Shutter {
   }
 
  private:
+  /// What the lens leaves of the light.
+  float darkened(int x, int y) const {
+    const PhotoLens& lens = shot_.pose.lens;
+    const Eigen::Vector2d half(0.5 * lens.width, 0.5 * lens.height);
+    const double out = (Eigen::Vector2d(x, y) - half).squaredNorm() / half.squaredNorm();
+    return static_cast<float>(1.0 - stage_.options.vignetting * out);
+  }
+
   Vec3f sample(int x, int y, int s) const {
     const std::uint32_t key =
         scrambled(static_cast<std::uint32_t>(x) ^
@@ -356,13 +366,15 @@ class Shutter {
     RgbImage image{lens.width, lens.height, {}};
     image.rgb.resize(3 * light.size());
     const auto noise = static_cast<float>(stage_.options.noise);
+    const auto tone = static_cast<float>(stage_.options.tone);
     parallel_for(lens.height, [&](int y) {
       RandomStream random(stage_.options.seed, (static_cast<std::uint64_t>(number_ + 1) << 32) +
                                                    static_cast<std::uint64_t>(y));
       for (int x = 0; x < lens.width; ++x) {
         const std::size_t at = pixel_offset(image, x, y);
         for (std::size_t c = 0; c < 3; ++c) {
-          float value = 255.0F * srgb_of(light[at / 3][static_cast<int>(c)]);
+          const float even = srgb_of(light[at / 3][static_cast<int>(c)]);
+          float value = 255.0F * (even + tone * even * (1.0F - even) * (2.0F * even - 1.0F));
           if (noise > 0.0F) {
             // The sum of four even numbers is near enough to a normal one.
             const std::uint64_t bits = random.bits();

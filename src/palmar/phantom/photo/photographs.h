@@ -34,7 +34,11 @@ struct PhotographsOptions {
   double aperture = 0.8;   ///< diameter of the lens, mm: what isn't in focus is blurred
   double focus = 0.0;      ///< focus behind the middle of the hand, mm; negative: in front
 
-  double gloss = 0.0;         ///< share of the light that oily skin mirrors
+  double gloss = 0.0;  ///< share of the light that oily skin mirrors
+  /// Deviations of the lens' terms that PhotoLens lacks, see bent().
+  double decentring = 0.0, sixth = 0.0;
+  double vignetting = 0.0;    ///< share of the light that is lost in the corners
+  double tone = 0.0;          ///< contrast that the camera adds in the middle of the scale, 0 to 1
   bool light_on_rig = false;  ///< lamps go round with the cameras
   bool clutter = false;       ///< warm things behind the hand instead of a blue cloth
   bool one_ring = false;      ///< all cameras at the lower height
@@ -42,6 +46,16 @@ struct PhotographsOptions {
   double motion_turn = 0.0;   ///< and RMS angle, deg
   void check() const;         ///< throws UsageError: field, value, allowed range
 };
+
+/// Terms of a lens that PhotoLens lacks: decentring p1, p2 and k3 r^6 (Brown 1966).
+struct LensTerms {
+  double p1 = 0.0, p2 = 0.0, k3 = 0.0;
+};
+/// Those of a camera, drawn from the seed.
+LensTerms lens_terms(const PhotographsOptions& options, int camera);
+/// Where the light of a pixel comes from that without these terms would come from (x, y, 1):
+///   x (1 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2),   y (1 + k3 r^6) + p1 (r^2 + 2 y^2) + 2 p2 x y
+Eigen::Vector2d bent(const LensTerms& terms, const Eigen::Vector2d& direction);
 
 /// A printed board: a square picture, its middle the origin of the world, its x along the rows and
 /// y up the columns; print 0 to 255.

@@ -15,7 +15,8 @@ namespace palmar {
 namespace {
 
 // Streams of the seed.
-constexpr std::uint64_t kLenses = 1000, kShots = 2000, kMotions = 3000, kTilts = 4000;
+constexpr std::uint64_t kLenses = 1000, kShots = 2000, kMotions = 3000, kTilts = 4000,
+                        kTerms = 5000;
 
 /// One body of a make: focal lengths within 1 %, middles within 1 % of the picture.
 PhotoLens lens_of(const PhotographsOptions& options, int camera) {
@@ -61,8 +62,26 @@ void PhotographsOptions::check() const {
   require(aperture >= 0 && aperture <= 30, "aperture", aperture, "0 to 30 mm");
   require(std::abs(focus) <= 200, "focus", focus, "-200 to 200 mm");
   require(gloss >= 0 && gloss <= 1, "gloss", gloss, "0 to 1");
+  require(decentring >= 0 && decentring <= 0.01, "decentring", decentring, "0 to 0.01");
+  require(sixth >= 0 && sixth <= 1, "sixth", sixth, "0 to 1");
+  require(vignetting >= 0 && vignetting <= 0.9, "vignetting", vignetting, "0 to 0.9");
+  require(tone >= 0 && tone <= 1, "tone", tone, "0 to 1");
   require(motion >= 0 && motion <= 50, "motion", motion, "0 to 50 mm");
   require(motion_turn >= 0 && motion_turn <= 30, "motion_turn", motion_turn, "0 to 30 deg");
+}
+
+LensTerms lens_terms(const PhotographsOptions& options, int camera) {
+  RandomStream random(options.seed, kTerms + static_cast<std::uint64_t>(camera));
+  const double p1 = options.decentring * random.normal();
+  const double p2 = options.decentring * random.normal();
+  return {p1, p2, options.sixth * random.normal()};
+}
+
+Eigen::Vector2d bent(const LensTerms& terms, const Eigen::Vector2d& direction) {
+  const double x = direction.x(), y = direction.y(), r2 = direction.squaredNorm();
+  const double radial = 1.0 + terms.k3 * r2 * r2 * r2;
+  return {radial * x + 2.0 * terms.p1 * x * y + terms.p2 * (r2 + 2.0 * x * x),
+          radial * y + terms.p1 * (r2 + 2.0 * y * y) + 2.0 * terms.p2 * x * y};
 }
 
 PhotoShoot plan_photographs(const PhotographsOptions& options) {

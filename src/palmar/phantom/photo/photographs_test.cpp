@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "palmar/capture/photo/photo_model.h"
@@ -55,6 +56,24 @@ std::vector<Photograph> take_all(const ColouredMesh& object, const PhotographsOp
   return photographs;
 }
 
+/// Middle of the blue pixels near a place: the egg's dot.
+Eigen::Vector2d blue_middle(const RgbImage& image, const Eigen::Vector2d& near) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double count = 0.0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::size_t at = pixel_offset(image, x, y);
+      if ((Eigen::Vector2d(x, y) - near).norm() > 12.0 || image.rgb[at + 2] <= image.rgb[at]) {
+        continue;
+      }
+      sum += Eigen::Vector2d(x, y);
+      count += 1.0;
+    }
+  }
+  EXPECT_GT(count, 20.0);
+  return sum / count;
+}
+
 TEST(Photographs, APointIsSeenWhereTheCameraSaysSo) {
   PhotographsOptions options = small_options();
   options.noise = options.blur = options.aperture = options.texture = 0.0;
@@ -63,22 +82,64 @@ TEST(Photographs, APointIsSeenWhereTheCameraSaysSo) {
   PhotoShot shot = plan_photographs(options).shots[0];
   shot.pose.camera_from_world = looking_at(Vec3(0, -400, 100), Vec3(0, 0, 45));
   const RgbImage image = stage.take(shot, {}, 0);
-  // Middle of the blue pixels inside of the egg, against the dot's own place.
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  double count = 0.0;
   const Eigen::Vector2d middle = *shot.pose.project(Vec3(0, -20, 42));
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const std::size_t at = pixel_offset(image, x, y);
-      if ((Eigen::Vector2d(x, y) - middle).norm() > 12.0 || image.rgb[at + 2] <= image.rgb[at]) {
-        continue;
-      }
-      sum += Eigen::Vector2d(x, y);
-      count += 1.0;
-    }
+  // pixels; the dot is bent over the egg
+  EXPECT_NEAR((blue_middle(image, middle) - middle).norm(), 0.0, 0.6);
+}
+
+TEST(Photographs, ALensMayHaveTermsThatPalmarDoesNotCalibrate) {
+  // Brown 1966 by hand at (0.3, 0.4), r = 0.5.
+  const Eigen::Vector2d by_p1 = bent({.p1 = 0.01}, {0.3, 0.4});
+  EXPECT_NEAR(by_p1.x(), 0.3 + 2 * 0.01 * 0.12, 1e-15);
+  EXPECT_NEAR(by_p1.y(), 0.4 + 0.01 * (0.25 + 2 * 0.16), 1e-15);
+  const Eigen::Vector2d by_p2 = bent({.p2 = 0.01}, {0.3, 0.4});
+  EXPECT_NEAR(by_p2.x(), 0.3 + 0.01 * (0.25 + 2 * 0.09), 1e-15);
+  EXPECT_NEAR(by_p2.y(), 0.4 + 2 * 0.01 * 0.12, 1e-15);
+  EXPECT_NEAR(bent({.k3 = 0.5}, {0.3, 0.4}).norm(), 0.5 * (1.0 + 0.5 * std::pow(0.5, 6)), 1e-15);
+  // And in a picture: the dot is seen by the pixel whose bent direction meets it.
+  PhotographsOptions options = small_options();
+  options.noise = options.blur = options.aperture = options.texture = 0.0;
+  options.focal = 1.0;
+  options.decentring = 0.01;
+  const ColouredMesh egg = make_egg();
+  const PhotographsStage stage(egg, {}, options);
+  PhotoShot shot = plan_photographs(options).shots[0];
+  shot.pose.camera_from_world = looking_at(Vec3(0, -250, 100), Vec3(60, 0, 130));
+  const LensTerms terms = lens_terms(options, shot.camera);
+  const Vec3 dot = shot.pose.camera_from_world * Vec3(0, -20, 42);
+  const Eigen::Vector2d towards = dot.hnormalized();
+  Eigen::Vector2d unbent = towards;
+  for (int k = 0; k < 20; ++k) unbent -= bent(terms, unbent) - towards;
+  const auto pixel = [&](const Eigen::Vector2d& direction) {
+    return *shot.pose.project(shot.pose.camera_from_world.inverse() *
+                              Vec3(dot.z() * direction.homogeneous()));
+  };
+  const Eigen::Vector2d expected = pixel(unbent), plain = pixel(towards);
+  ASSERT_GT((expected - plain).norm(), 0.5);  // pixels; otherwise nothing is tested
+  const Eigen::Vector2d seen = blue_middle(stage.take(shot, {}, 0), expected);
+  options.decentring = 0.0;
+  const PhotographsStage straight(egg, {}, options);
+  const Eigen::Vector2d without = blue_middle(straight.take(shot, {}, 0), plain);
+  EXPECT_NEAR((seen - without - (expected - plain)).norm(), 0.0, 0.2);
+}
+
+TEST(Photographs, CornersGetLessLightByTheirDistance) {
+  PhotographsOptions options = small_options();
+  options.noise = options.blur = options.texture = options.exposure = 0.0;
+  PhotoShot shot = plan_photographs(options).shots[0];
+  shot.pose.camera_from_world = looking_at(Vec3(0, -1, 400), Vec3(0, 0, 0));
+  shot.gain = 0.4;  // nothing is as white as white gets
+  const RgbImage even = PhotographsStage({}, {}, options).take(shot, {}, 0);
+  options.vignetting = 0.4;
+  const RgbImage dark = PhotographsStage({}, {}, options).take(shot, {}, 0);
+  const auto linear = [](std::uint8_t srgb) {
+    return std::pow((srgb / 255.0 + 0.055) / 1.055, 2.4);
+  };
+  // Half way to the corner a quarter of the loss: 10 %; at the corner 40 %.
+  for (const auto& [x, y, left] : {std::array{52.0, 75.0, 0.9}, std::array{1.0, 1.0, 0.605}}) {
+    const std::size_t at = pixel_offset(even, static_cast<int>(x), static_cast<int>(y));
+    EXPECT_NEAR(linear(dark.rgb[at]) / linear(even.rgb[at]), left, 0.015) << x;
   }
-  ASSERT_GT(count, 20.0);
-  EXPECT_NEAR((sum / count - middle).norm(), 0.0, 0.6);  // pixels; the dot is bent over the egg
 }
 
 TEST(Photographs, GiveBackTheSurfaceTheyShow) {

@@ -10,15 +10,13 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/core/random.h"
 #include "palmar/geometry/degrees.h"
+#include "palmar/phantom/person/person_random.h"
 
 namespace palmar {
 namespace {
 
 constexpr double kCardGap = 9.0;  // mm, between the hand and the card
-
-double spread(RandomStream& random, double most) { return most * (2.0 * random.uniform() - 1.0); }
 
 /// Palm down, still anywhere: z from the paper up.
 Vec3 palm_down(const Vec3& p) { return {-p.x(), p.y(), -p.z()}; }
@@ -106,7 +104,7 @@ TriangleMesh hand_on_sheet(const SpreadHand& hand, const SheetPhotographOptions&
     }
   }
   TriangleMesh lying = hand.skin;
-  const double turn = spread(random, 8.0) * kDegree, aside = spread(random, 8.0);
+  const double turn = about_zero(random, 8.0) * kDegree, aside = about_zero(random, 8.0);
   const Eigen::AngleAxisd about(turn, Vec3::UnitZ());
   const Vec3 wrist = palm_down(hand.wrist);
   for (Vec3& p : lying.vertices) {
@@ -132,7 +130,7 @@ RgbImage photograph_on_sheet(const SpreadHand& hand, const SheetPhotographOption
   stage.distance = options.distance;
   RandomStream random(options.seed, 78);
   const double about = 2.0 * std::numbers::pi * random.uniform(), tilt = options.tilt * kDegree;
-  Vec3 target(spread(random, 12.0), spread(random, 12.0), 0.0);
+  Vec3 target(about_zero(random, 12.0), about_zero(random, 12.0), 0.0);
   if (options.is_card) {
     // Between the card and the hand.
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -158,7 +156,7 @@ RgbImage photograph_on_sheet(const SpreadHand& hand, const SheetPhotographOption
                                        std::sin(tilt) * std::sin(about), std::cos(tilt));
   // The camera held with the sheet's upper edge up, turned a little.
   const Vec3 forward = (target - eye).normalized();
-  const double roll = spread(random, 5.0) * kDegree;
+  const double roll = about_zero(random, 5.0) * kDegree;
   const Vec3 hint(std::cos(roll), std::sin(roll), 0.0);
   const Vec3 right = (hint - hint.dot(forward) * forward).normalized();
   Eigen::Matrix3d turn;

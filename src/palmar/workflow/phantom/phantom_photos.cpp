@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -86,21 +87,24 @@ Json rigid_json(const Rigid3& rigid) {
           {"translation_mm", vector3(rigid.translation)}};
 }
 
-Json shot_json(const PhotoShot& shot, const std::string& file) {
+Json shot_json(const PhotoShot& shot, const LensTerms& terms, const std::string& file) {
   const PhotoLens& lens = shot.pose.lens;
-  return {{"file", file},
-          {"camera", fmt::format("c{}", shot.camera)},
-          {"position", shot.position},
-          {"gain", shot.gain},
-          {"camera_from_board", rigid_json(shot.pose.camera_from_world)},
-          {"width_px", lens.width},
-          {"height_px", lens.height},
-          {"focal_x_px", lens.focal_x},
-          {"focal_y_px", lens.focal_y},
-          {"centre_x_px", lens.centre_x},
-          {"centre_y_px", lens.centre_y},
-          {"k1", lens.k1},
-          {"k2", lens.k2}};
+  Json json = {{"file", file},
+               {"camera", fmt::format("c{}", shot.camera)},
+               {"position", shot.position},
+               {"gain", shot.gain},
+               {"camera_from_board", rigid_json(shot.pose.camera_from_world)},
+               {"width_px", lens.width},
+               {"height_px", lens.height},
+               {"focal_x_px", lens.focal_x},
+               {"focal_y_px", lens.focal_y},
+               {"centre_x_px", lens.centre_x},
+               {"centre_y_px", lens.centre_y},
+               {"k1", lens.k1},
+               {"k2", lens.k2}};
+  if (terms.p1 != 0.0 || terms.p2 != 0.0) json.update({{"p1", terms.p1}, {"p2", terms.p2}});
+  if (terms.k3 != 0.0) json["k3"] = terms.k3;
+  return json;
 }
 
 /// What stands on the board, in the board's frame.
@@ -118,6 +122,12 @@ StandingSubject make_subject(const PhantomPhotosRequest& request) {
   }
   PaintedHandOptions person;
   person.seed = request.photographs.seed;
+  if (request.is_free) {
+    person.dispersion = kFreePerson;
+    person.paint.is_tinted = true;
+  }
+  person.restless = request.restless;
+  if (request.restless > 0.0) person.takes = request.photographs.positions;
   person.side = request.side;
   person.paint.skin = request.skin;
   person.paint.texture = 0.0;  // the photographs add it, finer than the mesh could hold it
@@ -126,6 +136,14 @@ StandingSubject make_subject(const PhantomPhotosRequest& request) {
   subject.board_from_hand = board_from_hand_frame(subject.surface);
   for (Vec3& vertex : subject.surface.mesh.vertices) vertex = subject.board_from_hand * vertex;
   return subject;
+}
+
+/// The hand as it stands there with its skin somewhere else.
+ColouredMesh standing(const PaintedHand& hand, const std::vector<Vec3>& skin,
+                      const StandingSubject& subject) {
+  ColouredMesh surface = surface_of(hand, skin);
+  for (Vec3& vertex : surface.mesh.vertices) vertex = subject.board_from_hand * vertex;
+  return surface;
 }
 
 void write_truth(const fs::path& folder, const PhantomPhotosRequest& request,
@@ -169,7 +187,11 @@ PhantomPhotosOutcome make_phantom_photos(const PhantomPhotosRequest& request,
   PrintedBoard board{picture.pixels, picture.grey, request.board.edge(),
                      request.board.edge() + 24.0};
   const PhotographsOptions& options = request.photographs;
-  const PhotographsStage stage(request.no_hand ? ColouredMesh{} : subject.surface, board, options);
+  const auto stage_of = [&](const ColouredMesh& hand) {
+    return std::make_unique<PhotographsStage>(request.no_hand ? ColouredMesh{} : hand, board,
+                                              options);
+  };
+  std::unique_ptr<PhotographsStage> stage = stage_of(subject.surface);
   const PhotographsStage empty({}, board, options);
   const PhotoShoot shoot = plan_photographs(options);
   const std::vector<PhotoShot> tilted = plan_calibration(options, request.calibration);
@@ -187,13 +209,20 @@ PhantomPhotosOutcome make_phantom_photos(const PhantomPhotosRequest& request,
                         const std::string& file) {
     progress.update(0.05 + 0.9 * number / static_cast<double>(count), "photographing");
     write_file(out / file, encoded(from.take(shot, moved, number++), shot, request));
-    cameras.push_back(shot_json(shot, file));
+    cameras.push_back(shot_json(shot, lens_terms(options, shot.camera), file));
   };
   create_folder(out);
   create_folder(out / "photos");
   create_folder(out / "truth");
+  std::size_t position = 0;
   for (const PhotoShot& shot : shoot.shots) {
-    take(stage, shot, shoot.board_from_hand[static_cast<std::size_t>(shot.position)],
+    if (const auto at = static_cast<std::size_t>(shot.position); at != position) {
+      position = at;
+      if (subject.hand && at <= subject.hand->takes.size()) {
+        stage = stage_of(standing(*subject.hand, subject.hand->takes[at - 1], subject));
+      }
+    }
+    take(*stage, shot, shoot.board_from_hand[static_cast<std::size_t>(shot.position)],
          fmt::format("photos/p{:02d}_c{}{}", shot.position, shot.camera, ending));
   }
   if (!tilted.empty()) create_folder(out / "calibration");

@@ -19,6 +19,8 @@ struct PhantomPhotosRequest {
   std::string out;  ///< folder; photos/, calibration/ and truth/ go into it
   ScanPosture posture = ScanPosture::kReference;
   Side side = Side::kRight;
+  bool is_free = false;            ///< the person, by kFreePerson
+  double restless = 0.0;           ///< see PaintedHandOptions::restless, take by position, mm
   PhotographsOptions photographs;  ///< its seed chooses the person, too
   BoardPattern board;
   Srgb skin{0.80F, 0.60F, 0.50F};

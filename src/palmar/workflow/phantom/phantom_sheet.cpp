@@ -28,7 +28,9 @@ struct FlatHand {
 };
 
 FlatHand make_flat_hand(const PhantomSheetRequest& request) {
-  const SpreadOptions options{.seed = request.photograph.seed, .together = request.together};
+  const SpreadOptions options{.dispersion = request.is_free ? kFreePerson : PersonDispersion{},
+                              .seed = request.photograph.seed,
+                              .together = request.together};
   if (request.hand.empty()) {
     return {spread_person(*load_hand(request.base), request.side, options), {}};
   }

@@ -14,6 +14,7 @@ namespace palmar {
 struct PhantomSheetRequest {
   std::string out;           ///< folder; photo.jpg, truth.json and the true shape go into it
   std::string sheet = "a4";  ///< "a4", "letter", "card" (a bank card beside the hand)
+  bool is_free = false;      ///< the person, by kFreePerson
   SheetPhotographOptions photograph;  ///< its seed chooses the person, too; size and thickness
                                       ///< follow from `sheet`
   Side side = Side::kRight;
