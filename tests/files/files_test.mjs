@@ -8,14 +8,14 @@ import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
-import {dirname, join} from "node:path";
+import {dirname, join, resolve} from "node:path";
 import {fileURLToPath} from "node:url";
 
 import {check, checkCsv, parseToml, readFormats, unseen} from "./documented.mjs";
 import {makeLongFiles, rare} from "./long_files.mjs";
 import {checkReaders} from "./toml_readers.mjs";
 
-const palmar = process.argv[2];
+const palmar = resolve(process.argv[2]);
 const isAll = process.argv.includes("--all");
 const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const pages = join(source, "docs/using/files");

@@ -7,12 +7,12 @@ import assert from "node:assert/strict";
 import {execFileSync, spawn, spawnSync} from "node:child_process";
 import {existsSync, mkdtempSync, readdirSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
-import {dirname, join} from "node:path";
+import {dirname, join, resolve} from "node:path";
 import {fileURLToPath} from "node:url";
 
 import {parseHelp} from "../../scripts/manual.mjs";
 
-const palmar = process.argv[2];
+const palmar = resolve(process.argv[2]);
 const modules = join(dirname(palmar), "../lib/palmar/slicer");
 const schema = join(dirname(fileURLToPath(import.meta.url)), "execution_model.rng");
 if (spawnSync("xmllint", ["--version"]).status !== 0) {
