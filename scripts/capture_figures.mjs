@@ -270,7 +270,12 @@ function image_errors(at, found) {
   const off = distances(skin.points.filter((_, k) => k % 5 === 0), read_ply(join(at, "person", "truth", "reference", "skin.ply")))
     .filter((d) => d < 5); // the image cuts the forearm
   const result = { bones, skin: mean(off), length: [], width: [], thickness: [], girth: [], axes: [], mcp: [], pip: [] };
-  for (const [name, value] of Object.entries(found.dimensions)) {
+  const { segments, ...whole } = found.hand;
+  const sizes = { ...whole };
+  for (const [segment, its] of Object.entries(segments)) {
+    for (const what of ["length", "width", "thickness"]) sizes[`${segment}_${what}_mm`] = its[`${what}_mm`];
+  }
+  for (const [name, value] of Object.entries(sizes)) {
     const kind = /(length|width|thickness|circumference)_mm$/.exec(name);
     if (kind && name in truth.dimensions) result[kind[1] === "circumference" ? "girth" : kind[1]].push(value - truth.dimensions[name]);
   }

@@ -180,7 +180,6 @@ Progress make_progress(const CommonOptions& common) {
 }
 
 void finish_progress() {
-  finish_panel();
   if (progress_line_open) std::fprintf(stderr, "\r\033[K");
   progress_line_open = false;
 }

@@ -29,6 +29,7 @@ namespace {
 
 int fail(const std::string& message, int code) {
   finish_progress();
+  finish_panel();
   std::fprintf(stderr, "palmar: %s\n", with_setting_names(message, option_named).c_str());
   return code;
 }
@@ -137,6 +138,7 @@ int run(int argc, char** argv) {
   for (const std::string& one : notes) note(context.common, one);
   const int code = context.run();
   finish_progress();
+  finish_panel();
   return code;
 }
 

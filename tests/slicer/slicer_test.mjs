@@ -110,7 +110,9 @@ try {
   assert.ok(existsSync(join(report, "report.html")));
   const shares = progressOf(run.stdout);
   assert.ok(shares.length > 2 && shares.every((one, i) => one >= (shares[i - 1] ?? 0) && one <= 1), `${shares}`);
-  assert.match(run.stdout, /^<filter-start>[\s\S]*<filter-end><\/filter-end>/m);
+  assert.deepEqual(run.stdout.match(/<filter-(start|end)>/g), ["<filter-start>", "<filter-end>"]);
+  assert.ok(run.stdout.lastIndexOf("<filter-progress>") < run.stdout.indexOf("<filter-end>"), run.stdout);
+  assert.ok(run.stdout.indexOf("<filter-start>") < run.stdout.indexOf("<filter-progress>"), run.stdout);
   assert.match(run.stdout, /a &amp; b/);
   const wrong = spawnSync(join(modules, "palmar-assess"), ["--grip_force_n", "-3", handle], {encoding: "utf8"});
   assert.equal(wrong.status, 2);
