@@ -70,6 +70,7 @@ inside "ldd --version | head -n 1; /opt/$name/bin/palmar --version; /opt/$name/b
 inside "cd /root; palmar=/opt/$name/bin/palmar
   \$palmar product make prism --fillet-mm 3 --out handle.step
   \$palmar assess handle.step --out report >/dev/null; test -s report/report.html
+  /opt/$name/lib/palmar/slicer/palmar-assess --xml | grep -q '<executable>'
   mv /opt/$name '/opt/some where else'; palmar='/opt/some where else/bin/palmar'
   \"\$palmar\" study run --product handle.step --population ansur2_women --hands 2 --out handle.palmar --quiet
   \"\$palmar\" study report handle.palmar --out study-report --quiet

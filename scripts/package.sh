@@ -55,6 +55,8 @@ time inside 'cd /root; palmar doctor || true
   test -s /usr/share/man/man1/palmar-assess.1.gz -o -s /usr/share/man/man1/palmar-assess.1'
 inside 'source /usr/share/bash-completion/completions/palmar
   COMP_WORDS=(palmar redesign sh) COMP_CWORD=2; _palmar; test "${COMPREPLY[*]}" = shape'
+inside '/usr/lib/palmar/slicer/palmar-assess --xml | grep -q "<executable>"
+  /usr/lib/palmar/slicer/palmar-hand-from-mri --xml | grep -q "<executable>"'
 echo "== removed"
 inside 'apt-get purge -y -qq palmar >/dev/null; apt-get autoremove --purge -y -qq >/dev/null
   rm -rf /root/report /root/study-report /root/handle.step /root/handle.palmar'
