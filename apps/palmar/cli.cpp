@@ -77,6 +77,11 @@ std::string running_option(const std::string& name) {
 
 }  // namespace
 
+std::string full_name(const CLI::App& app) {
+  return app.get_parent() == nullptr ? app.get_name()
+                                     : full_name(*app.get_parent()) + " " + app.get_name();
+}
+
 CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& description,
                    const std::string& example) {
   CLI::App* verb = parent.add_subcommand(name, description);
@@ -127,18 +132,23 @@ bool has_watcher() {
   return wanted != nullptr && std::string_view(wanted) == "lines";
 }
 
-/// "progress SHARE DOING" on standard output, at most ten a second.
-std::function<void(double, const std::string&)> lines_for_a_watcher() {
+/// What `write` is told never goes back, and comes at most ten times a second.
+std::function<void(double, const std::string&)> throttled(
+    std::function<void(double, const std::string&)> write) {
   const auto last = std::make_shared<std::chrono::steady_clock::time_point>();
   const auto most = std::make_shared<double>(0.0);
-  return [last, most](double share, const std::string& activity) {
+  return [last, most, write = std::move(write)](double share, const std::string& activity) {
     *most = std::clamp(share, *most, 1.0);
     const auto now = std::chrono::steady_clock::now();
     if (now - *last < std::chrono::milliseconds(100)) return;
     *last = now;
-    std::printf("progress %.4f %s\n", *most, activity.c_str());
+    write(*most, activity);
     std::fflush(stdout);
   };
+}
+
+void print_progress_line(double share, const std::string& activity) {
+  std::printf("progress %.4f %s\n", share, activity.c_str());
 }
 
 }  // namespace
@@ -148,11 +158,11 @@ Progress make_progress(const CommonOptions& common) {
   Progress progress;
   progress.cancel = &interrupted;
   if (is_module()) {
-    progress.report = progress_for_a_panel();
+    progress.report = throttled(print_panel_progress);
     return progress;
   }
   if (has_watcher()) {
-    progress.report = lines_for_a_watcher();
+    progress.report = throttled(print_progress_line);
     return progress;
   }
   if (common.quiet || common.json || isatty(STDERR_FILENO) == 0) return progress;

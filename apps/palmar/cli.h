@@ -59,6 +59,9 @@ void add_serve_command(CLI::App& app, Context& context);
 void add_study_commands(CLI::App& app, Context& context);
 void add_validate_command(CLI::App& app, Context& context);
 
+/// "palmar hand scale".
+std::string full_name(const CLI::App& app);
+
 /// Adds a verb with its worked example under the help text.
 CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& description,
                    const std::string& example);

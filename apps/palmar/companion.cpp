@@ -19,11 +19,6 @@ namespace {
                        beside.string() + " (cmake --build --preset release makes it)");
 }
 
-std::string full_name(const CLI::App& app) {
-  return app.get_parent() == nullptr ? app.get_name()
-                                     : full_name(*app.get_parent()) + " " + app.get_name();
-}
-
 }  // namespace
 
 void add_elsewhere(CLI::App& parent, Context& context, const char* program, const std::string& name,

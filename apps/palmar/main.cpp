@@ -40,11 +40,6 @@ const CLI::App* deepest_parsed(const CLI::App* app) {
   return app;
 }
 
-std::string full_name(const CLI::App* app) {
-  const std::string parent = app->get_parent() != nullptr ? full_name(app->get_parent()) : "";
-  return parent.empty() ? app->get_name() : parent + " " + app->get_name();
-}
-
 /// "pram is no kind of product; did you mean prism? There are cylinder, ..."
 std::string explain_verb(const CLI::App& where, const std::string& wrong) {
   std::vector<std::string> names;
@@ -54,10 +49,10 @@ std::string explain_verb(const CLI::App& where, const std::string& wrong) {
     if (wrong.size() > 2 && names[i].starts_with(wrong.substr(0, 2))) nearest = names[i];
   }
   const char* const what =
-      full_name(&where) == "palmar product make" ? "kind of product" : "command";
+      full_name(where) == "palmar product make" ? "kind of product" : "command";
   return wrong + " is no " + what +
          (nearest.empty() ? "; there are " : "; did you mean " + nearest + "? There are ") +
-         joined(names, ", ") + "\nTry: " + full_name(&where) + " --help";
+         joined(names, ", ") + "\nTry: " + full_name(where) + " --help";
 }
 
 /// What was wrong with the command line, and the nearest thing that would have been right.
@@ -80,7 +75,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
     const std::string nearest = nearest_name(wrong, known);
     if (!nearest.empty()) text += "; did you mean " + nearest + "?";
   }
-  return text + "\nTry: " + full_name(where) + " --help";
+  return text + "\nTry: " + full_name(*where) + " --help";
 }
 
 /// Version and build, with commit and libraries if the build's file is there

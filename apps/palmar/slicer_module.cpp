@@ -6,14 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <optional>
 #include <regex>
 #include <string_view>
 
+#include "cli.h"
 #include "help_pages.h"
 #include "palmar/core/version.h"
 #include "palmar/formats/text_scan.h"
@@ -278,12 +277,6 @@ std::string group_element(const std::string& label, bool is_advanced, const std:
       is_advanced ? " advanced=\"true\"" : "", xml_escaped(label), xml_escaped(label), elements);
 }
 
-std::string words_of(const CLI::App& app) {
-  if (app.get_parent() == nullptr) return {};
-  const std::string before = words_of(*app.get_parent());
-  return before.empty() ? app.get_name() : before + " " + app.get_name();
-}
-
 std::string title_of(std::string words) {
   words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
   return words;
@@ -298,7 +291,7 @@ std::string module_description(const CLI::App& verb) {
       "  <description>{}</description>\n  <version>{}</version>\n"
       "  <documentation-url></documentation-url>\n  <license>Apache-2.0</license>\n"
       "  <contributor>The Palmar authors</contributor>\n",
-      xml_escaped(title_of(words_of(verb))), xml_escaped(verb.get_description()), version());
+      xml_escaped(title_of(full_name(verb))), xml_escaped(verb.get_description()), version());
   text += group_element("What it works on", false, elements_of_arguments(verb));
   for (const std::string& group : option_groups(verb)) {
     std::string elements;
@@ -359,25 +352,15 @@ std::vector<std::string> module_words(const std::vector<std::string>& words) {
   return kept;
 }
 
-std::function<void(double, const std::string&)> progress_for_a_panel() {
-  using Clock = std::chrono::steady_clock;
-  const auto last = std::make_shared<std::optional<Clock::time_point>>();
-  const auto most = std::make_shared<double>(0.0);
-  return [last, most](double share, const std::string& activity) {
-    *most = std::clamp(share, *most, 1.0);
-    const auto now = Clock::now();
-    if (*last && now - **last < std::chrono::milliseconds(100)) return;
-    if (!*last) {
-      std::printf(
-          "<filter-start><filter-name>palmar</filter-name><filter-comment>%s"
-          "</filter-comment></filter-start>\n",
-          xml_escaped(activity).c_str());
-      is_panel_open = true;
-    }
-    *last = now;
-    std::printf("<filter-progress>%.4f</filter-progress>\n", *most);
-    std::fflush(stdout);
-  };
+void print_panel_progress(double share, const std::string& activity) {
+  if (!is_panel_open) {
+    std::printf(
+        "<filter-start><filter-name>palmar</filter-name><filter-comment>%s</filter-comment>"
+        "</filter-start>\n",
+        xml_escaped(activity).c_str());
+    is_panel_open = true;
+  }
+  std::printf("<filter-progress>%.4f</filter-progress>\n", share);
 }
 
 void finish_panel() {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,8 +25,9 @@ bool is_module();
 /// were left empty, or at "(default)", are dropped.
 std::vector<std::string> module_words(const std::vector<std::string>& words);
 
-/// Reports progress on standard output in the model's elements; begins with the command's name.
-std::function<void(double, const std::string&)> progress_for_a_panel();
+/// Progress on standard output in the model's elements; the first call begins them with what is
+/// done then.
+void print_panel_progress(double share, const std::string& activity);
 /// The last element, if progress was begun.
 void finish_panel();
 
