@@ -255,10 +255,13 @@ function quick_errors(at, found) {
 function image_errors(at, found) {
   const truth = JSON.parse(readFileSync(join(at, "person", "truth", "subject.json"), "utf8"));
   const bones = { found: 0, wrong: [], distance: [], p95: [] };
+  // Fat is shown off water: what was found lies where fat is.
+  const { fat_shift_mm } = JSON.parse(readFileSync(join(at, "w", "reference", "scan.json"), "utf8"));
+  const placed = (points) => points.map((p) => minus(p, fat_shift_mm));
   const mine = join(at, "w", "reference", "bones"), theirs = join(at, "person", "truth", "reference", "bones");
   for (const file of readdirSync(mine).filter((name) => !/^(radius|ulna)/.test(name))) {
     if (!existsSync(join(theirs, file))) continue; // without a name
-    const off = distances(read_ply(join(mine, file)).points, read_ply(join(theirs, file))).sort((a, b) => a - b);
+    const off = distances(placed(read_ply(join(mine, file)).points), read_ply(join(theirs, file))).sort((a, b) => a - b);
     ++bones.found;
     if (mean(off) > 3) bones.wrong.push(file.replace(".ply", ""));
     else {
@@ -267,7 +270,7 @@ function image_errors(at, found) {
     }
   }
   const skin = read_ply(join(at, "w", "reference", "skin.ply"));
-  const off = distances(skin.points.filter((_, k) => k % 5 === 0), read_ply(join(at, "person", "truth", "reference", "skin.ply")))
+  const off = distances(placed(skin.points.filter((_, k) => k % 5 === 0)), read_ply(join(at, "person", "truth", "reference", "skin.ply")))
     .filter((d) => d < 5); // the image cuts the forearm
   const result = { bones, skin: mean(off), length: [], width: [], thickness: [], girth: [], axes: [], mcp: [], pip: [] };
   const { segments, ...whole } = found.hand;

@@ -57,6 +57,7 @@ Json json_of(const ScanSurfaces& surfaces) {
           {"bone_threshold", surfaces.bone_threshold},
           {"noise", surfaces.noise},
           {"bone_error_estimate_mm", surfaces.bone_error_estimate},
+          {"fat_shift_mm", vector3(surfaces.fat_shift)},
           {"bones", std::move(bones)},
           {"markers_mm", std::move(markers)},
           {"notes", surfaces.notes}};

@@ -93,7 +93,7 @@ function images() {
     const state = truth.postures[posture];
     writeFileSync(join(to, "scan.json"), JSON.stringify({
       palmar_scan_version: 1, key: "", side: truth.side, air_threshold: 40, bone_threshold: 90, noise: 0,
-      bone_error_estimate_mm: 0.1, skin: "skin.ply",
+      bone_error_estimate_mm: 0.1, fat_shift_mm: [0, 0, 0], skin: "skin.ply",
       bones: Object.keys(state.patient_from_reference).map((name) => ({ name, file: `bones/${name}.ply`, is_cut: false })),
       markers_mm: state.markers_mm, notes: [],
     }));

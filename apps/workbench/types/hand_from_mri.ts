@@ -36,6 +36,7 @@ export interface HandFromMri {
     bone_threshold: number;
     noise: number;
     bone_error_estimate_mm: number;
+    fat_shift_mm: number[];
     notes: string[];
   }[];
   hand: HandInfo;

@@ -35,8 +35,8 @@ struct HingeFit {
   /// one. 95 of 100 axes lie within kWithin95 times the error of the true one.
   double axis_error = 0.0;
 };
-/// What registration leaves of a bone's turn, about each axis.
-inline constexpr double kTurnError = 0.0087;  // rad, half a degree
+/// What registration leaves of the turn between two bones, about each axis: 0.8 degrees of each.
+inline constexpr double kTurnError = 0.0197;  // rad
 /// Radius that 95 % of a two-dimensional normal distribution lie within, in standard deviations.
 inline constexpr double kWithin95 = 2.4477;
 /// The axis (u, p), angles and slides that make
@@ -47,7 +47,7 @@ inline constexpr double kWithin95 = 2.4477;
 HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points, const Vec3& near);
 
 /// Turn from which an axis can be determined in the presence of what registration leaves (about
-/// half a degree): then it errs by less than ten degrees.
+/// a degree between two bones): then it errs by some 20 degrees.
 inline constexpr double kLeastTurn = 0.05;  // rad
 
 }  // namespace palmar

@@ -215,12 +215,12 @@ TEST(FitHinge, ItsErrorIsThatOfTheTurnsOverTheTurns) {
     }
     return fit_hinge(motions, points, kOnAxis).axis_error / kDegree;
   };
-  // Half a degree over three, over sixty (its chord); four like turns show twice as much as one,
+  // 1.13 degrees over three, over sixty (its chord); four like turns show twice as much as one,
   // and a small one beside a large one hardly anything.
-  EXPECT_NEAR(error_of({3.0}), 9.5, 0.1);
-  EXPECT_NEAR(error_of({60.0}), 0.5, 0.01);
-  EXPECT_NEAR(error_of({60.0, 60.0, 60.0, 60.0}), 0.25, 0.005);
-  EXPECT_NEAR(error_of({60.0, 3.0}), 0.5, 0.01);
+  EXPECT_NEAR(error_of({3.0}), 21.56, 0.1);
+  EXPECT_NEAR(error_of({60.0}), 1.129, 0.01);
+  EXPECT_NEAR(error_of({60.0, 60.0, 60.0, 60.0}), 0.564, 0.005);
+  EXPECT_NEAR(error_of({60.0, 3.0}), 1.127, 0.01);
 }
 
 TEST(FitHinge, NineteenOfTwentyAxesLieWithinTheirErrors) {

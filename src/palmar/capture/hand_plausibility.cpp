@@ -12,16 +12,18 @@ namespace palmar {
 
 std::vector<std::string> impossible_dimensions(const HandDimensions& found,
                                                const HandDimensions& model) {
+  constexpr double kCreaseAside = 2.0;  // mm; of the short segments it is a large share
   struct Ratio {
     std::string what;
     double value, expected;
+    double slack = 0.0;
   };
   std::vector<Ratio> all;
   std::vector<double> ratios;
   for (int s = 0; s < kSegmentCount; ++s) {
     const SegmentDimensions &mine = found.segment[s], &usual = model.segment[s];
     const std::string name(name_of(static_cast<Segment>(s)));
-    all.push_back({name + " is {:.0f} mm long", mine.length, usual.length});
+    all.push_back({name + " is {:.0f} mm long", mine.length, usual.length, kCreaseAside});
     all.push_back({name + " is {:.0f} mm wide", mine.width, usual.width});
     all.push_back({name + " is {:.0f} mm thick", mine.thickness, usual.thickness});
   }
@@ -30,7 +32,7 @@ std::vector<std::string> impossible_dimensions(const HandDimensions& found,
   std::vector<std::string> clauses;
   for (const Ratio& one : all) {
     const double expected = size * one.expected;
-    if (one.value >= 0.45 * expected && one.value <= 2.2 * expected) continue;
+    if (one.value + one.slack >= 0.45 * expected && one.value <= 2.2 * expected) continue;
     clauses.push_back(fmt::format(fmt::runtime(one.what + ", where about {:.0f} mm are expected"),
                                   one.value, expected));
   }

@@ -27,9 +27,9 @@ TEST(ImpossibleDimensions, PeopleDiffer) {
 TEST(ImpossibleDimensions, AFingerFiveTimesAsWideIsNamed) {
   HandDimensions found = dimensions(0.8);
   found.segment[index_of(Segment::kLittleProximal)].width = 79.2;
-  found.segment[index_of(Segment::kMiddleProximal)].length = 10.0;
+  found.segment[index_of(Segment::kMiddleProximal)].length = 8.0;
   EXPECT_THAT(impossible_dimensions(found, dimensions(1.0)),
-              ElementsAre("middle_proximal is 10 mm long, where about 24 mm are expected",
+              ElementsAre("middle_proximal is 8 mm long, where about 24 mm are expected",
                           "little_proximal is 79 mm wide, where about 13 mm are expected"));
 }
 

@@ -17,6 +17,7 @@
 #include "palmar/imaging/denoise.h"
 #include "palmar/imaging/gaussian_filter.h"
 #include "palmar/imaging/noise_floor.h"
+#include "palmar/imaging/tissue_noise.h"
 #include "palmar/statistics/median.h"
 
 namespace palmar {
@@ -26,6 +27,7 @@ constexpr double kMargin = 8.0;          // mm of air kept round the hand
 constexpr double kLeastVolume = 60.0e3;  // mm^3: a child's hand has 100 cm^3
 constexpr double kSmoothing = 0.45;      // mm
 constexpr double kRoughly = 0.8;         // mm
+constexpr double kDeep = 2.0;            // mm below the skin: no edge of it
 
 /// Air round the tissue: what reaches the outside through openings wider than 3 mm, and 4 mm into
 /// narrower ones. Dark tissue (tendons, cortical bone) that comes close to the skin is none.
@@ -244,6 +246,11 @@ double given_threshold(double threshold, double noise) {
   return threshold > 0.0 ? without_noise_floor(threshold, noise) : 0.0;
 }
 
+/// From what the air shows: the median of Rayleigh's distribution. 0 where the scanner masked it.
+double air_noise(std::vector<float> air) {
+  return static_cast<double>(median(std::move(air))) / std::sqrt(2.0 * std::log(2.0));
+}
+
 struct MeasuredScan {
   ScanImage scan;    ///< without body, markers and fixture
   VoxelMask tissue;  ///< of the hand, roughly
@@ -273,9 +280,10 @@ MeasuredScan measured_scan(const Volume& image, const std::string& name,
   for (std::size_t v = 0; v < tissue.size(); ++v) {
     if (from_tissue[v] > 3.0F) air.push_back(scan.image.value[v]);
   }
-  // The median of Rayleigh's distribution.
-  levels.noise = median(air) / std::sqrt(2.0 * std::log(2.0));
-  scan.image = without_noise_floor(std::move(scan.image), levels.noise);
+  levels.floor = air_noise(std::move(air));
+  levels.noise =
+      levels.floor > 0.0 ? levels.floor : tissue_noise(scan.image, depth_in(grid, tissue), kDeep);
+  scan.image = without_noise_floor(std::move(scan.image), levels.floor);
   scan.smooth = gaussian_filtered(scan.image, kSmoothing);
   rough = gaussian_filtered(scan.image, kRoughly);
 
@@ -289,10 +297,10 @@ MeasuredScan measured_scan(const Volume& image, const std::string& name,
   };
   tissue = filled(grid, tissue);
   scan.depth = depth_in(grid, tissue);
-  find_bone_levels(scan, given_threshold(options.bone_threshold, levels.noise));
+  find_bone_levels(scan, given_threshold(options.bone_threshold, levels.floor));
   levels.skin = median_at_depth(tissue);
   levels.air_threshold = options.air_threshold > 0.0
-                             ? given_threshold(options.air_threshold, levels.noise)
+                             ? given_threshold(options.air_threshold, levels.floor)
                              : 0.5 * levels.skin;
   for (std::size_t v = 0; v < tissue.size(); ++v) {
     tissue[v] = static_cast<double>(rough.value[v]) > 0.9 * levels.air_threshold ? 1 : 0;
@@ -325,7 +333,7 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
     if (taken[v] != 0) tissue[v] = 0;
   }
   scan.fixture = find_fixture(rough, tissue, air_round(grid, tissue), levels.bright, levels.skin,
-                              levels.noise);
+                              levels.floor);
   if (!scan.fixture.mask.empty()) {
     scan.notes.push_back(
         fmt::format("a fixture of {:.0f} cm^3 was taken off the hand", scan.fixture.volume / 1e3));
@@ -347,7 +355,7 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
   const ConnectedParts whole_parts = connected_parts(grid, scan.body);
   scan.body = mask_of(whole_parts, whole_parts.largest());
   scan.depth = depth_in(grid, scan.body);
-  find_bone_levels(scan, given_threshold(options.bone_threshold, levels.noise));
+  find_bone_levels(scan, given_threshold(options.bone_threshold, levels.floor));
   return scan;
 }
 

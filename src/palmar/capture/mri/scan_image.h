@@ -16,6 +16,7 @@ namespace palmar {
 /// Signals of a T1-weighted image without bias and noise floor; air has 0.
 struct ScanLevels {
   double noise = 0.0;   ///< standard deviation in tissue
+  double floor = 0.0;   ///< noise whose floor was taken out: 0 where the scanner masked the air
   double dark = 0.0;    ///< cortical bone
   double bright = 0.0;  ///< marrow and fat
   double skin = 0.0;

@@ -9,6 +9,7 @@
 
 #include "palmar/capture/mri/bones/bone_names.h"
 #include "palmar/capture/mri/bones/bone_regions.h"
+#include "palmar/capture/mri/bones/fat_shift.h"
 #include "palmar/capture/mri/bones/shell_fit.h"
 #include "palmar/capture/mri/scan_image.h"
 #include "palmar/core/error.h"
@@ -49,6 +50,29 @@ TriangleMesh skin_surface(const ScanImage& scan, double edge_length,
   }
   const TriangleMesh mesh = smooth_taubin(surface.mesh, {.rounds = 8});
   return remesh(mesh, {.edge_length = edge_length, .rounds = 8}).mesh;
+}
+
+/// Where fat is shown off water, the skin is moved to the bones, and what is left of that makes
+/// them less certain. `seen`: by the bones.
+void move_skin_to_fat(const SurfaceOptions& options, const Vec3& seen, ScanSurfaces& surfaces) {
+  const Vec3& stated = options.fat_shift;
+  constexpr double kNamed = 0.3, kSeen = 0.5;         // mm, by the settings and by the bones alone
+  constexpr double kLeft = 0.4, kUncorrected = 0.65;  // share of the shift in the bones' errors
+  surfaces.fat_shift = options.is_fat_side_known ? stated : signed_fat_shift(stated, seen);
+  for (Vec3& v : surfaces.skin.vertices) v += surfaces.fat_shift;
+  const bool is_corrected = surfaces.fat_shift != Vec3::Zero();
+  const bool is_stated = stated != Vec3::Zero();
+  const double shift = is_stated ? stated.norm() : seen.norm() > kSeen ? seen.norm() : 0.0;
+  surfaces.bone_error_estimate =
+      std::hypot(surfaces.bone_error_estimate, (is_corrected ? kLeft : kUncorrected) * shift);
+  if (shift < kNamed) return;
+  surfaces.notes.push_back(fmt::format(
+      "fat, and with it the bones' marrow, is shown {}{:.1f} mm off: {}. A read-out of twice the "
+      "bandwidth halves it",
+      is_stated ? "" : "about ", shift,
+      is_corrected ? "the skin was moved to the bones by as much"
+      : is_stated  ? "to which side the bones don't show, and nothing was corrected"
+                   : "the file doesn't state the read-out's bandwidth, and nothing was corrected"));
 }
 
 }  // namespace
@@ -104,8 +128,8 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   ScanSurfaces surfaces;
   surfaces.markers = scan.markers;
   surfaces.notes = scan.notes;
-  surfaces.air_threshold = with_noise_floor(scan.levels.air_threshold, scan.levels.noise);
-  surfaces.bone_threshold = with_noise_floor(scan.levels.bone_threshold, scan.levels.noise);
+  surfaces.air_threshold = with_noise_floor(scan.levels.air_threshold, scan.levels.floor);
+  surfaces.bone_threshold = with_noise_floor(scan.levels.bone_threshold, scan.levels.floor);
   surfaces.noise = scan.levels.noise;
   surfaces.voxel = image.grid.spacing;
 
@@ -145,8 +169,9 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
     bone[v] = regions.region[v] < 0 ? -1 : bone_of[regions.region[v]];
     if (scan.depth[v] < 0.7F) bone[v] = -2;
   }
-  const ShellImage shell{scan.image, bone, scan.levels.dark, scan.levels.bright, scan.levels.noise};
+  const ShellImage shell{scan.image, bone, scan.levels.dark, scan.levels.bright, scan.levels.floor};
   surfaces.bones.resize(names.bones.size());
+  std::vector<LayerFit> shells(names.bones.size());
   parallel_for(static_cast<int>(names.bones.size()), [&](int b) {
     if (progress.is_cancelled()) return;
     ScannedBone& found = surfaces.bones[b];
@@ -154,12 +179,14 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
     found.is_cut = names.bones[b].is_cut;
     TriangleMesh mesh = marrow_surface(scan, names.bones[b], options.edge_length);
     for (int round = 0; round < 2; ++round) {
-      mesh = fit_shell(mesh, b, shell).mesh;
+      shells[b] = fit_shell(mesh, b, shell);
+      mesh = shells[b].mesh;
       mesh = smooth_tangentially(smooth_taubin(mesh, {.rounds = 4}), {.rounds = 4});
     }
     found.mesh = std::move(mesh);
   });
   progress.throw_if_cancelled();
+  move_skin_to_fat(options, fat_shift(shells), surfaces);
   return surfaces;
 }
 

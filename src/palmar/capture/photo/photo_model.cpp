@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "palmar/capture/photo/surface/flat_patches.h"
@@ -26,6 +27,23 @@ namespace palmar {
 namespace {
 
 constexpr std::size_t kFewest = 6;  // photographs
+
+// One of every five photographs (rigs of six cameras take turns) is compared with its neighbours
+// first: where patches correlate badly, larger ones are taken.
+constexpr std::size_t kTriedOf = 5;
+constexpr double kUnlike = 0.25;  // 1 - correlation, median
+constexpr int kWideRadius = 5;    // pixels
+
+/// Median of what patches of the hand cost that have one.
+double usual_cost(const std::vector<DepthMap>& maps) {
+  constexpr float kNoCost = 2.0F;
+  std::vector<float> costs;
+  for (const DepthMap& map : maps) {
+    std::copy_if(map.cost.begin(), map.cost.end(), std::back_inserter(costs),
+                 [](float cost) { return cost < kNoCost; });
+  }
+  return static_cast<double>(median(std::move(costs)));
+}
 
 /// Which of the parts that triangles belong to has the largest area.
 int largest(const TriangleMesh& mesh, const std::vector<int>& part) {
@@ -228,9 +246,8 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
         "something reaches the border of the space that is searched, which cuts it off there; a "
         "larger one may be needed (setting \"box\"), or a plain backdrop");
   }
-  const PatchMatchOptions& stereo = options.stereo;
   const Vec3 centre = bounding_box(hull.surface).center();
-  const std::vector<std::vector<int>> sources = choose_sources(views, centre, stereo);
+  const std::vector<std::vector<int>> sources = choose_sources(views, centre, options.stereo);
   const auto lonely = static_cast<std::size_t>(std::count_if(
       sources.begin(), sources.end(), [](const std::vector<int>& s) { return s.size() < 2; }));
   if (2 * lonely > count) {
@@ -251,9 +268,25 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   }
   const RayQuery bound(hull.surface);
   std::vector<DepthMap> maps(count);
-  over_views(count, part_of(progress, begin, 0.75), "comparing photographs", [&](std::size_t v) {
+  PatchMatchOptions stereo = options.stereo;
+  const auto match = [&](std::size_t v) {
     maps[v] = match_patches(views, packs, static_cast<int>(v), masks[v], sources[v], bound,
                             hull.surface, stereo);
+  };
+  const std::size_t tried = (count + kTriedOf - 1) / kTriedOf;
+  const double compared = begin + (0.75 - begin) / kTriedOf;
+  over_views(tried, part_of(progress, begin, compared), "comparing photographs",
+             [&](std::size_t k) { match(k * kTriedOf); });
+  if (usual_cost(maps) > kUnlike) {
+    stereo.radius = std::max(stereo.radius, kWideRadius);
+    maps.assign(count, {});
+    model.warnings.emplace_back(
+        "the photographs hardly show the skin's texture (dark or shining skin, noise, strong "
+        "compression): they were compared in larger patches, which takes longer and smooths what "
+        "is small; more light helps");
+  }
+  over_views(count, part_of(progress, compared, 0.75), "comparing photographs", [&](std::size_t v) {
+    if (maps[v].cost.empty()) match(v);
   });
   progress.update(0.75, "keeping what agrees");
   DepthFusionOptions fusion = options.fusion;

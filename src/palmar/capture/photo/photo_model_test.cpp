@@ -65,5 +65,19 @@ TEST(PhotoModel, FromOneHeightLessIsCalledMeasured) {
   EXPECT_GT(model.measured_share, 0.8);
 }
 
+TEST(PhotoModel, SkinThatHardlyShowsTextureIsComparedInLargerPatches) {
+  DrawnRod rod;
+  rod.texture = 0.03;
+  rod.noise = 10.0;
+  const PhotoModel model = model_of(rod, 24, {20.0, 46.0});
+  EXPECT_THAT(model.warnings, Contains(HasSubstr("hardly show the skin's texture")));
+  EXPECT_NEAR(mean_distance(model, rod, 10.0, 50.0), 0.0, 0.1);  // mm
+  EXPECT_GT(model.measured_share, 0.8);
+  rod.texture = 0.1;
+  rod.noise = 4.0;
+  EXPECT_THAT(model_of(rod, 24, {20.0, 46.0}).warnings,
+              Not(Contains(HasSubstr("hardly show the skin's texture"))));
+}
+
 }  // namespace
 }  // namespace palmar

@@ -44,6 +44,9 @@ struct ImageFile {
   std::string description;  ///< series' description, or the file's name
   std::string laterality;
   std::vector<std::string> notes;  ///< duplicates left out, small irregularities: sentences
+  /// Along the read-out, as long as what fat is shown off water by the bandwidth that the file
+  /// states, mm; towards which side it doesn't say. Zero where that isn't known. (dicom_readout.h)
+  Vec3 fat_shift = Vec3::Zero();
   /// Slices that don't belong between their neighbours (imaging/odd_slices.h), most likely damaged:
   /// sentences naming the file. Not among the notes.
   std::vector<std::string> odd_slices;
@@ -62,7 +65,8 @@ struct DicomHeader {
   std::string description;
   std::string laterality;  ///< "R", "L" or ""
   int number = 1;
-  std::string study_uid;  ///< "" : made from patient
+  std::string study_uid;   ///< "" : made from patient
+  double fat_shift = 0.0;  ///< along the rows, mm: written as bandwidth of the read-out; 0: unsaid
 };
 
 /// Writes one MR series, a file per slice, 16 bits, with the tags of an MR image: position,

@@ -31,6 +31,8 @@ bool is_group_read(DicomTag tag) {
     case 0x00189114:  // MR echo
     case 0x00189117:  // MR diffusion
     case 0x00189226:  // MR image frame type
+    case 0x00189006:  // MR imaging modifier
+    case 0x00189125:  // MR field of view and geometry
       return true;
     default:
       return false;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "palmar/formats/image/dicom_plane.h"
+#include "palmar/formats/image/dicom_readout.h"
 
 namespace palmar {
 namespace {
@@ -49,6 +50,7 @@ void read_groups(const DicomAttributes& attributes, DicomSlice& slice) {
   slice.kind = kind_of(attributes);
   slice.damage = read_rescaling(attributes, slice);
   if (slice.damage.empty()) slice.damage = read_plane(attributes, slice);
+  slice.fat_shift = fat_shift_of(attributes, slice);
 }
 
 std::vector<DicomSlice> grouped_frames(const DicomElements& elements, const DicomSlice& whole) {
@@ -138,6 +140,7 @@ std::vector<DicomSlice> stacked_frames(const DicomElements& elements, const Dico
   DicomSlice first = whole;
   first.kind = kind_of(elements);
   first.damage = read_plane(elements, first);
+  first.fat_shift = fat_shift_of(elements, first);
   if (!first.damage.empty() || first.frames == 1) return {first};
   const std::vector<double> distances = distances_of(elements, first);
   if (!first.damage.empty()) return {first};

@@ -219,6 +219,7 @@ ImageFile read_dicom(const std::string& path, const SeriesChoice& choice,
   ImageFile file;
   file.description = stack.series.description;
   file.laterality = stack.series.laterality;
+  file.fat_shift = stack.slices.front().fat_shift;
   file.notes = stack.notes;
   const std::vector<DicomSlice> slices = without_doubles(stack, file.notes);
   const DicomSlice& first = slices.front();

@@ -36,6 +36,7 @@ struct DicomSlice {
   Vec3 position = Vec3::Zero();                      ///< centre of the first pixel, mm
   double pixel_width = 1.0, pixel_height = 1.0;      ///< mm, along i and j
   std::optional<double> thickness;                   ///< mm
+  Vec3 fat_shift = Vec3::Zero();                     ///< ImageFile::fat_shift
   bool has_pixels = false, is_encapsulated = false;
   bool is_lossy = false;  ///< compressed with loss, once
   std::uint64_t pixel_offset = 0, pixel_length = 0;

@@ -13,6 +13,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/image/dicom.h"
 #include "palmar/formats/image/dicom_elements.h"
+#include "palmar/formats/image/dicom_readout.h"
 #include "palmar/formats/sha256.h"
 
 namespace palmar {
@@ -173,9 +174,19 @@ std::string slice_bytes(const Volume& image, int k, const DicomHeader& header,
   set.text(0x00180050, "DS", decimal_string(grid.spacing[2]));
   set.text(0x00180080, "DS", "500");  // repetition and echo time of a T1 image, ms
   set.text(0x00180081, "DS", "12");
+  constexpr double kFrequency = 63.87;  // MHz, at 1.5 tesla
+  const double bandwidth =
+      header.fat_shift == 0.0
+          ? 0.0
+          : kFatBelowWater * 1e6 * kFrequency * grid.spacing[0] / std::abs(header.fat_shift);
+  if (bandwidth > 0.0) set.text(0x00180084, "DS", decimal_string(kFrequency));
   set.text(0x00180087, "DS", "1.5");  // tesla
   set.text(0x00180088, "DS", decimal_string(grid.spacing[2]));
   set.text(0x00180091, "IS", "1");
+  if (bandwidth > 0.0) {
+    set.text(0x00180095, "DS", decimal_string(bandwidth));
+    set.text(0x00181312, "CS", "COL");  // phases along the columns, read-out along the rows
+  }
   set.text(0x00185100, "CS", "HFP");
   set.text(0x0020000D, "UI", names.study);
   set.text(0x0020000E, "UI", names.series);

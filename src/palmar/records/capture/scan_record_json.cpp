@@ -39,6 +39,7 @@ Json scans_json(const ScanRecord& record) {
                     {"bone_threshold", surfaces.bone_threshold},
                     {"noise", surfaces.noise},
                     {"bone_error_estimate_mm", surfaces.bone_error_estimate},
+                    {"fat_shift_mm", vector3(surfaces.fat_shift)},
                     {"notes", surfaces.notes}});
   }
   return list;

@@ -82,6 +82,7 @@ void write_scan_surfaces(const std::string& folder, const ScanSurfaces& surfaces
                       {"noise", surfaces.noise},
                       {"voxel_mm", vector3(surfaces.voxel)},
                       {"bone_error_estimate_mm", surfaces.bone_error_estimate},
+                      {"fat_shift_mm", vector3(surfaces.fat_shift)},
                       {"skin", "skin.ply"},
                       {"bones", bones},
                       {"markers_mm", markers},
@@ -120,6 +121,7 @@ ScanSurfaces read_scan_surfaces(const std::string& folder) {
     surfaces.noise = json.at("noise").get<double>();
     if (json.contains("voxel_mm")) surfaces.voxel = vector_in(json.at("voxel_mm"));
     surfaces.bone_error_estimate = json.at("bone_error_estimate_mm").get<double>();
+    if (json.contains("fat_shift_mm")) surfaces.fat_shift = vector_in(json.at("fat_shift_mm"));
     surfaces.skin = mesh_at(base / json.at("skin").get<std::string>());
     for (const Json& bone : json.at("bones")) {
       surfaces.bones.push_back({bone.at("name").get<std::string>(),

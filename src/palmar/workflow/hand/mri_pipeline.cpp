@@ -91,9 +91,23 @@ struct PlannedScan {
   bool is_kept = false;  ///< surfaces are there already
 };
 
-/// `reference`: the side of the reference scan, once it is known: another one must be clearly the
-/// other hand's to be taken for it.
-RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, std::optional<Side> reference,
+/// What the reference scan shows of the others: the side, so that another one must be clearly the
+/// other hand's to be taken for it, and to which side the read-out shows fat.
+void take_from_reference(const ScanSurfaces& reference, SurfaceOptions& how) {
+  if (!how.side) {
+    how.side = reference.side;
+    how.doubted_below = 0.75;
+  }
+  constexpr double kParallel = 0.99;
+  const double both = reference.fat_shift.norm() * how.fat_shift.norm();
+  const double along = reference.fat_shift.dot(how.fat_shift);
+  if (both == 0.0 || std::abs(along) < kParallel * both) return;
+  if (along < 0.0) how.fat_shift = -how.fat_shift;
+  how.is_fat_side_known = true;
+}
+
+/// `reference`: surfaces of the reference scan, once there are any.
+RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, const ScanSurfaces* reference,
                          const MriPipelineOptions& options, const Progress& progress) {
   const SelectedScan& selected = *plan.selected;
   RecordedScan scan;
@@ -110,10 +124,8 @@ RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, std::option
   const ImageFile file = read_image(selected.path, selected.choice, part_of(progress, 0.0, 0.1));
   scan.laterality = file.laterality;
   SurfaceOptions how = options.surfaces;
-  if (!how.side && reference) {
-    how.side = reference;
-    how.doubted_below = 0.75;
-  }
+  how.fat_shift = file.fat_shift;
+  if (reference != nullptr) take_from_reference(*reference, how);
   scan.surfaces =
       find_surfaces(file.image, selected.title, model, how, part_of(progress, 0.1, 1.0));
   scan.surfaces.notes.insert(scan.surfaces.notes.begin(), file.notes.begin(), file.notes.end());
@@ -290,9 +302,9 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
   for (const PlannedScan& plan : plans) {
     const std::string name(name_of(plan.selected->posture));
     step = {"surfaces", name};
-    std::optional<Side> side;
-    if (!result.scans.empty()) side = result.scans.front().surfaces.side;
-    result.scans.push_back(surfaces_of(plan, model, side, options,
+    const ScanSurfaces* const reference =
+        result.scans.empty() ? nullptr : &result.scans.front().surfaces;
+    result.scans.push_back(surfaces_of(plan, model, reference, options,
                                        shares.next(progress, plan.is_kept ? kKept : kFound, name)));
     const RecordedScan& scan = result.scans.back();
     for (const std::string& note : scan.surfaces.notes) on_note(name + ": " + note);

@@ -45,7 +45,7 @@ MriImageInfo describe_mri_image(const std::string& image, const SeriesChoice& ch
   info.most = *most;
   try {
     const ScanLevels levels = scan_levels(volume, image, {}, part_of(progress, 0.3, 1.0));
-    info.air_threshold = with_noise_floor(levels.air_threshold, levels.noise);
+    info.air_threshold = with_noise_floor(levels.air_threshold, levels.floor);
     info.noise = levels.noise;
   } catch (const InputError& error) {
     info.no_hand = error.what();
@@ -70,8 +70,9 @@ MriSurfacesOutcome find_mri_surfaces(const MriSurfacesRequest& request, const Pr
   require_sound_slices(file.odd_slices, request.accepts_odd_slices);
   MriSurfacesOutcome outcome;
   ScanSurfaces& surfaces = outcome.surfaces;
-  surfaces = find_surfaces(file.image, request.image, *model, request.surfaces,
-                           part_of(progress, 0.1, 1.0));
+  SurfaceOptions how = request.surfaces;
+  how.fat_shift = file.fat_shift;
+  surfaces = find_surfaces(file.image, request.image, *model, how, part_of(progress, 0.1, 1.0));
   if (request.surfaces.side) surfaces.side = *request.surfaces.side;
   if (!labels.empty()) apply_bone_labels(surfaces, labels, *model);
   write_scan_surfaces(request.out, surfaces, "");

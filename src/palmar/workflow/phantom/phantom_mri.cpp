@@ -51,7 +51,7 @@ std::size_t count_outside(const std::vector<Vec3>& skin, const VolumeGrid& grid)
 
 /// The series of one posture in `folder`, which is written again.
 void write_posture(const std::filesystem::path& folder, const Volume& image, ScanPosture posture,
-                   const MriSubjectOptions& person) {
+                   const MriSubjectOptions& person, double fat_shift) {
   // What an earlier run left would be a second series.
   std::error_code ignored;
   std::filesystem::remove_all(folder, ignored);
@@ -60,6 +60,7 @@ void write_posture(const std::filesystem::path& folder, const Volume& image, Sca
   header.description = name_of(posture);
   header.laterality = person.side == Side::kLeft ? "L" : "R";
   header.number = static_cast<int>(posture) + 1;
+  header.fat_shift = fat_shift;
   write_dicom_series(folder.string(), image, header);
 }
 
@@ -99,7 +100,7 @@ PhantomMriOutcome make_phantom_mri(const PhantomMriRequest& request, const Progr
                                   part_of(progress, 0.05 + length * static_cast<double>(p),
                                           0.05 + length * static_cast<double>(p + 1), name));
     const std::filesystem::path folder = out / "mri" / name;
-    write_posture(folder, image, postures[p], person);
+    write_posture(folder, image, postures[p], person, scanner.fat_shift);
     series[postures[p]] = "mri/" + name;
     outcome.series.push_back({postures[p], folder.string(), grid});
   }
