@@ -130,7 +130,8 @@ export class BonesView {
 
   private rows(): CorrectionRow[] {
     const names = new Set([...this.touched.values()].map((one) => one.name));
-    const kept = (this.job.request.corrections ?? []).filter((one) => !names.has(one.name));
+    // A bone that was named before bears that name now.
+    const kept = (this.job.request.corrections ?? []).filter((one) => one.mark !== "" || !(names.has(one.name) || this.touched.has(one.name)));
     const now = [...this.touched.values()].filter((one) => boneNames.includes(one.name));
     return [...kept, ...now.map((one) => ({ posture: "", mark: "" as const, name: one.name, place_mm: one.place }))];
   }

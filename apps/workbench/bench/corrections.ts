@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a person says of the marks that were found on scans: which name each has, where it belongs, which
-// is none. Rows go to `palmar hand from-scan --marks` and `from-mri --labels`.
+// is none. Rows become [[mark]] and [[bone]] of the file of the person (`--known`).
 export type Triple = [number, number, number];
 
 export interface Mark {
@@ -16,7 +16,7 @@ export interface Mark {
 
 export interface CorrectionRow {
   posture: string;
-  mark: "crease" | "dot" | "added_crease" | "added_dot" | "";
+  mark: "crease" | "dot" | "added_crease" | "added_dot" | ""; // "": a bone
   name: string;
   place_mm: Triple;
 }
@@ -40,10 +40,11 @@ export function parseMarks(csv: string): Mark[] {
 }
 
 const kRounded = 0.6; // mm; places in marks.csv have a tenth
+const kReach = 3; // mm; so far from a row's place the program looks for its mark
 
 const same = (a: Triple, b: Triple) => a.every((one, k) => one === b[k]);
 
-const near = (a: Triple, b: Triple) => Math.hypot(...a.map((one, k) => one - b[k])) < kRounded;
+const distance = (a: Triple, b: Triple) => Math.hypot(...a.map((one, k) => one - b[k]));
 
 /// Marks with what was changed of them.
 export class Corrections {
@@ -88,11 +89,19 @@ export class Corrections {
   }
   get changes(): number { return this.all.filter((one) => this.isChanged(one.id)).length; }
 
+  /// Whether a row is about this mark: no other is nearer to its place. A crease is longer than that; each has its name.
+  private isAbout(row: CorrectionRow, mark: Changed): boolean {
+    if (row.posture !== mark.posture || row.mark !== mark.kind) return false;
+    if (mark.kind === "crease" && row.name === mark.name) return true;
+    const far = distance(row.place_mm, mark.place);
+    return far <= kReach && !this.all.some((one) => one.posture === mark.posture && one.kind === mark.kind && !one.isAdded && distance(row.place_mm, one.place) < far);
+  }
+
   rows(): CorrectionRow[] {
     const rows = [...this.before];
-    const put = (row: CorrectionRow) => {
+    const put = (row: CorrectionRow, mark: Changed) => {
       // What is said now of the same mark counts.
-      const at = rows.findIndex((one) => one.posture === row.posture && !one.mark.startsWith("added") && one.mark === row.mark && same(one.place_mm, row.place_mm));
+      const at = rows.findIndex((one) => this.before.includes(one) && this.isAbout(one, mark));
       if (at >= 0) rows[at] = row;
       else rows.push(row);
     };
@@ -105,13 +114,13 @@ export class Corrections {
       }
       const isMoved = !same(one.newPlace, one.place);
       // It was added before: that row is what is changed.
-      const added = rows.findIndex((row) => row.posture === one.posture && row.mark === `added_${one.kind}` && near(row.place_mm, one.place));
+      const added = rows.findIndex((row) => row.posture === one.posture && row.mark === `added_${one.kind}` && distance(row.place_mm, one.place) < kRounded);
       if (added >= 0 && one.kind === "dot") {
         if (one.newName === "none") rows.splice(added, 1);
         else rows[added] = { ...rows[added], name: one.newName, place_mm: one.newPlace };
         continue;
       }
-      put({ posture: one.posture, mark: one.kind, name: isMoved ? "none" : one.newName || "none", place_mm: one.place });
+      put({ posture: one.posture, mark: one.kind, name: isMoved ? "none" : one.newName || "none", place_mm: one.place }, one);
       if (isMoved && one.newName && one.newName !== "none") {
         rows.push({ posture: one.posture, mark: `added_${one.kind}`, name: one.newName, place_mm: one.newPlace });
       }

@@ -8,7 +8,7 @@
 // Ends with 77 where no browser is found.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync, readdirSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { Bench, contrasts } from "./bench_server.mjs";
 import { Browser, browserProgram, wait } from "./browser.mjs";
@@ -66,6 +66,17 @@ async function makeAgain(page, ms) {
   await page.until("document.querySelector('.found')?.dataset.ready !== undefined", minutes);
 }
 
+/// The file of the person as the page lists it, and the command that takes it.
+async function whatIsKnown(page) {
+  await page.until("document.querySelector('.files a[download=\"person.toml\"]') !== null");
+  const toml = await page.value("fetch(document.querySelector('.files a[download=\"person.toml\"]').href).then((one) => one.text())");
+  assert.equal(toml, readFileSync(join(jobFolder(), "person.toml"), "utf8"));
+  const command = await page.text(".job .command code");
+  assert.match(command, / --known person\.toml /);
+  assert.doesNotMatch(command, /--(marks|labels|dimension|side)/);
+  return { toml, command };
+}
+
 async function looksRight(page) {
   const looked = await page.value(contrasts);
   assert.deepEqual([looked.poor, looked.nameless], [[], []]);
@@ -93,6 +104,21 @@ async function ofPhotograph(page, server) {
   await makeAgain(page, minutes);
   const measured = await length();
   assert.ok(measured > found + 2, `${measured} after ${found}`);
+  // The file of the person says so, on the command line and in another hand that is made here.
+  const { toml, command: quick } = await whatIsKnown(page);
+  assert.equal(toml, `[measured_mm]\nhand_length = ${Math.round(found) + 6}.0\n`);
+  const saved = join(folder, "saved");
+  mkdirSync(join(saved, "found"), { recursive: true });
+  writeFileSync(join(saved, "person.toml"), toml);
+  copyFileSync(join(folder, "sheet3/photo.jpg"), join(saved, "photo.jpg"));
+  const again = JSON.parse(execFileSync(palmar, [...quick.replace(/^palmar /, "").split(" "), "--quiet"], { cwd: saved, encoding: "utf8" }));
+  assert.ok(Math.abs(measured - again.dimensions.hand_length.value_mm) < 0.051, `${measured} and ${again.dimensions.hand_length.value_mm}`);
+  await openForm(page, server, "quick");
+  await choose(page, ".hand-form input[type=file]", ["photo.jpg", "person.toml"].map((one) => join(saved, one)));
+  await page.until("document.querySelectorAll('.hand-form .designs li').length === 2");
+  await make(page, minutes);
+  assert.equal(await length(), measured);
+  assert.equal(await page.value("document.querySelector('[data-size=hand_length]').value"), String(Math.round(found) + 6));
   // It holds a product, and the command line says the same.
   await page.click("[data-job-act=use]");
   await page.until(`${bench}?.dataset.field === 'rest' && ${bench}.dataset.working === 'false'`, 2 * minutes);
@@ -130,10 +156,10 @@ async function ofScan(page, server) {
   await page.set(`[data-mark='${crease[0]}']`, "none", ["change"]);
   await page.until("document.querySelector('.found').dataset.changes === '2'");
   await makeAgain(page, 5 * minutes);
-  const corrections = readFileSync(join(jobFolder(), "corrections.csv"), "utf8");
-  assert.match(corrections, /reference,dot,none,/);
-  assert.match(corrections, /reference,added_dot,palm,/);
-  assert.match(corrections, /reference,crease,none,/);
+  const { toml } = await whatIsKnown(page);
+  for (const [mark, name] of [["dot", "none"], ["added_dot", "palm"], ["crease", "none"]]) {
+    assert.ok(toml.includes(`[[mark]]\nposture = "reference"\nmark = "${mark}"\nname = "${name}"\n`), `${mark} ${name}: ${toml}`);
+  }
   const now = marks(), used = (all, what) => all.filter((line) => line.startsWith(what)).length;
   assert.equal(used(before, "reference,crease,little_distal"), 1);
   assert.equal(used(now, "reference,crease,little_distal"), 0);
@@ -155,6 +181,13 @@ async function ofMri(page, server) {
   await page.set("[data-bone=ring_distal_phalanx]", "little_distal_phalanx", ["change"]);
   assert.equal(await page.value("document.querySelector('[data-bone=little_distal_phalanx]').value"), "ring_distal_phalanx");
   assert.equal(await page.value("document.querySelector('.found').dataset.changes"), "2");
+  const places = () => Object.fromEntries([...readFileSync(join(jobFolder(), "found/found.toml"), "utf8")
+    .matchAll(/name = "(\w+_distal_phalanx)"\nat_mm = (.*)/g)].map(([, name, at]) => [name, at]));
+  const before = places();
+  await makeAgain(page, 15 * minutes);
+  assert.match((await whatIsKnown(page)).toml, /\[\[bone\]\]\nname = "little_distal_phalanx"\n/);
+  const now = places();
+  assert.deepEqual([now.little_distal_phalanx, now.ring_distal_phalanx], [before.ring_distal_phalanx, before.little_distal_phalanx]);
 }
 
 const browser = new Browser();

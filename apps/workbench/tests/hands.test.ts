@@ -67,6 +67,32 @@ test("what was said before stays, and what is said now of the same mark counts",
   assert.equal(all.rows().length, 1, "an added dot that is taken away was never there");
 });
 
+test("a mark is known by its place within reach, a crease by its name, and bones stay", () => {
+  const before = [
+    { posture: "reference", mark: "crease" as const, name: "index_distal", place_mm: [-20, 150, 28] as [number, number, number] },
+    { posture: "reference", mark: "dot" as const, name: "palm", place_mm: [41, 88, -7] as [number, number, number] },
+    { posture: "", mark: "" as const, name: "capitate", place_mm: [1, 2, 3] as [number, number, number] },
+  ];
+  const all = new Corrections(parseMarks(csv), before);
+  all.rename("m0", "index_middle");
+  all.rename("m1", "none");
+  assert.deepEqual(all.rows(), [
+    { ...before[0], name: "index_middle", place_mm: [-12.9, 151.3, 28.2] }, { ...before[1], name: "none", place_mm: [40.1, 88, -7.5] }, before[2],
+  ]);
+  // Another dot is nearer to the row's place: it is about that one.
+  const two = new Corrections(parseMarks(csv + "reference,dot,palm,41.0,88.0,-7.0\n"), before);
+  two.rename("m1", "ring_middle");
+  assert.deepEqual(two.rows().slice(1), [before[1], before[2], { posture: "reference", mark: "dot", name: "ring_middle", place_mm: [40.1, 88, -7.5] }]);
+});
+
+test("two creases that were named before change names", () => {
+  const at = (name: string, x: number) => ({ posture: "reference", mark: "crease" as const, name, place_mm: [x, 0, 0] as [number, number, number] });
+  const all = new Corrections(parseMarks("posture,mark,name,x_mm,y_mm,z_mm\nreference,crease,index_distal,0,0,0\nreference,crease,index_middle,30,0,0\n"), [at("index_distal", 0), at("index_middle", 30)]);
+  all.rename("m0", "index_middle");
+  all.rename("m1", "index_distal");
+  assert.deepEqual(all.rows(), [at("index_middle", 0), at("index_distal", 30)]);
+});
+
 test("names of creases, dots and bones have words; there are 15, 15 and 19", () => {
   assert.deepEqual([creaseNames.length, dotNames.length, boneNames.length], [15, 15, 19]);
   for (const name of [...creaseNames.slice(1), ...dotNames.slice(1), ...boneNames]) {
