@@ -95,10 +95,10 @@ TEST(CaptureResults, AnImageGivesEveryBoneItsNameAndPlace) {
   write_text(folder + "/anna.toml", table);
   run = run_palmar(look + " --known anna.toml", folder);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const std::string named = read_text(folder + "/a.mri/found.toml");
-  EXPECT_EQ(table_with(named, "name = \"capitate\""), "");
+  const std::string again = read_text(folder + "/a.mri/found.toml");
+  EXPECT_EQ(table_with(again, "name = \"capitate\""), "");
   const std::string place = table.substr(table.find("at_mm"));
-  EXPECT_THAT(table_with(named, "name = \"hamate\""), HasSubstr(place));
+  EXPECT_THAT(table_with(again, "name = \"hamate\""), HasSubstr(place));
 }
 
 // 24 photographs of 0.4 megapixels of the reference posture, to the hand. Minutes.
