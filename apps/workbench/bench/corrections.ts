@@ -128,3 +128,38 @@ export class Corrections {
     return rows;
   }
 }
+
+/// Bones that were found, by the names of their files, and what is said of them. Files keep their names when a bone
+/// gets another one; that of a bone without a name ends in a number. "" is no name.
+export class BoneNames {
+  private readonly said = new Map<string, { name: string; place: Triple }>(); // by the bone as it was found
+  private readonly others: CorrectionRow[]; // of scans
+  private readonly first = new Map<string, string>();
+
+  /// `rows`: what an earlier run was told; `boneAt` is the bone at a place.
+  constructor(private readonly found: string[], rows: CorrectionRow[], boneAt: (place: Triple) => string) {
+    this.others = rows.filter((row) => row.mark !== "");
+    const named = rows.filter((row) => row.mark === "");
+    for (const { name, place_mm } of named) this.said.set(boneAt(place_mm), { name, place: place_mm });
+    // Whose name went to another bone has none, as the program has it.
+    for (const { name, place_mm } of named) if (found.includes(name) && !this.said.has(name)) this.said.set(name, { name: "", place: place_mm });
+    for (const one of found) this.first.set(one, this.nameOf(one));
+  }
+
+  static foundName(bone: string): string { return /-\d+$/.test(bone) ? "" : bone; }
+  nameOf(bone: string): string { return this.said.get(bone)?.name ?? BoneNames.foundName(bone); }
+  isRenamed(bone: string): boolean { return this.nameOf(bone) !== BoneNames.foundName(bone); }
+  get changes(): number { return this.found.filter((one) => this.nameOf(one) !== this.first.get(one)).length; }
+
+  /// The bone that had the name so far gets the other's, so that no name is given twice; `pointOn` is a point on it.
+  rename(bone: string, name: string, place: Triple, pointOn: (bone: string) => Triple): void {
+    const had = this.nameOf(bone);
+    for (const other of this.found) if (name && other !== bone && this.nameOf(other) === name) this.said.set(other, { name: had, place: pointOn(other) });
+    this.said.set(bone, { name, place });
+  }
+
+  rows(): CorrectionRow[] {
+    const named = [...this.said.values()].filter(({ name }) => name !== "");
+    return [...this.others, ...named.map(({ name, place }) => ({ posture: "", mark: "" as const, name, place_mm: place }))];
+  }
+}

@@ -62,11 +62,11 @@ async function make(page, ms) {
 }
 
 /// With what was corrected; until it is done again.
-async function makeAgain(page, ms) {
+async function makeAgain(page, ms, state = "done") {
   await page.click("[data-found=again]");
   await page.until(stands("waiting", "running"), minutes);
   await page.until(stands("done", "failed"), ms);
-  assert.equal(await page.value(`${job}.dataset.state`), "done", await page.text(".status"));
+  assert.equal(await page.value(`${job}.dataset.state`), state, await page.text(".status"));
   await page.until("document.querySelector('.found')?.dataset.ready !== undefined", minutes);
 }
 
@@ -182,17 +182,27 @@ async function ofMri(page, server) {
   await looksRight(page);
   const bones = await page.value("[...document.querySelectorAll('[data-bone]')].map((one) => one.value)");
   assert.equal(bones.length, 29); // 19 of the fingers and the thumb, 8 of the wrist, radius and ulna
-  // Two names change places, as somebody does who sees them wrong; the other bone gets the name that is free.
-  await page.set("[data-bone=ring_distal_phalanx]", "little_distal_phalanx", ["change"]);
-  assert.equal(await page.value("document.querySelector('[data-bone=little_distal_phalanx]').value"), "ring_distal_phalanx");
+  // Two names change places by mistake: the other bone gets the name that is free.
+  const ring = "[data-bone=ring_distal_phalanx]";
+  const nameOf = (bone) => page.value(`document.querySelector("[data-bone=${bone}_distal_phalanx]").value`);
+  await page.set(ring, "little_distal_phalanx", ["change"]);
+  assert.equal(await nameOf("little"), "ring_distal_phalanx");
   assert.equal(await page.value("document.querySelector('.found').dataset.changes"), "2");
   const places = () => Object.fromEntries([...readFileSync(join(jobFolder(), "found/found.toml"), "utf8")
     .matchAll(/name = "(\w+_distal_phalanx)"\nat_mm = (.*)/g)].map(([, name, at]) => [name, at]));
   const before = places();
-  await makeAgain(page, 15 * minutes);
+  await makeAgain(page, 15 * minutes, "failed");
+  assert.match(await page.text(".status"), /make no whole hand/);
   assert.match((await whatIsKnown(page)).toml, /\[\[bone\]\]\nname = "little_distal_phalanx"\n/);
   const now = places();
   assert.deepEqual([now.little_distal_phalanx, now.ring_distal_phalanx], [before.ring_distal_phalanx, before.little_distal_phalanx]);
+  // What was said is shown, and taken back.
+  assert.deepEqual([await nameOf("ring"), await nameOf("little")], ["little_distal_phalanx", "ring_distal_phalanx"]);
+  assert.equal(await page.value("document.querySelector('[data-found=again]').disabled"), true);
+  await page.set(ring, "ring_distal_phalanx", ["change"]);
+  assert.equal(await nameOf("little"), "little_distal_phalanx");
+  await makeAgain(page, 15 * minutes);
+  assert.deepEqual(places(), before);
 }
 
 const browser = new Browser();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Corrections, parseMarks } from "../bench/corrections";
+import { BoneNames, CorrectionRow, Corrections, parseMarks, Triple } from "../bench/corrections";
 import { boneNames, creaseNames, dotNames, postureInName } from "../bench/hand_names";
 import { stationAt } from "../bench/part_line";
 import { parseProposals } from "../bench/proposal_rows";
@@ -91,6 +91,32 @@ test("two creases that were named before change names", () => {
   all.rename("m0", "index_middle");
   all.rename("m1", "index_distal");
   assert.deepEqual(all.rows(), [at("index_middle", 0), at("index_distal", 30)]);
+});
+
+test("bones show the names that they were given, which can be taken back", () => {
+  const at: Record<string, Triple> = { "bone-1": [1, 0, 0], index_distal_phalanx: [2, 0, 0], ring_distal_phalanx: [3, 0, 0], hamate: [4, 0, 0] };
+  const row = (name: string, place_mm: Triple): CorrectionRow => ({ posture: "", mark: "", name, place_mm });
+  const mark: CorrectionRow = { posture: "reference", mark: "dot", name: "none", place_mm: [2, 0, 0] };
+  const boneAt = (place: Triple) => Object.keys(at).find((name) => Math.abs(at[name][0] - place[0]) < 0.5)!;
+  const names = (rows: CorrectionRow[]) => new BoneNames(Object.keys(at), rows, boneAt);
+  // The one that had the name is left without one.
+  const first = names([mark]);
+  first.rename("bone-1", "index_distal_phalanx", [1.1, 0, 0], (bone) => at[bone]);
+  assert.deepEqual([first.changes, first.nameOf("index_distal_phalanx")], [2, ""]);
+  const said = first.rows();
+  assert.deepEqual(said, [mark, row("index_distal_phalanx", [1.1, 0, 0])]);
+  // In the next run files are called as before.
+  const next = names([...said, row("capitate", at.hamate)]);
+  assert.deepEqual([next.changes, next.nameOf("bone-1"), next.nameOf("hamate"), next.isRenamed("hamate")], [0, "index_distal_phalanx", "capitate", true]);
+  next.rename("bone-1", "ring_distal_phalanx", at["bone-1"], (bone) => at[bone]);
+  next.rename("hamate", "hamate", at.hamate, (bone) => at[bone]);
+  assert.equal(next.changes, 3);
+  assert.deepEqual(next.rows(), [mark, row("ring_distal_phalanx", at["bone-1"]), row("hamate", at.hamate), row("index_distal_phalanx", at.ring_distal_phalanx)]);
+  assert.equal(next.nameOf("index_distal_phalanx"), "", "another bone has its name");
+  // And back again.
+  next.rename("bone-1", "index_distal_phalanx", at["bone-1"], (bone) => at[bone]);
+  next.rename("hamate", "capitate", at.hamate, (bone) => at[bone]);
+  assert.equal(next.changes, 0);
 });
 
 test("names of creases, dots and bones have words; there are 15, 15 and 19", () => {
