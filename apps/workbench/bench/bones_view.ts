@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Bones that were found in the reference MR image, to be named: a name is put on the bone that it belongs to.
+import { Vector3 } from "three";
 import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
 import { Api, Job } from "./api";
 import { BoneNames, CorrectionRow, Triple } from "./corrections";
@@ -25,6 +26,26 @@ function boneNearest(points: Map<string, ArrayLike<number>>, place: Triple): str
     }
   }
   return nearest;
+}
+
+/// Directions to the fingertips and to the thumb, by metacarpals and first phalanges; null where they lack.
+function directions(points: Map<string, ArrayLike<number>>): { distal: Vector3; radial: Vector3 } | null {
+  const middle = (bone: string) => {
+    const at = points.get(bone), sum = new Vector3();
+    if (!at) return null;
+    for (let k = 0; k < at.length; k += 3) sum.add(new Vector3(at[k], at[k + 1], at[k + 2]));
+    return sum.multiplyScalar(3 / at.length);
+  };
+  const distal = new Vector3(), row: Vector3[] = [];
+  for (const finger of ["index", "middle", "ring", "little"]) {
+    const metacarpal = middle(`${finger}_metacarpal`), phalanx = middle(`${finger}_proximal_phalanx`);
+    if (metacarpal) row.push(metacarpal);
+    if (metacarpal && phalanx) distal.add(phalanx).sub(metacarpal);
+  }
+  if (row.length < 2 || distal.length() < 1) return null;
+  distal.normalize();
+  const radial = row[0].clone().sub(row[row.length - 1]);
+  return { distal, radial: radial.addScaledVector(distal, -radial.dot(distal)).normalize() };
 }
 
 export class BonesView {
@@ -72,10 +93,16 @@ export class BonesView {
         bodies.push({ name, geometry, colour: boneNames.includes(name) ? kBone : kUnnamed });
       }
       if (this.job.made.includes(`${kFolder}skin.ply`)) bodies.push({ name: "skin", geometry: await read(`${kFolder}skin.ply`), opacity: 0.18, isTarget: false });
+      const index = JSON.parse(new TextDecoder().decode(await this.api.bytes(this.job.key, `made?file=${encodeURIComponent(`${kFolder}scan.json`)}`))) as { side: string };
       if (this.isClosed) return;
       this.names = new BoneNames([...points.keys()], this.job.request.corrections ?? [], (place) => boneNearest(points, place));
       this.scene = new FoundScene(this.element.querySelector<HTMLElement>(".shape")!, { picked: (_mark, bone, place) => this.picked(bone, place), dragged: () => {} });
       this.scene.show(bodies);
+      const axes = directions(points);
+      if (axes) {
+        const palmward = axes.radial.clone().cross(axes.distal).multiplyScalar(index.side === "left" ? -1 : 1);
+        this.scene.setSides(palmward.toArray(), axes.distal.toArray(), axes.radial.toArray());
+      }
       // A drag of a name ends where the pointer is over a bone.
       const canvas = this.scene.stage.controls.domElement as HTMLElement;
       canvas.addEventListener("dragover", (event) => event.preventDefault());
