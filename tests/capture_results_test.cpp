@@ -35,6 +35,14 @@ std::map<std::string, TriangleMesh> bones_in(const fs::path& folder) {
   return bones;
 }
 
+/// The first table of a TOML file with these words; "" if there is none.
+std::string table_with(const std::string& toml, const std::string& words) {
+  const std::size_t at = toml.find(words);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = toml.rfind("[[", at), end = toml.find("[[", at);
+  return toml.substr(begin, end - begin);
+}
+
 double mean_distance(const TriangleMesh& found, const TriangleMesh& truth) {
   const ClosestPointQuery query(truth);
   double sum = 0.0;
@@ -77,6 +85,20 @@ TEST(CaptureResults, AnImageGivesEveryBoneItsNameAndPlace) {
   }
   std::nth_element(distances.begin(), distances.begin() + distances.size() / 2, distances.end());
   EXPECT_LT(distances[distances.size() / 2], 0.4);  // mm, median; the image cuts the forearm
+
+  // Somebody says what a bone is: the file that was written has its place.
+  const std::string look = "hand from-mri found --series found=reference --look --out a.hand.glb";
+  run = run_palmar(look, folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::string table = table_with(read_text(folder + "/a.mri/found.toml"), "name = \"capitate\"");
+  table.replace(table.find("capitate"), 8, "hamate");
+  write_text(folder + "/anna.toml", table);
+  run = run_palmar(look + " --known anna.toml", folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string again = read_text(folder + "/a.mri/found.toml");
+  EXPECT_EQ(table_with(again, "name = \"capitate\""), "");
+  const std::string place = table.substr(table.find("at_mm"));
+  EXPECT_THAT(table_with(again, "name = \"hamate\""), HasSubstr(place));
 }
 
 // 24 photographs of 0.4 megapixels of the reference posture, to the hand. Minutes.
@@ -113,6 +135,19 @@ TEST(CaptureResults, ThoroughPhotographsGiveAHand) {
   EXPECT_LT(sum["_length"] / count["_length"], 1.1);
   EXPECT_LT(sum["_width"] / count["_width"], 1.2);
   EXPECT_LT(sum["_thickness"] / count["_thickness"], 1.0);
+
+  // Somebody says that a dot is none; the meshes are those that were made.
+  std::string dot = table_with(read_text(folder + "/w/found.toml"), "mark = \"dot\"");
+  const std::string place = dot.substr(dot.find("at_mm"));
+  dot.replace(dot.find("name = \"\""), 9, "name = \"none\"");
+  write_text(folder + "/anna.toml", dot);
+  run = run_palmar(
+      "hand from-photos p/photos --posture p/photos=reference --lenses p/calibration --pixel-mm 1 "
+      "--known anna.toml --look --out b.hand.glb --work w",
+      folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("whose mesh is there already"));
+  EXPECT_EQ(table_with(read_text(folder + "/w/found.toml"), place), "");
 }
 
 }  // namespace

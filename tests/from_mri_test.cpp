@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -80,6 +81,18 @@ const ProgramRun& whole_run() {
 std::string copied_reference(const std::string& name) {
   fs::copy(person() + "/scans/reference", person() + "/" + name, fs::copy_options::recursive);
   return person() + "/" + name + "/scan.json";
+}
+
+/// Names of the bones in a found.toml, with the words that say where they are.
+std::multimap<std::string, std::string> bones_in_toml(const std::string& toml) {
+  std::multimap<std::string, std::string> bones;
+  for (std::size_t at = toml.find("[[bone]]"); at != std::string::npos;
+       at = toml.find("[[bone]]", at + 1)) {
+    const std::size_t name = toml.find("name = \"", at) + 8, place = toml.find("at_mm = ", at) + 8;
+    bones.emplace(toml.substr(name, toml.find('"', name) - name),
+                  toml.substr(place, toml.find('\n', place) - place));
+  }
+  return bones;
 }
 
 TEST(HandFromMri, ComesOutLikeThePerson) {
@@ -183,6 +196,11 @@ TEST(HandFromMri, NoHandIsMadeOfTooLittle) {
   EXPECT_EQ(found.at("scans").at(0).at("unnamed_bones"), 4);
   const std::string page = read_text(person() + "/x.mri/report.html");
   EXPECT_THAT(page, AllOf(HasSubstr("too few bones"), HasSubstr("data:image/png")));
+  // The sheet was drawn before it was refused, and the file has them to be named.
+  EXPECT_EQ(read_text(person() + "/x.mri/found.png").substr(1, 3), "PNG");
+  const auto bones = bones_in_toml(read_text(person() + "/x.mri/found.toml"));
+  EXPECT_EQ(bones.size(), 29U);
+  EXPECT_EQ(bones.count(""), 4U);
 
   const std::string cut = copied_reference("cut");
   scan = Json::parse(read_text(cut));
@@ -197,6 +215,57 @@ TEST(HandFromMri, NoHandIsMadeOfTooLittle) {
   EXPECT_EQ(coarse.exit_code, 3);
   EXPECT_THAT(coarse.err, HasSubstr("too coarse for bones"));
   EXPECT_FALSE(fs::exists(person() + "/x.hand.glb"));
+}
+
+TEST(HandFromMri, AWrongNameIsPutRightByTheFileOfThePerson) {
+  const std::string index = copied_reference("swapped");
+  const std::string one = "index_middle_phalanx", other = "ring_middle_phalanx";
+  Json scan = Json::parse(read_text(index));
+  for (Json& bone : scan["bones"]) {
+    bone["name"] = bone.at("name") == one     ? Json(other)
+                   : bone.at("name") == other ? Json(one)
+                                              : bone.at("name");
+  }
+  write_text(index, scan.dump());
+  const std::string look =
+      "hand from-mri swapped --series swapped=reference --look --out s.hand.glb";
+  const ProgramRun first = run_palmar(look, person());
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.err, AllOf(HasSubstr("s.mri/found.png"), HasSubstr("no hand was made")));
+  EXPECT_FALSE(fs::exists(person() + "/s.hand.glb"));
+  EXPECT_FALSE(fs::exists(person() + "/s.mri/report.html"));
+  auto found = bones_in_toml(read_text(person() + "/s.mri/found.toml"));
+  const std::string at_one = found.find(one)->second, at_other = found.find(other)->second;
+  const auto table = [](const std::string& name, const std::string& at) {
+    return "[[bone]]\nname = \"" + name + "\"\nat_mm = " + at + "\n";
+  };
+  write_text(person() + "/anna.toml",
+             "side = \"left\"\n" + table(other, at_one) + table(one, at_other));
+  const ProgramRun second = run_palmar(look + " --known anna.toml", person());
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  found = bones_in_toml(read_text(person() + "/s.mri/found.toml"));
+  EXPECT_EQ(found.find(one)->second, at_other);
+  EXPECT_EQ(found.find(other)->second, at_one);
+
+  // What can't be is named with its line, and what was found is shown all the same.
+  fs::remove(person() + "/s.mri/found.png");
+  write_text(person() + "/wrong.toml", table(one, "[900.0, 0.0, 0.0]"));
+  const ProgramRun far = run_palmar(look + " --known wrong.toml", person());
+  EXPECT_EQ(far.exit_code, 3);
+  EXPECT_THAT(far.err, HasSubstr("wrong.toml:1: no bone was found within 3 mm"));
+  EXPECT_TRUE(fs::exists(person() + "/s.mri/found.png"));
+  // An option counts more than the file.
+  const auto row = [](const std::string& name, const std::string& at) {
+    return name + "," + at.substr(1, at.size() - 2) + "\n";
+  };
+  write_text(person() + "/names.csv",
+             "name,x_mm,y_mm,z_mm\n" + row(one, at_other) + row(other, at_one));
+  const ProgramRun said = run_palmar(look + " --known wrong.toml --labels names.csv", person());
+  EXPECT_EQ(said.exit_code, 0) << said.err;
+  write_text(person() + "/wrong.toml", table("index_midle_phalanx", at_one));
+  const ProgramRun unknown = run_palmar(look + " --known wrong.toml", person());
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("wrong.toml:1"), HasSubstr(one)));
 }
 
 TEST(HandFromMri, ALateRefusalLeavesWhatWasFoundAndNoHand) {

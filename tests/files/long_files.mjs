@@ -131,7 +131,7 @@ function surfacesOf({folder, text, json}, postures) {
   }
 }
 
-function images({folder, palmarDoes, printed, text, json, csv}) {
+function images({folder, palmarDoes, printed, text, json, csv, toml}) {
   const postures = ["reference", "thumb_flexion", "grasp"];
   palmarDoes(`phantom mri --seed 4 --pixel-mm 3 --slice-mm 4 --slices 30 --posture ${postures.join(",")} --out mri`);
   json("mri subject.json", "mri/truth/subject.json");
@@ -140,6 +140,7 @@ function images({folder, palmarDoes, printed, text, json, csv}) {
   surfacesOf({folder, text, json}, postures);
   palmarDoes("hand from-mri surfaces --out imaged.hand.glb --product mri/truth/grasp/product.ply");
   json("mri scan.json", "imaged.mri/scan.json");
+  toml("found.toml", "imaged.mri/found.toml");
   for (const name of ["bone_errors", "skin_errors", "grasp_contact"]) csv(`${name}.csv`, `imaged.mri/${name}.csv`);
   const index = JSON.parse(text("surfaces/reference/scan.json"));
   index.bones = index.bones.filter(({name}) => !name.startsWith("little_"));

@@ -104,6 +104,10 @@ int run(const FromMriArguments& arguments, const Context& context) {
   request.note = [&context](const std::string& text) { note(context.common, text); };
   const HandFromMriOutcome made = make_hand_from_mri(request, make_progress(context.common));
   finish_progress();
+  if (request.looks_only) {
+    note(context.common, "wrote " + made.found + " and found.toml beside it; no hand was made");
+    return 0;
+  }
   print(context.common.json ? scan_record_json(made.record) + "\n" : text_of(made.record));
   note(context.common, made.report.empty() ? "wrote " + request.out
                                            : "wrote " + request.out + "; report: " + made.report +
@@ -138,6 +142,9 @@ void add_from_mri(CLI::App& hand, Context& context) {
                    "Names for bones of the reference scan: CSV with name, x_mm, y_mm, z_mm");
   verb->add_option("--known", a->request.known,
                    "TOML file of what is known of the person: side, names of bones");
+  verb->add_flag("--look", a->request.looks_only,
+                 "Only show by number which bones were found in the reference: found.png, and "
+                 "found.toml to be edited for --known");
   verb->add_option("--product", a->request.product,
                    "The object that the grasp holds, where it was in the scanner (patient frame): "
                    "contact areas of scan and hand are compared");

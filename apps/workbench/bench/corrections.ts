@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a person says of the marks that were found on scans: which name each has, where it belongs, which
-// is none. Rows go to `palmar hand from-scan --marks` and `from-mri --labels`.
+// is none. Rows become [[mark]] and [[bone]] of the file of the person (`--known`).
 export type Triple = [number, number, number];
 
 export interface Mark {
@@ -16,7 +16,7 @@ export interface Mark {
 
 export interface CorrectionRow {
   posture: string;
-  mark: "crease" | "dot" | "added_crease" | "added_dot" | "";
+  mark: "crease" | "dot" | "added_crease" | "added_dot" | ""; // "": a bone
   name: string;
   place_mm: Triple;
 }
@@ -40,10 +40,11 @@ export function parseMarks(csv: string): Mark[] {
 }
 
 const kRounded = 0.6; // mm; places in marks.csv have a tenth
+const kReach = 3; // mm; so far from a row's place the program looks for its mark
 
 const same = (a: Triple, b: Triple) => a.every((one, k) => one === b[k]);
 
-const near = (a: Triple, b: Triple) => Math.hypot(...a.map((one, k) => one - b[k])) < kRounded;
+const distance = (a: Triple, b: Triple) => Math.hypot(...a.map((one, k) => one - b[k]));
 
 /// Marks with what was changed of them.
 export class Corrections {
@@ -88,11 +89,19 @@ export class Corrections {
   }
   get changes(): number { return this.all.filter((one) => this.isChanged(one.id)).length; }
 
+  /// Whether a row is about this mark: no other is nearer to its place. A crease is longer than that; each has its name.
+  private isAbout(row: CorrectionRow, mark: Changed): boolean {
+    if (row.posture !== mark.posture || row.mark !== mark.kind) return false;
+    if (mark.kind === "crease" && row.name === mark.name) return true;
+    const far = distance(row.place_mm, mark.place);
+    return far <= kReach && !this.all.some((one) => one.posture === mark.posture && one.kind === mark.kind && !one.isAdded && distance(row.place_mm, one.place) < far);
+  }
+
   rows(): CorrectionRow[] {
     const rows = [...this.before];
-    const put = (row: CorrectionRow) => {
+    const put = (row: CorrectionRow, mark: Changed) => {
       // What is said now of the same mark counts.
-      const at = rows.findIndex((one) => one.posture === row.posture && !one.mark.startsWith("added") && one.mark === row.mark && same(one.place_mm, row.place_mm));
+      const at = rows.findIndex((one) => this.before.includes(one) && this.isAbout(one, mark));
       if (at >= 0) rows[at] = row;
       else rows.push(row);
     };
@@ -105,17 +114,52 @@ export class Corrections {
       }
       const isMoved = !same(one.newPlace, one.place);
       // It was added before: that row is what is changed.
-      const added = rows.findIndex((row) => row.posture === one.posture && row.mark === `added_${one.kind}` && near(row.place_mm, one.place));
+      const added = rows.findIndex((row) => row.posture === one.posture && row.mark === `added_${one.kind}` && distance(row.place_mm, one.place) < kRounded);
       if (added >= 0 && one.kind === "dot") {
         if (one.newName === "none") rows.splice(added, 1);
         else rows[added] = { ...rows[added], name: one.newName, place_mm: one.newPlace };
         continue;
       }
-      put({ posture: one.posture, mark: one.kind, name: isMoved ? "none" : one.newName || "none", place_mm: one.place });
+      put({ posture: one.posture, mark: one.kind, name: isMoved ? "none" : one.newName || "none", place_mm: one.place }, one);
       if (isMoved && one.newName && one.newName !== "none") {
         rows.push({ posture: one.posture, mark: `added_${one.kind}`, name: one.newName, place_mm: one.newPlace });
       }
     }
     return rows;
+  }
+}
+
+/// Bones that were found, by the names of their files, and what is said of them. Files keep their names when a bone
+/// gets another one; that of a bone without a name ends in a number. "" is no name.
+export class BoneNames {
+  private readonly said = new Map<string, { name: string; place: Triple }>(); // by the bone as it was found
+  private readonly others: CorrectionRow[]; // of scans
+  private readonly first = new Map<string, string>();
+
+  /// `rows`: what an earlier run was told; `boneAt` is the bone at a place.
+  constructor(private readonly found: string[], rows: CorrectionRow[], boneAt: (place: Triple) => string) {
+    this.others = rows.filter((row) => row.mark !== "");
+    const named = rows.filter((row) => row.mark === "");
+    for (const { name, place_mm } of named) this.said.set(boneAt(place_mm), { name, place: place_mm });
+    // Whose name went to another bone has none, as the program has it.
+    for (const { name, place_mm } of named) if (found.includes(name) && !this.said.has(name)) this.said.set(name, { name: "", place: place_mm });
+    for (const one of found) this.first.set(one, this.nameOf(one));
+  }
+
+  static foundName(bone: string): string { return /-\d+$/.test(bone) ? "" : bone; }
+  nameOf(bone: string): string { return this.said.get(bone)?.name ?? BoneNames.foundName(bone); }
+  isRenamed(bone: string): boolean { return this.nameOf(bone) !== BoneNames.foundName(bone); }
+  get changes(): number { return this.found.filter((one) => this.nameOf(one) !== this.first.get(one)).length; }
+
+  /// The bone that had the name so far gets the other's, so that no name is given twice; `pointOn` is a point on it.
+  rename(bone: string, name: string, place: Triple, pointOn: (bone: string) => Triple): void {
+    const had = this.nameOf(bone);
+    for (const other of this.found) if (name && other !== bone && this.nameOf(other) === name) this.said.set(other, { name: had, place: pointOn(other) });
+    this.said.set(bone, { name, place });
+  }
+
+  rows(): CorrectionRow[] {
+    const named = [...this.said.values()].filter(({ name }) => name !== "");
+    return [...this.others, ...named.map(({ name, place }) => ({ posture: "", mark: "" as const, name, place_mm: place }))];
   }
 }

@@ -14,6 +14,7 @@ const accepts: Record<HandMethod, string> = {
   quick: ".png,.jpg,.jpeg", scan: ".obj,.mtl,.ply,.glb,.gltf,.bin,.stl,.png,.jpg,.jpeg", photos: ".png,.jpg,.jpeg,.json", mri: "", file: ".glb",
 };
 const isMesh = (name: string) => /\.(obj|ply|glb|gltf|stl)$/i.test(name);
+const isKnown = (file: File) => /\.toml$/i.test(file.name); // says what is known of the person
 
 interface Sent {
   file: File;
@@ -31,6 +32,7 @@ function nameFrom(file: File): string {
 export class HandForm {
   private method: HandMethod = "quick";
   private files: Sent[] = [];
+  private known: File | null = null;
   private readonly message = el("p", { class: "message", role: "status" });
   private readonly list = el("ul", { class: "designs" });
   private readonly submit = el("button", { type: "submit", class: "primary" }, say("hand.make"));
@@ -92,25 +94,27 @@ export class HandForm {
   private choose(method: HandMethod): void {
     this.method = method;
     this.files = [];
+    this.known = null;
     this.message.textContent = "";
     this.show();
   }
 
   private take(files: File[]): void {
     const many = this.method !== "quick" && this.method !== "file";
-    const sent = files.map((file) => ({ file, name: nameFrom(file), posture: postureInName(file.name) }));
-    this.files = many ? [...this.files, ...sent] : sent.slice(0, 1);
+    if (this.method !== "file") this.known = files.filter(isKnown).pop() ?? this.known;
+    const sent = files.filter((file) => !isKnown(file)).map((file) => ({ file, name: nameFrom(file), posture: postureInName(file.name) }));
+    this.files = many ? [...this.files, ...sent] : [...sent, ...this.files].slice(0, 1);
     this.show();
   }
 
   private show(): void {
     const { method, rows } = this;
-    this.input.accept = accepts[method];
+    this.input.accept = accepts[method] && method !== "file" ? `${accepts[method]},.toml` : accepts[method];
     this.about.textContent = say(`hand.files_says.${method}`);
     this.chooseFolder.hidden = method !== "photos" && method !== "mri";
     const shown: Record<string, HandMethod[]> = {
       name: ["quick", "scan", "photos", "mri", "file"], length: ["quick"], circumference: ["quick"], width: ["quick"], population: ["quick"], sheet: ["quick"], wrist: ["quick"], palmUp: ["quick"],
-      side: ["quick", "scan", "photos"], unit: ["scan"], crease: ["scan", "photos"], dot: ["scan", "photos"],
+      side: ["quick", "scan", "photos", "mri"], unit: ["scan"], crease: ["scan", "photos"], dot: ["scan", "photos"],
     };
     for (const [key, of] of Object.entries(shown)) rows[key]!.hidden = !of.includes(method);
     if (method === "photos" || method === "mri") {
@@ -123,7 +127,9 @@ export class HandForm {
         return el("li", {}, el("strong", {}, one.name), posture || null, this.without(() => { this.files.splice(k, 1); }));
       }));
     }
-    this.submit.disabled = this.files.length === 0 && !(method === "quick" && this.sizes() !== null);
+    const { known } = this;
+    if (known) this.list.append(el("li", {}, el("strong", {}, known.name), el("span", { class: "soft" }, say("hand.known")), this.without(() => { this.known = null; })));
+    this.submit.disabled = this.files.length === 0 && !(method === "quick" && (this.sizes() !== null || known));
   }
   private without(act: () => void): HTMLElement {
     return el("button", { type: "button", "aria-label": say("hand.without"), onclick: () => { act(); this.show(); } }, "×");
@@ -140,7 +146,7 @@ export class HandForm {
     const isMarked = method === "scan" || method === "photos", isQuick = method === "quick";
     return {
       kind: "hand", language: benchLanguage(), method, uploads, name: fields.name.value.trim() || "my-hand",
-      side: method !== "mri" && method !== "file" ? fields.side.value || null : null, unit: method === "scan" ? fields.unit.value || null : null,
+      side: method !== "file" ? fields.side.value || null : null, unit: method === "scan" ? fields.unit.value || null : null,
       crease_colour: isMarked ? fields.crease.value : null, dot_colour: isMarked ? fields.dot.value : null,
       population: isQuick ? fields.population.value : null, sheet: isQuick ? fields.sheet.value || null : null,
       wrist_inside_mm: isQuick ? Number(fields.wrist.value) || 0 : 0, palm_up: isQuick && fields.palmUp.checked,
@@ -157,11 +163,13 @@ export class HandForm {
 
   private async send(): Promise<void> {
     this.submit.disabled = true;
-    const uploads = this.files.length > 0 ? newKey() : "";
+    const sent = this.files.map((one) => ({ name: this.sentName(one), file: one.file }));
+    if (this.known) sent.push({ name: this.known.name, file: this.known });
+    const uploads = sent.length > 0 ? newKey() : "";
     try {
-      for (const [k, one] of this.files.entries()) {
-        this.message.textContent = say("hand.sending", { number: k + 1, count: this.files.length });
-        await this.api.upload(uploads, this.sentName(one), one.file);
+      for (const [k, one] of sent.entries()) {
+        this.message.textContent = say("hand.sending", { number: k + 1, count: sent.length });
+        await this.api.upload(uploads, one.name, one.file);
       }
       this.message.textContent = "";
       this.made(await this.api.addJob(this.settings(uploads)));

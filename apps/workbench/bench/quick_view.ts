@@ -43,7 +43,7 @@ export class QuickView {
     try {
       const json = JSON.parse(new TextDecoder().decode(await this.api.bytes(this.job.key, "made?file=found%2Fquick.json"))) as QuickJson;
       fill(this.rows, Object.entries(json.dimensions).map(([name, one]) => {
-        const input = el("input", { type: "number", step: 0.5, min: 1, max: 1000, "data-size": name, value: this.job.request.sizes_mm?.[name] ?? "", "aria-label": `${say("found.measured")}: ${dimensionWords(name)}, mm` });
+        const input = el("input", { type: "number", step: 0.5, min: 1, max: 500, "data-size": name, value: this.job.request.sizes_mm?.[name] ?? "", "aria-label": `${say("found.measured")}: ${dimensionWords(name)}, mm` });
         this.inputs.set(name, input);
         return el("tr", {}, el("th", { scope: "row" }, dimensionWords(name)), el("td", { class: "n" }, decimal(one.value_mm, 1)), el("td", { class: "n" }, `± ${decimal(kShown95 * one.sd_mm, 1)}`), el("td", {}, input));
       }));
@@ -55,8 +55,11 @@ export class QuickView {
   }
 
   private send(): void {
-    const sizes: Record<string, number> = {};
-    for (const [name, input] of this.inputs) if (input.value !== "") sizes[name] = Number(input.value);
+    const sizes = { ...this.job.request.sizes_mm };
+    for (const [name, input] of this.inputs) {
+      if (input.value !== "") sizes[name] = Number(input.value);
+      else delete sizes[name];
+    }
     this.revise({ sizes_mm: sizes, wrist_inside_mm: Number(this.wrist.value) || 0 });
   }
 }

@@ -33,7 +33,7 @@ export function refusedScansPage(page: RefusedScansPage): string {
       scale: null,
       chart: null,
       next: say("refused.next"),
-      command: "palmar hand from-mri IMAGES --labels names.csv --out hand.hand.glb",
+      command: "palmar hand from-mri IMAGES --known person.toml --out hand.hand.glb",
     }),
     sections: [
       pictureSection("scans", say("scan.every"), view.pictures, ["scan_"]),

@@ -8,7 +8,7 @@
 // Ends with 77 where no browser is found.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync, readdirSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { Bench, contrasts } from "./bench_server.mjs";
 import { Browser, browserProgram, wait } from "./browser.mjs";
@@ -43,6 +43,10 @@ async function choose(page, selector, files) {
 
 async function openForm(page, server, method) {
   await page.open(server.url);
+  await newHand(page, method);
+}
+
+async function newHand(page, method) {
   await page.until("document.querySelector('[data-new=hand]') !== null");
   await page.click("[data-new=hand]");
   await page.until("document.querySelector('.hand-form') !== null");
@@ -58,12 +62,23 @@ async function make(page, ms) {
 }
 
 /// With what was corrected; until it is done again.
-async function makeAgain(page, ms) {
+async function makeAgain(page, ms, state = "done") {
   await page.click("[data-found=again]");
   await page.until(stands("waiting", "running"), minutes);
   await page.until(stands("done", "failed"), ms);
-  assert.equal(await page.value(`${job}.dataset.state`), "done", await page.text(".status"));
+  assert.equal(await page.value(`${job}.dataset.state`), state, await page.text(".status"));
   await page.until("document.querySelector('.found')?.dataset.ready !== undefined", minutes);
+}
+
+/// The file of the person as the page lists it, and the command that takes it.
+async function whatIsKnown(page) {
+  await page.until("document.querySelector('.files a[download=\"person.toml\"]') !== null");
+  const toml = await page.value("fetch(document.querySelector('.files a[download=\"person.toml\"]').href).then((one) => one.text())");
+  assert.equal(toml, readFileSync(join(jobFolder(), "person.toml"), "utf8"));
+  const command = await page.text(".job .command code");
+  assert.match(command, / --known person\.toml /);
+  assert.doesNotMatch(command, /--(marks|labels|dimension|side)/);
+  return { toml, command };
 }
 
 async function looksRight(page) {
@@ -93,6 +108,22 @@ async function ofPhotograph(page, server) {
   await makeAgain(page, minutes);
   const measured = await length();
   assert.ok(measured > found + 2, `${measured} after ${found}`);
+  // The file of the person says so, on the command line and in another hand that is made here.
+  const { toml, command: quick } = await whatIsKnown(page);
+  assert.equal(toml, `[measured_mm]\nhand_length = ${Math.round(found) + 6}.0\n`);
+  const saved = join(folder, "saved");
+  mkdirSync(join(saved, "found"), { recursive: true });
+  writeFileSync(join(saved, "person.toml"), toml);
+  copyFileSync(join(folder, "sheet3/photo.jpg"), join(saved, "photo.jpg"));
+  const again = JSON.parse(execFileSync(palmar, [...quick.replace(/^palmar /, "").split(" "), "--quiet"], { cwd: saved, encoding: "utf8" }));
+  assert.ok(Math.abs(measured - again.dimensions.hand_length.value_mm) < 0.051, `${measured} and ${again.dimensions.hand_length.value_mm}`);
+  await page.click(".top button");
+  await newHand(page, "quick");
+  await choose(page, ".hand-form input[type=file]", ["photo.jpg", "person.toml"].map((one) => join(saved, one)));
+  await page.until("document.querySelectorAll('.hand-form .designs li').length === 2");
+  await make(page, minutes);
+  assert.equal(await length(), measured);
+  assert.equal(await page.value("document.querySelector('[data-size=hand_length]').value"), String(Math.round(found) + 6));
   // It holds a product, and the command line says the same.
   await page.click("[data-job-act=use]");
   await page.until(`${bench}?.dataset.field === 'rest' && ${bench}.dataset.working === 'false'`, 2 * minutes);
@@ -130,10 +161,10 @@ async function ofScan(page, server) {
   await page.set(`[data-mark='${crease[0]}']`, "none", ["change"]);
   await page.until("document.querySelector('.found').dataset.changes === '2'");
   await makeAgain(page, 5 * minutes);
-  const corrections = readFileSync(join(jobFolder(), "corrections.csv"), "utf8");
-  assert.match(corrections, /reference,dot,none,/);
-  assert.match(corrections, /reference,added_dot,palm,/);
-  assert.match(corrections, /reference,crease,none,/);
+  const { toml } = await whatIsKnown(page);
+  for (const [mark, name] of [["dot", "none"], ["added_dot", "palm"], ["crease", "none"]]) {
+    assert.ok(toml.includes(`[[mark]]\nposture = "reference"\nmark = "${mark}"\nname = "${name}"\n`), `${mark} ${name}: ${toml}`);
+  }
   const now = marks(), used = (all, what) => all.filter((line) => line.startsWith(what)).length;
   assert.equal(used(before, "reference,crease,little_distal"), 1);
   assert.equal(used(now, "reference,crease,little_distal"), 0);
@@ -151,10 +182,27 @@ async function ofMri(page, server) {
   await looksRight(page);
   const bones = await page.value("[...document.querySelectorAll('[data-bone]')].map((one) => one.value)");
   assert.equal(bones.length, 29); // 19 of the fingers and the thumb, 8 of the wrist, radius and ulna
-  // Two names change places, as somebody does who sees them wrong; the other bone gets the name that is free.
-  await page.set("[data-bone=ring_distal_phalanx]", "little_distal_phalanx", ["change"]);
-  assert.equal(await page.value("document.querySelector('[data-bone=little_distal_phalanx]').value"), "ring_distal_phalanx");
+  // Two names change places by mistake: the other bone gets the name that is free.
+  const ring = "[data-bone=ring_distal_phalanx]";
+  const nameOf = (bone) => page.value(`document.querySelector("[data-bone=${bone}_distal_phalanx]").value`);
+  await page.set(ring, "little_distal_phalanx", ["change"]);
+  assert.equal(await nameOf("little"), "ring_distal_phalanx");
   assert.equal(await page.value("document.querySelector('.found').dataset.changes"), "2");
+  const places = () => Object.fromEntries([...readFileSync(join(jobFolder(), "found/found.toml"), "utf8")
+    .matchAll(/name = "(\w+_distal_phalanx)"\nat_mm = (.*)/g)].map(([, name, at]) => [name, at]));
+  const before = places();
+  await makeAgain(page, 15 * minutes, "failed");
+  assert.match(await page.text(".status"), /make no whole hand/);
+  assert.match((await whatIsKnown(page)).toml, /\[\[bone\]\]\nname = "little_distal_phalanx"\n/);
+  const now = places();
+  assert.deepEqual([now.little_distal_phalanx, now.ring_distal_phalanx], [before.ring_distal_phalanx, before.little_distal_phalanx]);
+  // What was said is shown, and taken back.
+  assert.deepEqual([await nameOf("ring"), await nameOf("little")], ["little_distal_phalanx", "ring_distal_phalanx"]);
+  assert.equal(await page.value("document.querySelector('[data-found=again]').disabled"), true);
+  await page.set(ring, "ring_distal_phalanx", ["change"]);
+  assert.equal(await nameOf("little"), "little_distal_phalanx");
+  await makeAgain(page, 15 * minutes);
+  assert.deepEqual(places(), before);
 }
 
 const browser = new Browser();

@@ -21,8 +21,8 @@ using HandJson = nlohmann::ordered_json;
 constexpr std::array kMethods = {HandMethod::kFile, HandMethod::kQuick, HandMethod::kScan,
                                  HandMethod::kPhotos, HandMethod::kMri};
 constexpr std::size_t kMostCorrections = 2000;  // our choice: a scan has some hundred marks
-constexpr double kFarthestMark = 1e5;           // mm
-constexpr double kLongestSize = 1000.0;         // mm
+constexpr double kFarthestMark = 1e5;           // mm; as person files have it
+constexpr double kLongestSize = 500.0;          // mm; likewise
 
 [[noreturn]] void refuse_hand(const std::string& member, const HandJson& value,
                               const std::string& allowed) {
@@ -76,19 +76,49 @@ double size_of(const std::string& name, const HandJson& value, double low, doubl
   return number;
 }
 
-HandCorrection correction_in(const HandJson& json) {
-  if (!json.is_object()) refuse_hand("corrections", json, "a list of objects");
-  HandCorrection one{.posture = word_in(json, "posture"),
-                     .mark = one_of(json, "mark", {"crease", "dot", "added_crease", "added_dot"}),
-                     .name = word_in(json, "name")};
-  if (one.name.empty()) refuse_hand("name", json, "the name of a correction");
-  const HandJson place = json.contains("place_mm") ? json["place_mm"] : HandJson();
-  if (!place.is_array() || place.size() != 3) refuse_hand("place_mm", place, "three numbers");
+Vec3 place_in(const HandJson& json, const char* name) {
+  if (!json.is_array() || json.size() != 3) refuse_hand(name, json, "three numbers");
+  Vec3 place;
   for (std::size_t k = 0; k < 3; ++k) {
-    one.place[static_cast<Eigen::Index>(k)] =
-        size_of("place_mm", place[k], -kFarthestMark, kFarthestMark);
+    place[static_cast<Eigen::Index>(k)] = size_of(name, json[k], -kFarthestMark, kFarthestMark);
   }
-  return one;
+  return place;
+}
+
+std::optional<Vec3> point_in(const HandJson& json, const char* name) {
+  if (!json.contains(name) || json[name].is_null()) return {};
+  return place_in(json[name], name);
+}
+
+/// Adds what a correction says, the one of that number.
+void add_correction(const HandJson& json, std::size_t number, PersonFile& known) {
+  if (!json.is_object()) refuse_hand("corrections", json, "a list of objects");
+  const std::string mark = one_of(json, "mark", {"crease", "dot", "added_crease", "added_dot"});
+  const std::string name = word_in(json, "name"), posture = word_in(json, "posture");
+  if (name.empty()) refuse_hand("name", json, "the name of a correction");
+  const Vec3 place =
+      place_in(json.contains("place_mm") ? json["place_mm"] : HandJson(), "place_mm");
+  const std::string said_in = "correction " + std::to_string(number);
+  if (mark.empty()) {
+    known.bones.push_back({name, place, said_in});
+    return;
+  }
+  if (mark.starts_with("added_") && name == "none") return;
+  const auto label = mark_label_of(
+      {posture.empty() ? "reference" : posture, mark, name, place, said_in},
+      [&](const std::string& why) { throw UsageError("hand: " + said_in + ": " + why); });
+  if (label) known.marks.push_back(*label);
+}
+
+HandJson row_of(const MarkText& mark) {
+  return {{"posture", mark.posture},
+          {"mark", mark.mark},
+          {"name", mark.name},
+          {"place_mm", {mark.point.x(), mark.point.y(), mark.point.z()}}};
+}
+
+HandJson point_or_null(const std::optional<Vec3>& point) {
+  return point ? HandJson::array({point->x(), point->y(), point->z()}) : HandJson(nullptr);
 }
 
 std::string lower_ending(const std::string& file) {
@@ -125,7 +155,11 @@ HandRequest parse_hand_request(const HandJson& json) {
                                                      names.begin())];
   request.uploads = word_in(json, "uploads");
   request.name = word_in(json, "name");
-  request.side = one_of(json, "side", {"right", "left"});
+  PersonFile& known = request.known;
+  const std::string side = one_of(json, "side", {"right", "left"});
+  if (!side.empty()) known.side = side == "left" ? Side::kLeft : Side::kRight;
+  known.pick_crease = point_in(json, "pick_crease");
+  known.pick_dot = point_in(json, "pick_dot");
   request.crease_colour = colour_in(json, "crease_colour");
   request.dot_colour = colour_in(json, "dot_colour");
   request.population = word_in(json, "population");
@@ -139,16 +173,16 @@ HandRequest parse_hand_request(const HandJson& json) {
   const HandJson sizes = json.contains("sizes_mm") ? json["sizes_mm"] : HandJson();
   if (!sizes.is_null() && !sizes.is_object()) refuse_hand("sizes_mm", sizes, "an object");
   for (const auto& [name, value] : sizes.items()) {
-    if (!is_plain_name(name) || name.front() == '-')
-      refuse_hand("sizes_mm", sizes, "names of dimensions");
-    request.sizes[name] = size_of(name, value, 1.0, kLongestSize);
+    const auto dimension = hand_dimension_named(name);
+    if (!dimension) refuse_hand("sizes_mm", sizes, "names of dimensions (palmar hand measure)");
+    known.sizes.push_back({*dimension, size_of(name, value, 1.0, kLongestSize)});
   }
   const HandJson rows = json.contains("corrections") ? json["corrections"] : HandJson();
   if (!rows.is_null() && (!rows.is_array() || rows.size() > kMostCorrections)) {
     refuse_hand("corrections", "...", "a list of at most 2000");
   }
-  for (const HandJson& one : rows) request.corrections.push_back(correction_in(one));
-  if (request.uploads.empty() && (request.method != HandMethod::kQuick || request.sizes.empty())) {
+  for (std::size_t k = 0; k < rows.size(); ++k) add_correction(rows[k], k + 1, known);
+  if (request.uploads.empty() && (request.method != HandMethod::kQuick || known.sizes.empty())) {
     refuse_hand("uploads", HandJson(), "the key of the files that were sent");
   }
   return request;
@@ -161,7 +195,8 @@ void write_hand_request(const HandRequest& request, HandJson& json) {
   json["method"] = name_of(request.method);
   json["uploads"] = request.uploads;
   json["name"] = request.name;
-  json["side"] = or_null(request.side);
+  const PersonFile& known = request.known;
+  json["side"] = known.side ? HandJson(std::string(name_of(*known.side))) : HandJson(nullptr);
   json["unit"] = request.unit ? HandJson(name_of(*request.unit)) : HandJson(nullptr);
   json["crease_colour"] = or_null(request.crease_colour);
   json["dot_colour"] = or_null(request.dot_colour);
@@ -169,13 +204,17 @@ void write_hand_request(const HandRequest& request, HandJson& json) {
   json["sheet"] = or_null(request.sheet);
   json["wrist_inside_mm"] = request.wrist_inside;
   json["palm_up"] = request.is_palm_up;
-  json["sizes_mm"] = request.sizes;
+  json["pick_crease"] = point_or_null(known.pick_crease);
+  json["pick_dot"] = point_or_null(known.pick_dot);
+  json["sizes_mm"] = HandJson::object();
+  for (const SizedDimension& one : known.sizes) {
+    json["sizes_mm"][name_of(one.dimension)] = one.value;
+  }
   HandJson rows = HandJson::array();
-  for (const HandCorrection& one : request.corrections) {
-    rows.push_back({{"posture", one.posture},
-                    {"mark", one.mark},
-                    {"name", one.name},
-                    {"place_mm", {one.place.x(), one.place.y(), one.place.z()}}});
+  for (const MarkLabel& one : known.marks) rows.push_back(row_of(mark_text_of(one)));
+  for (const BoneLabel& one : known.bones) {
+    rows.push_back(
+        row_of({.posture = {}, .mark = {}, .name = one.name, .point = one.point, .place = {}}));
   }
   json["corrections"] = std::move(rows);
 }
@@ -203,11 +242,9 @@ std::vector<std::string> hand_words(const HandRequest& request,
   words.push_back(is_quick ? "quick" : "from-" + name_of(request.method));
   words.insert(words.end(), sources.begin(), sources.end());
   const std::string found = folder + kHandFound + "/";
+  if (!request.known.is_empty()) add("--known", folder + kHandKnown);
   if (is_quick) {
-    for (const auto& [name, value] : request.sizes)
-      add("--dimension", name + "=" + shortest(value));
     add("--population", request.population);
-    add("--side", request.side);
     if (!sources.empty()) {
       add("--sheet", request.sheet);
       if (request.wrist_inside != 0.0) add("--wrist-inside-mm", shortest(request.wrist_inside));
@@ -216,32 +253,16 @@ std::vector<std::string> hand_words(const HandRequest& request,
     }
     words.emplace_back("--json");
   } else {
-    const bool is_mri = request.method == HandMethod::kMri;
-    if (!is_mri) {
-      add("--side", request.side);
+    if (request.method != HandMethod::kMri) {
       add("--crease-colour", request.crease_colour);
       add("--dot-colour", request.dot_colour);
     }
     if (request.method == HandMethod::kScan && request.unit) add("--unit", name_of(*request.unit));
-    if (!request.corrections.empty()) {
-      add(is_mri ? "--labels" : "--marks", folder + kHandCorrections);
-    }
     add("--language", language);
     add("--work", folder + kHandFound);
   }
   add("--out", folder + hand_result(request, sources).string());
   return words;
-}
-
-std::string corrections_csv(const HandRequest& request) {
-  const bool is_mri = request.method == HandMethod::kMri;
-  std::string csv = is_mri ? "name,x_mm,y_mm,z_mm\n" : "posture,mark,name,x_mm,y_mm,z_mm\n";
-  for (const HandCorrection& one : request.corrections) {
-    if (!is_mri) csv += one.posture + "," + one.mark + ",";
-    csv += one.name + "," + shortest(one.place.x()) + "," + shortest(one.place.y()) + "," +
-           shortest(one.place.z()) + "\n";
-  }
-  return csv;
 }
 
 std::vector<std::string> hand_sources(HandMethod method, const std::vector<std::string>& files) {
@@ -270,6 +291,19 @@ std::vector<std::string> hand_sources(HandMethod method, const std::vector<std::
     }
   }
   return {};
+}
+
+std::optional<std::string> known_source(const std::vector<std::string>& files) {
+  std::optional<std::string> known;
+  for (const std::string& file : files) {
+    if (lower_ending(file) != ".toml") continue;
+    if (known) {
+      throw UsageError("hand: " + in_quotes(*known) + " and " + in_quotes(file) +
+                       " were sent; one file says what is known of a person");
+    }
+    known = file;
+  }
+  return known;
 }
 
 }  // namespace palmar

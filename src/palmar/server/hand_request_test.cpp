@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/test_files.h"
 #include "palmar/server/job_request.h"
 
 namespace palmar {
@@ -35,18 +36,19 @@ std::string hand_refusal(const std::string& members) {
 }
 
 TEST(HandRequest, IsTheCommandThatPeopleType) {
-  EXPECT_EQ(hand_command(R"("method": "scan", "uploads": "k", "name": "anna", "unit": "cm",
+  EXPECT_EQ(
+      hand_command(R"("method": "scan", "uploads": "k", "name": "anna", "unit": "cm",
                             "crease_colour": "#20a040", "dot_colour": "blue", "side": "left")",
-                         {"reference.ply", "finger_flexion.ply"}),
-            "palmar hand from-scan reference.ply finger_flexion.ply --side left --crease-colour "
-            "'#20a040' --dot-colour blue --unit cm --language en --work found --out "
-            "found/anna.hand.glb");
+                   {"reference.ply", "finger_flexion.ply"}),
+      "palmar hand from-scan reference.ply finger_flexion.ply --known person.toml "
+      "--crease-colour '#20a040' --dot-colour blue --unit cm --language en --work found --out "
+      "found/anna.hand.glb");
   EXPECT_EQ(hand_command(R"("method": "quick", "uploads": "k", "name": "anna", "sheet": "card",
                             "wrist_inside_mm": 12, "palm_up": true, "population": "ansur2_women",
                             "sizes_mm": {"hand_circumference": 190.5}, "unit": "cm")",
                          {"photo.jpg"}),
-            "palmar hand quick photo.jpg --dimension hand_circumference=190.5 --population "
-            "ansur2_women --sheet card --wrist-inside-mm 12 --palm-up --picture found/found.png "
+            "palmar hand quick photo.jpg --known person.toml --population ansur2_women --sheet "
+            "card --wrist-inside-mm 12 --palm-up --picture found/found.png "
             "--json --out found/anna.hand.glb");
   EXPECT_THAT(hand_command(R"("method": "photos", "uploads": "k")", {"anna"}),
               HasSubstr("palmar hand from-photos anna "));
@@ -58,20 +60,45 @@ TEST(HandRequest, IsTheCommandThatPeopleType) {
             "palmar hand info anna.hand.glb");
 }
 
-TEST(HandRequest, CorrectionsBecomeTheFilesOfTheCommands) {
-  const std::string rows = R"("corrections": [
-      {"posture": "reference", "mark": "dot", "name": "none", "place_mm": [1, -2.5, 3]},
-      {"posture": "reference", "mark": "added_dot", "name": "palm", "place_mm": [4, 5, 6]}])";
-  const std::string scan = R"("method": "scan", "uploads": "k", )" + rows;
-  EXPECT_THAT(hand_command(scan, {"a.ply"}), HasSubstr("--marks corrections.csv"));
-  EXPECT_EQ(corrections_csv(parse_job_request(hand(scan)).hand),
-            "posture,mark,name,x_mm,y_mm,z_mm\nreference,dot,none,1,-2.5,3\n"
-            "reference,added_dot,palm,4,5,6\n");
-  const std::string bones = R"("method": "mri", "uploads": "k", "corrections": [
-      {"name": "index_middle_phalanx", "place_mm": [1, 2, 3]}])";
-  EXPECT_THAT(hand_command(bones, {"mri"}), HasSubstr("--labels corrections.csv"));
-  EXPECT_EQ(corrections_csv(parse_job_request(hand(bones)).hand),
-            "name,x_mm,y_mm,z_mm\nindex_middle_phalanx,1,2,3\n");
+TEST(HandRequest, WhatIsKnownOfThePersonIsOneFile) {
+  const HandRequest request = parse_job_request(hand(R"("method": "scan", "uploads": "k",
+      "side": "left", "pick_dot": [1, 2, 0.1], "sizes_mm": {"hand_length": 181.5},
+      "corrections": [
+        {"posture": "reference", "mark": "dot", "name": "none", "place_mm": [1, -2.5, 3]},
+        {"posture": "finger_flexion", "mark": "added_dot", "name": "palm", "place_mm": [4, 5, 6]},
+        {"posture": "reference", "mark": "added_dot", "name": "none", "place_mm": [4, 5, 6]},
+        {"name": "index_middle_phalanx", "place_mm": [7, 8, 9]}])"))
+                                  .hand;
+  EXPECT_EQ(format_person(request.known), R"(side = "left"
+
+[scan]
+pick_dot = [1.0, 2.0, 0.1]
+
+[[mark]]
+posture = "reference"
+mark = "dot"
+name = "none"
+at_mm = [1.0, -2.5, 3.0]
+
+[[mark]]
+posture = "finger_flexion"
+mark = "added_dot"
+name = "palm"
+at_mm = [4.0, 5.0, 6.0]
+
+[[bone]]
+name = "index_middle_phalanx"
+at_mm = [7.0, 8.0, 9.0]
+
+[measured_mm]
+hand_length = 181.5
+)");
+  for (const char* method : {"scan", "photos", "mri", "quick"}) {
+    const std::string members = R"("uploads": "k", "method": ")" + std::string(method) + '"';
+    EXPECT_THAT(hand_command(members + R"(, "side": "left")", {"a"}),
+                HasSubstr(" a --known person.toml "));
+    EXPECT_THAT(hand_command(members, {"a"}), Not(HasSubstr("--known")));
+  }
 }
 
 TEST(HandRequest, ReadsBackAsItWasWritten) {
@@ -79,24 +106,45 @@ TEST(HandRequest, ReadsBackAsItWasWritten) {
       "sizes_mm": {"hand_length": 181}, "population": "ansur2"))");
   const std::string once = job_request_json(parse_job_request(
       hand(R"("method": "quick", "name": "anna", "side": "left", "sizes_mm": {"hand_length": 181},
-              "corrections": [{"mark": "dot", "name": "palm", "place_mm": [0, 1, 2]}])")));
+              "pick_crease": [0.1, 2, 3],
+              "corrections": [{"mark": "dot", "name": "palm", "place_mm": [0, 1, 2]},
+                              {"name": "capitate", "place_mm": [0, 1, 2]}])")));
+  EXPECT_THAT(once, AllOf(HasSubstr(R"("pick_crease":[0.1,2.0,3.0],"pick_dot":null)"),
+                          HasSubstr(R"("posture":"reference","mark":"dot","name":"palm")"),
+                          HasSubstr(R"("mark":"","name":"capitate")")));
   EXPECT_EQ(job_request_json(parse_job_request(once)), once);
   EXPECT_THROW(parse_job_request(json), UsageError) << "a bracket too many";
 }
 
 TEST(HandRequest, NamesNoFileOfThisMachine) {
   const std::string scan = R"("method": "scan", "uploads": "k")";
-  for (const char* member :
-       {R"("name": "../anna")", R"("name": "--out")", R"("population": "/etc/passwd")",
-        R"("population": "ours.toml")", R"("dot_colour": "#12345")", R"("crease_colour": "--x")",
-        R"("unit": "furlong")", R"("side": "both")", R"("sheet": "a3")",
-        R"("wrist_inside_mm": 1e9)", R"("sizes_mm": {"--out": 3})",
-        R"("sizes_mm": {"hand_length": -1})", R"("sizes_mm": 3)",
-        R"("corrections": [{"mark": "dot", "name": "a,b", "place_mm": [0, 0, 0]}])",
-        R"("corrections": [{"mark": "rm", "name": "palm", "place_mm": [0, 0, 0]}])",
-        R"("corrections": [{"mark": "dot", "name": "palm", "place_mm": [0, 0]}])",
-        R"("corrections": [{"mark": "dot", "name": "palm", "place_mm": [0, 0, 1e300]}])",
-        R"("corrections": [7])"}) {
+  for (
+      const char* member :
+      {R"("name": "../anna")",
+       R"("name": "--out")",
+       R"("population": "/etc/passwd")",
+       R"("population": "ours.toml")",
+       R"("dot_colour": "#12345")",
+       R"("crease_colour": "--x")",
+       R"("unit": "furlong")",
+       R"("side": "both")",
+       R"("sheet": "a3")",
+       R"("wrist_inside_mm": 1e9)",
+       R"("sizes_mm": {"--out": 3})",
+       R"("sizes_mm": {"hand_length": -1})",
+       R"("sizes_mm": 3)",
+       R"("sizes_mm": {"hand_length": 501})",
+       R"("sizes_mm": {"arm_length": 300})",
+       R"("pick_dot": [1, 2])",
+       R"("pick_crease": "/etc/passwd")",
+       R"("corrections": [{"mark": "dot", "name": "a,b", "place_mm": [0, 0, 0]}])",
+       R"("corrections": [{"mark": "rm", "name": "palm", "place_mm": [0, 0, 0]}])",
+       R"("corrections": [{"mark": "dot", "name": "palm", "place_mm": [0, 0]}])",
+       R"("corrections": [{"mark": "dot", "name": "palm", "place_mm": [0, 0, 1e300]}])",
+       R"("corrections": [{"mark": "dot", "name": "index", "place_mm": [0, 0, 0]}])",
+       R"("corrections": [{"mark": "dot", "name": "palm", "posture": "fist", "place_mm": [0, 0, 0]}])",
+       R"("corrections": [{"name": "a b", "place_mm": [0, 0, 0]}])",
+       R"("corrections": [7])"}) {
     EXPECT_NE(hand_refusal(scan + ", " + member), "taken") << member;
   }
   EXPECT_THAT(hand_refusal(R"("method": "rm")"), AllOf(HasSubstr("rm"), HasSubstr("quick")));
@@ -115,6 +163,15 @@ TEST(HandRequest, SourcesAreWhatTheCommandTakes) {
   EXPECT_THAT(hand_sources(HandMethod::kMri, {"reference.nii.gz"}),
               ElementsAre("reference.nii.gz"));
   EXPECT_TRUE(hand_sources(HandMethod::kFile, {"hand.txt"}).empty());
+}
+
+TEST(HandRequest, OneFileSaysWhatIsKnown) {
+  EXPECT_EQ(known_source({"reference.ply"}), std::nullopt);
+  EXPECT_EQ(known_source({"a/1.dcm", "a/Anna.TOML"}), "a/Anna.TOML");
+  EXPECT_THAT(message_of<UsageError>([] {
+                known_source({"a.toml", "b.toml"});
+              }),
+              AllOf(HasSubstr("a.toml"), HasSubstr("b.toml"), HasSubstr("one file")));
 }
 
 }  // namespace

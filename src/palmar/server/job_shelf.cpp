@@ -46,6 +46,10 @@ std::string title_of_products(const std::vector<ShelvedProduct>& products) {
   return title;
 }
 
+std::string title_of_hand(const JobRequest& request) {
+  return request.hand.name.empty() ? "hand" : request.hand.name;
+}
+
 /// Only one unit can be said on a command line, for the files that carry none.
 std::optional<LengthUnit> one_unit_of(const std::vector<ShelvedProduct>& products) {
   std::optional<LengthUnit> unit;
@@ -188,9 +192,8 @@ Job JobShelf::add(const JobRequest& request, const std::vector<ShelvedProduct>& 
   job.title = title_of_products(products);
   job.key = new_job_key(jobs_);
   job.created = std::stoll(job.key.substr(1));
-  JobPlaces shown;
-  shown.unit = one_unit_of(products);
-  shown.hand = own_hand_of(request);
+  one_unit_of(products);  // refused before anything is copied
+  own_hand_of(request);
   for (std::size_t p = 0; p < products.size(); ++p) {
     ShelvedProduct copy = products[p];
     copy.product = nullptr;
@@ -198,38 +201,74 @@ Job JobShelf::add(const JobRequest& request, const std::vector<ShelvedProduct>& 
     copy.path = place(job.key) / "products" / std::to_string(p + 1) / copy.file_name;
     create_folder(copy.path.parent_path());
     write_file(copy.path, read_file(products[p].path));
-    shown.products.push_back(copy.argument);
     job.products.push_back(std::move(copy));
   }
   if (request.kind == JobKind::kHand) {
-    const std::string name = request.hand.name.empty() ? "hand" : request.hand.name;
-    job.title = name;
-    if (!sources.empty()) {
-      create_folder(place(job.key));
-      std::error_code error;
-      std::filesystem::copy(sources, place(job.key) / kJobSources,
-                            std::filesystem::copy_options::recursive, error);
-      if (error) throw OutputError(place(job.key).string() + ": " + error.message());
-      for (const std::string& one :
-           hand_sources(request.hand.method, files_under(place(job.key) / kJobSources))) {
-        shown.sources.push_back(one.empty() ? name : one);
-      }
-      if (shown.sources.empty()) {
-        remove_place(job.key);
-        throw UsageError("hand: none of the files that were sent is one that " +
-                         name_of(request.hand.method) + " takes");
-      }
+    job.title = title_of_hand(request);
+    try {
+      if (!sources.empty()) take_sources(job, sources);
+    } catch (const Error&) {
+      remove_place(job.key);
+      throw;
     }
   }
-  for (const JobCommand& one : commands_of(request, shown)) {
-    job.commands.push_back(command_text(one));
-  }
+  job.commands = shown_commands(job);
   job.state = is_tried_first(request) ? JobState::kEstimating : JobState::kWaiting;
   save(job);
   jobs_.push_back(job);
   queue_.push_back(job.key);
   woken_.notify_all();
   return job;
+}
+
+void JobShelf::take_sources(Job& job, const std::filesystem::path& sources) const {
+  const std::filesystem::path own = place(job.key) / kJobSources;
+  HandRequest& hand = job.request.hand;
+  create_folder(place(job.key));
+  std::error_code error;
+  std::filesystem::copy(sources, own, std::filesystem::copy_options::recursive, error);
+  if (error) throw OutputError(place(job.key).string() + ": " + error.message());
+  if (hand.method != HandMethod::kFile) {
+    if (const auto known = known_source(files_under(own))) {
+      const std::string text = read_file(own / *known, kMostPersonBytes);
+      hand.known = merged(parse_person(text, *known), hand.known);
+      job.request = parse_job_request(job_request_json(job.request));  // as it is read again
+      std::filesystem::remove(own / *known, error);
+    }
+  }
+  const bool is_of_measures = hand.method == HandMethod::kQuick && !hand.known.sizes.empty();
+  if (!is_of_measures && hand_sources(hand.method, files_under(own)).empty()) {
+    throw UsageError("hand: none of the files that were sent is one that " + name_of(hand.method) +
+                     " takes");
+  }
+}
+
+std::vector<std::string> JobShelf::shown_commands(const Job& job) const {
+  JobPlaces shown = places(job);
+  const std::filesystem::path sources = place(job.key) / kJobSources;
+  for (std::string& one : shown.sources) {
+    const auto inside = std::filesystem::path(one).lexically_relative(sources);
+    one = inside == "." ? job.title : inside.generic_string();
+  }
+  shown.folder.clear();
+  shown.products.clear();
+  for (const ShelvedProduct& one : job.products) shown.products.push_back(one.argument);
+  std::vector<std::string> commands;
+  for (const JobCommand& one : commands_of(job.request, shown)) {
+    commands.push_back(command_text(one));
+  }
+  return commands;
+}
+
+void JobShelf::write_known(const Job& job) const {
+  const std::filesystem::path path = place(job.key) / kHandKnown;
+  const PersonFile& known = job.request.hand.known;
+  std::error_code ignored;
+  if (known.is_empty()) {
+    std::filesystem::remove(path, ignored);
+  } else {
+    write_file(path, format_person(known));
+  }
 }
 
 std::vector<Job> JobShelf::list() const {
@@ -288,7 +327,8 @@ void JobShelf::revise(const std::string& key, const JobRequest& request) {
     throw UsageError("job " + in_quotes(key) + " is running; stop it first");
   }
   job->request = request;
-  job->title = request.hand.name.empty() ? "hand" : request.hand.name;
+  job->title = title_of_hand(request);
+  job->commands = shown_commands(*job);
   job->state = JobState::kWaiting;
   job->message.clear();
   save(*job);
@@ -360,6 +400,9 @@ std::vector<std::string> JobShelf::files(const Job& job) const {
   if (job.request.kind == JobKind::kStudy && std::filesystem::exists(store(job))) {
     names.emplace_back(kJobStore);
   }
+  if (job.request.kind == JobKind::kHand && std::filesystem::exists(place(job.key) / kHandKnown)) {
+    names.emplace_back(kHandKnown);
+  }
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -368,6 +411,7 @@ std::optional<std::filesystem::path> JobShelf::file(const Job& job, const std::s
   const std::vector<std::string> names = files(job);
   if (std::find(names.begin(), names.end(), name) == names.end()) return std::nullopt;
   if (name == kJobStore) return store(job);
+  if (name == kHandKnown) return place(job.key) / kHandKnown;
   return place(job.key) / job_results(job.request.kind) / name;
 }
 
@@ -426,7 +470,7 @@ void JobShelf::work(const std::string& key) {
   const bool is_hand = job->request.kind == JobKind::kHand;
   if (is_hand) {  // it goes on from what earlier runs made
     create_folder(place(key) / kHandFound);
-    write_file(place(key) / kHandCorrections, corrections_csv(job->request.hand));
+    write_known(*job);
   } else if (job->request.kind !=
              JobKind::kStudy) {  // half of what an earlier run made is of no use
     std::error_code ignored;

@@ -61,7 +61,7 @@ class JobShelf {
 
   /// What is tried first (is_tried_first()) is, and waits for start(); others start. `products` in
   /// the order of the request; `sources`: folder with the files of a person's hand, which become
-  /// the job's. Throws UsageError, OutputError.
+  /// the job's. Throws UsageError, OutputError, InputError.
   Job add(const JobRequest& request, const std::vector<ShelvedProduct>& products,
           const std::filesystem::path& sources = {});
   /// A person's hand again, from the same files with other settings or corrections. Throws
@@ -102,8 +102,13 @@ class JobShelf {
   void save(const Job& job) const;
   void remove_place(const std::string& key) const;
   std::filesystem::path hand_place(const Job& job) const;
-  std::string own_hand_of(const JobRequest& request) const;  ///< its file; with `mutex_` held
-  JobPlaces places(const Job& job) const;                    ///< the same
+  /// What was sent for a hand becomes the job's; of a file that says what is known of the person,
+  /// its content.
+  void take_sources(Job& job, const std::filesystem::path& sources) const;
+  void write_known(const Job& job) const;
+  std::vector<std::string> shown_commands(const Job& job) const;  ///< with `mutex_` held
+  std::string own_hand_of(const JobRequest& request) const;       ///< its file; with `mutex_` held
+  JobPlaces places(const Job& job) const;                         ///< the same
   JobPlaces locked_places(const Job& job) const;
   std::filesystem::path place(const std::string& key) const { return *folder_ / key; }
 

@@ -14,6 +14,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
+#include "palmar/formats/test_files.h"
 #include "palmar/server/job_file.h"
 
 namespace palmar {
@@ -241,9 +242,18 @@ TEST_F(Jobs, HandIsMadeAgainFromTheSameFiles) {
   job = wait_for(*jobs, key, JobState::kDone);
   const std::string told = read_file(*jobs->made_file(job, "found/told.txt"));
   EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 2) << "what it made is still there";
-  EXPECT_THAT(told, HasSubstr("--marks"));
-  EXPECT_EQ(read_file(test_folder / "jobs" / key / "corrections.csv"),
-            "posture,mark,name,x_mm,y_mm,z_mm\nreference,dot,palm,1,2,3\n");
+  EXPECT_THAT(told, HasSubstr("--known " + (test_folder / "jobs" / key / "person.toml").string()));
+  EXPECT_THAT(job.commands.front(), HasSubstr("from-scan reference.ply --known person.toml"));
+  EXPECT_THAT(jobs->files(job), testing::Contains("person.toml"));
+  const PersonFile known = read_person(jobs->file(job, "person.toml")->string());
+  ASSERT_EQ(known.marks.size(), 1U);
+  EXPECT_EQ(known.marks[0].segment, Segment::kPalm);
+  EXPECT_EQ(known.marks[0].point, Vec3(1, 2, 3));
+  // Nothing is known any more.
+  jobs->revise(key, asked(""));
+  job = wait_for(*jobs, key, JobState::kDone);
+  EXPECT_THAT(job.commands.front(), Not(HasSubstr("--known")));
+  EXPECT_FALSE(jobs->file(job, "person.toml"));
   // Other files, or another job, are none of it.
   EXPECT_THROW(jobs->revise(key, study), UsageError);
   JobRequest other = asked("");
@@ -257,6 +267,72 @@ TEST_F(Jobs, HandIsMadeAgainFromTheSameFiles) {
   write_file(test_folder / "text" / "notes.txt", "x");
   EXPECT_THROW(jobs->add(asked(""), {}, test_folder / "text"), UsageError);
   EXPECT_EQ(jobs->list().size(), 1U);
+}
+
+TEST_F(Jobs, WhatIsKnownOfAPersonIsSentWithTheRest) {
+  const auto jobs = shelf();
+  const auto asked = [](const std::string& method, const std::string& more) {
+    return parse_job_request(R"({"kind": "hand", "uploads": "k", "name": "anna", "method": ")" +
+                             method + '"' + more + "}");
+  };
+  const fs::path sent = test_folder / "sent";
+  create_folder(sent);
+  write_file(sent / "reference.ply", "a scan");
+  write_file(sent / "anna.toml",
+             "side = \"left\"\n[scan]\npick_dot = [1, 2, 3]\n[[mark]]\nmark = \"dot\"\n"
+             "name = \"none\"\nat_mm = [4, 5, 6]\n[[bone]]\nname = \"capitate\"\n"
+             "at_mm = [7, 8, 9]\n[measured_mm]\nhand_length = 181\n");
+  const std::string key = jobs->add(asked("scan", R"(, "side": "right")"), {}, sent).key;
+  Job job = wait_for(*jobs, key, JobState::kDone);
+  EXPECT_THAT(job.commands.front(), HasSubstr("from-scan reference.ply --known person.toml"));
+  // What is chosen on the page counts more; the rest is kept, also what scans don't need.
+  const std::string written = read_file(*jobs->file(job, "person.toml"));
+  EXPECT_THAT(written, testing::AllOf(HasSubstr("side = \"right\""), HasSubstr("pick_dot"),
+                                      HasSubstr("name = \"none\""), HasSubstr("capitate"),
+                                      HasSubstr("hand_length = 181.0")));
+  EXPECT_FALSE(fs::exists(test_folder / "jobs" / key / "sources" / "anna.toml"));
+  // Another server has it, too.
+  JobShelf again(test_folder / "jobs", program);
+  EXPECT_EQ(format_person(again.find(key)->request.hand.known), written);
+
+  // Measures are enough for a quick hand, and not for a scan.
+  fs::remove(sent / "reference.ply");
+  EXPECT_THAT(jobs->add(asked("quick", ""), {}, sent).commands.front(),
+              testing::StartsWith("palmar hand quick --known person.toml"));
+  const auto refusal = [&](const std::string& text) {
+    write_file(sent / "reference.ply", "a scan");
+    write_file(sent / "anna.toml", text);
+    return message_of<Error>([&] { jobs->add(asked("scan", ""), {}, sent); });
+  };
+  EXPECT_THAT(refusal("side = \"both\"\n"), testing::StartsWith("anna.toml:1: "));
+  EXPECT_THAT(refusal("[[bone]]\nname = \"../x\"\nat_mm = [1, 2, 3]\n"), HasSubstr("../x"));
+  write_file(sent / "bob.toml", "");
+  EXPECT_THAT(refusal(""), HasSubstr("bob.toml"));
+  EXPECT_EQ(jobs->list().size(), 2U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(test_folder / "jobs"), {}), 2);
+}
+
+TEST_F(Jobs, AHandOfAnEarlierVersionOpens) {
+  const fs::path place = test_folder / "jobs" / "j1";
+  create_folder(place / "found");
+  write_file(place / "found" / "anna.hand.glb", "glb");
+  write_file(place / "corrections.csv", "posture,mark,name,x_mm,y_mm,z_mm\n");
+  write_file(place / "job.json", R"({"palmar_job": 1, "title": "anna", "request": {"kind": "hand",
+      "products": [], "language": "en", "hold": null, "method": "scan", "uploads": "k1",
+      "name": "anna", "side": "left", "unit": null, "crease_colour": "green", "dot_colour": "blue",
+      "population": null, "sheet": null, "wrist_inside_mm": 0.0, "palm_up": false,
+      "sizes_mm": {"hand_length": 181.0}, "corrections": [
+        {"posture": "reference", "mark": "dot", "name": "palm", "place_mm": [1.0, 2.0, 3.0]},
+        {"posture": "reference", "mark": "added_dot", "name": "none", "place_mm": [1.0, 2.0, 3.0]},
+        {"posture": "", "mark": "", "name": "capitate", "place_mm": [4.0, 5.0, 6.0]}]},
+      "products": [], "created_ms": 1, "state": "done", "message": "", "estimate_seconds": null,
+      "grasps": 0, "commands": ["palmar hand from-scan a.ply --marks corrections.csv"]})");
+  const auto job = shelf()->find("j1");
+  ASSERT_TRUE(job);
+  EXPECT_TRUE(job->has_hand);
+  EXPECT_EQ(job->request.hand.known.side, Side::kLeft);
+  EXPECT_EQ(job->request.hand.known.marks.size(), 1U);
+  EXPECT_EQ(job->request.hand.known.bones.size(), 1U);
 }
 
 TEST_F(Jobs, RefusesWhatCantBe) {

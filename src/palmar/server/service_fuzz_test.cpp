@@ -108,7 +108,7 @@ class Fuzz : public ::testing::Test {
             "vary":["fillet:face=7=1:6"],"preview_mm":3,"radius_mm":[1,9],"language":"de"})";
     const std::string hand =
         R"({"kind":"hand","method":"scan","uploads":"k1","name":"anna","side":"left","unit":"mm",
-            "dot_colour":"blue","sizes_mm":{"hand_length":181},"corrections":[{"posture":"reference",
+            "dot_colour":"blue","pick_dot":[1,2,3],"sizes_mm":{"hand_length":181},"corrections":[{"posture":"reference",
             "mark":"dot","name":"palm","place_mm":[1,2,3]}]})";
     return {
         {"GET", "/api/state", ""},

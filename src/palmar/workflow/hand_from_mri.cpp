@@ -6,10 +6,12 @@
 #include <filesystem>
 
 #include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/records/capture/bone_label_file.h"
 #include "palmar/records/capture/person_file.h"
 #include "palmar/records/hand/hand_file.h"
 #include "palmar/records/product/product_file.h"
+#include "palmar/report/scan/found_bones.h"
 #include "palmar/report/scan/scan_report.h"
 #include "palmar/workflow/hand/hand_output.h"
 #include "palmar/workflow/hand/load_hand.h"
@@ -45,6 +47,17 @@ void require_apart(const std::string& work, const std::vector<SelectedScan>& sca
   }
 }
 
+/// Those of the known bones that aren't labelled already.
+void add_known(std::vector<BoneLabel>& labels, const std::vector<BoneLabel>& known) {
+  const std::vector<BoneLabel> said = labels;
+  for (const BoneLabel& one : known) {
+    const bool is_said = std::any_of(said.begin(), said.end(), [&one](const BoneLabel& label) {
+      return label.name == one.name;
+    });
+    if (!is_said) labels.push_back(one);
+  }
+}
+
 }  // namespace
 
 void HandFromMriRequest::check() const {
@@ -70,7 +83,7 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
   if (!request.labels.empty()) options.labels = read_bone_labels(request.labels);
   if (!request.known.empty()) {
     const PersonFile known = read_person(request.known);
-    options.labels.insert(options.labels.end(), known.bones.begin(), known.bones.end());
+    add_known(options.labels, known.bones);
     if (!options.surfaces.side) options.surfaces.side = known.side;
   }
   if (!request.product.empty()) {
@@ -94,6 +107,18 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
     write_hand(request.out, hand);
     if (request.writes_report) write_scan_report(options.work, record, request.language, part);
   };
+  if (request.writes_report || request.looks_only) {
+    options.show_reference = [&](const ScanSurfaces& reference, const Progress& part) {
+      write_file(options.work + "/found.toml", found_bones_toml(reference));
+      outcome.found = options.work + "/found.png";
+      write_file(outcome.found, encode_png(found_bones_sheet(reference, part)));
+    };
+  }
+  options.looks_only = request.looks_only;
+  if (request.looks_only) {
+    selection.scans.resize(1);  // the reference is the first
+    options.product.reset();
+  }
   options.write_found = [&](const ScanRecord& found, const ScanRefusal& refusal) -> std::string {
     if (!request.writes_report) return "What was found stays in " + options.work;
     ScanRefusal said = refusal;
@@ -102,7 +127,7 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
     return "What was found, with pictures: " + options.work + "/report.html";
   };
   outcome.record = run_mri_pipeline(selection.scans, *model, options, progress);
-  if (request.writes_report) outcome.report = outcome.work + "/report.html";
+  if (request.writes_report && !request.looks_only) outcome.report = outcome.work + "/report.html";
   return outcome;
 }
 

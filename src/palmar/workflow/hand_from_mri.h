@@ -26,13 +26,15 @@ struct HandFromMriRequest {
   std::vector<SeriesPosture> series;  ///< what series show whose names don't give it
   std::vector<ScanPosture> skip;      ///< postures to leave out, for a spoilt series
   std::string out;                    ///< the hand, *.hand.glb
-  std::string work;     ///< folder for the report and for what each step makes, which another run
-                        ///< takes up; empty: beside the hand, *.mri
-  std::string labels;   ///< file with names for bones of the reference scan; empty: none
-  std::string known;    ///< file of what is known of the person (read_person()): its side counts
-                        ///< where `surfaces` has none, its bones beside `labels`; empty: none
-  std::string product;  ///< what the grasp holds, in the patient frame of its scan; empty:
-                        ///< nothing is compared
+  std::string work;    ///< folder for the report and for what each step makes, which another run
+                       ///< takes up; empty: beside the hand, *.mri
+  std::string labels;  ///< file with names for bones of the reference scan; empty: none
+  std::string known;   ///< file of what is known of the person (read_person()): its side counts
+                       ///< where `surfaces` has none, its bones where `labels` doesn't name them;
+                       ///< empty: none
+  bool looks_only = false;  ///< end with the reference's bones: found.png, found.toml
+  std::string product;      ///< what the grasp holds, in the patient frame of its scan; empty:
+                            ///< nothing is compared
   std::optional<LengthUnit> unit;   ///< of the product's file, where that carries none
   std::string model = "template";   ///< hand to start from: "template" or a *.hand.glb file
   std::string name;                 ///< of the hand; empty: that of the file
@@ -52,13 +54,16 @@ struct HandFromMriOutcome {
   ScanRecord record;   ///< the hand and how far it lies from the scans; notes
   std::string work;    ///< folder of what each step made
   std::string report;  ///< page; empty: none was written
+  std::string found;   ///< sheet of the reference's bones, found.png; empty: none was written
 };
 
 /// Images to hand and report; minutes per posture. What an earlier run kept in the work folder is
 /// taken up where all that goes into it is the same. Throws UsageError; InputError naming series or
 /// file, also when a scan shows too few bones; NumericalError; OutputError; Cancelled (what was
 /// finished is kept). A step that fails once the reference's surfaces are there is named, and the
-/// report shows what was found until then (write_refused_scan_report()); no hand is written.
+/// report shows what was found until then (write_refused_scan_report()); no hand is written. Before
+/// anything is computed on the reference's bones, they are shown by number in the work folder
+/// (found.png, found.toml to be edited), if there is a report or nothing else is wanted.
 HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request,
                                       const Progress& progress = {});
 

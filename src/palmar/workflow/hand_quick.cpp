@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "palmar/capture/sheet/card_view.h"
@@ -113,14 +112,12 @@ OutlinePerson person_of_measures(const Population& population, const std::vector
 /// The request with what its file of the person says; what the request says itself counts more.
 HandQuickRequest with_what_is_known(HandQuickRequest request) {
   if (request.known.empty()) return request;
-  const PersonFile known = read_person(request.known);
-  if (!request.side) request.side = known.side;
-  for (const SizedDimension& one : known.sizes) {
-    const bool is_said =
-        std::any_of(request.sizes.begin(), request.sizes.end(),
-                    [&one](const SizedDimension& own) { return own.dimension == one.dimension; });
-    if (!is_said) request.sizes.push_back(one);
-  }
+  PersonFile said;
+  said.side = request.side;
+  said.sizes = request.sizes;
+  const PersonFile known = merged(read_person(request.known), said);
+  request.side = known.side;
+  request.sizes = known.sizes;
   if (request.photo.empty() && request.sizes.empty()) {
     throw InputError(request.known +
                      ": no measure of the hand in [measured_mm], and no photograph is given");

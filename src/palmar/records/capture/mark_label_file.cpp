@@ -35,13 +35,23 @@ std::optional<Segment> segment_of(const std::string& name, Kind kind, bool& is_k
   return segment;
 }
 
-std::string text_of(Kind kind, const std::optional<Segment>& segment) {
+std::string kind_name(Kind kind) { return kind == Kind::kCrease ? "crease" : "dot"; }
+
+}  // namespace
+
+std::string mark_name(MarkLabel::Kind kind, const std::optional<Segment>& segment) {
   if (!segment) return {};
   return kind == Kind::kCrease && *segment == Segment::kPalm ? kWrist
                                                              : std::string(name_of(*segment));
 }
 
-}  // namespace
+MarkText mark_text_of(const MarkLabel& label) {
+  return {.posture = std::string(name_of(label.posture)),
+          .mark = (label.is_added ? "added_" : "") + kind_name(label.kind),
+          .name = label.segment ? mark_name(label.kind, label.segment) : kNone,
+          .point = label.point,
+          .place = label.place};
+}
 
 std::optional<MarkLabel> mark_label_of(const MarkText& text,
                                        const std::function<void(const std::string&)>& fail) {
@@ -102,10 +112,10 @@ std::vector<MarkLabel> read_mark_labels(const std::string& path) {
 CsvTable mark_table(const std::vector<TakenMark>& marks) {
   CsvTable table{{"posture", "mark", "name", "x_mm", "y_mm", "z_mm"}, {}};
   for (const TakenMark& mark : marks) {
-    table.rows.push_back(
-        {std::string(name_of(mark.posture)), mark.kind == Kind::kCrease ? "crease" : "dot",
-         text_of(mark.kind, mark.segment), fmt::format("{:.2f}", mark.point.x()),
-         fmt::format("{:.2f}", mark.point.y()), fmt::format("{:.2f}", mark.point.z())});
+    table.rows.push_back({std::string(name_of(mark.posture)), kind_name(mark.kind),
+                          mark_name(mark.kind, mark.segment), fmt::format("{:.2f}", mark.point.x()),
+                          fmt::format("{:.2f}", mark.point.y()),
+                          fmt::format("{:.2f}", mark.point.z())});
   }
   return table;
 }

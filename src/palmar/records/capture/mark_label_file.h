@@ -21,6 +21,10 @@ struct MarkText {
 /// The same as a label; nothing without a name. `fail` throws what is wrong with where it stands.
 std::optional<MarkLabel> mark_label_of(const MarkText& text,
                                        const std::function<void(const std::string&)>& fail);
+/// A label in those words; without a segment it is "none".
+MarkText mark_text_of(const MarkLabel& label);
+/// The name of a mark in such a file: a segment, "wrist"; "" where there is none.
+std::string mark_name(MarkLabel::Kind kind, const std::optional<Segment>& segment);
 
 /// Reads what a person says of the marks on scans: CSV with the columns posture, mark, name, x_mm,
 /// y_mm, z_mm (scan's own frame). mark: crease, dot, added_crease, added_dot. name: a segment, of a

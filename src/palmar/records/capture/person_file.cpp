@@ -7,12 +7,10 @@
 #include "palmar/core/nearest_name.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/toml_section.h"
-#include "palmar/records/capture/mark_label_file.h"
 
 namespace palmar {
 namespace {
 
-constexpr std::uint64_t kMostBytes = 1 << 20;
 constexpr double kFarthest = 1e5;  // of a coordinate, in any unit
 
 std::optional<Vec3> point_of(const TomlSection& section, const char* key, const char* unit) {
@@ -45,9 +43,11 @@ std::optional<MarkLabel> mark_of(const TomlSection& section) {
   return mark_label_of(text, [&section](const std::string& why) { section.fail(why); });
 }
 
-BoneLabel bone_of(const TomlSection& section) {
+std::optional<BoneLabel> bone_of(const TomlSection& section) {
   section.allow({"name", "at_mm"});
-  return {section.need_text("name"), need_point(section), place_of(section)};
+  BoneLabel bone{section.need_text("name"), need_point(section), place_of(section)};
+  if (bone.name.empty()) return {};
+  return bone;
 }
 
 std::vector<SizedDimension> sizes_of(const TomlSection& section) {
@@ -67,10 +67,41 @@ std::vector<SizedDimension> sizes_of(const TomlSection& section) {
   return sizes;
 }
 
+std::string list_of(const Vec3& point) {
+  return "[" + toml_number(point.x()) + ", " + toml_number(point.y()) + ", " +
+         toml_number(point.z()) + "]";
+}
+
+std::string head_of(const char* table, std::string_view comment) {
+  return fmt::format("[[{}]]{}{}\n", table, comment.empty() ? "" : "  # ", comment);
+}
+
 }  // namespace
 
+bool PersonFile::is_empty() const {
+  return !side && !pick_crease && !pick_dot && marks.empty() && bones.empty() && sizes.empty();
+}
+
+PersonFile merged(PersonFile person, const PersonFile& more) {
+  if (more.side) person.side = more.side;
+  if (more.pick_crease) person.pick_crease = more.pick_crease;
+  if (more.pick_dot) person.pick_dot = more.pick_dot;
+  person.marks.insert(person.marks.end(), more.marks.begin(), more.marks.end());
+  person.bones.insert(person.bones.end(), more.bones.begin(), more.bones.end());
+  for (const SizedDimension& one : more.sizes) {
+    std::erase_if(person.sizes,
+                  [&one](const auto& other) { return other.dimension == one.dimension; });
+    person.sizes.push_back(one);
+  }
+  return person;
+}
+
 PersonFile read_person(const std::string& path) {
-  const toml::table table = parse_toml(read_file(path, kMostBytes), path);
+  return parse_person(read_file(path, kMostPersonBytes), path);
+}
+
+PersonFile parse_person(const std::string& text, const std::string& path) {
+  const toml::table table = parse_toml(text, path);
   const TomlSection file(path, "", table);
   file.allow({"side", "scan", "mark", "bone", "measured_mm"});
   PersonFile person;
@@ -88,9 +119,38 @@ PersonFile read_person(const std::string& path) {
   for (const TomlSection& section : file.tables("mark")) {
     if (const auto mark = mark_of(section)) person.marks.push_back(*mark);
   }
-  for (const TomlSection& section : file.tables("bone")) person.bones.push_back(bone_of(section));
+  for (const TomlSection& section : file.tables("bone")) {
+    if (const auto bone = bone_of(section)) person.bones.push_back(*bone);
+  }
   if (const auto sizes = file.table("measured_mm")) person.sizes = sizes_of(*sizes);
   return person;
+}
+
+std::string format_person_mark(const MarkText& mark, std::string_view comment) {
+  return head_of("mark", comment) + "posture = " + toml_string(mark.posture) +
+         "\nmark = " + toml_string(mark.mark) + "\nname = " + toml_string(mark.name) +
+         "\nat_mm = " + list_of(mark.point) + "\n";
+}
+
+std::string format_person_bone(const BoneLabel& bone, std::string_view comment) {
+  return head_of("bone", comment) + "name = " + toml_string(bone.name) +
+         "\nat_mm = " + list_of(bone.point) + "\n";
+}
+
+std::string format_person(const PersonFile& person) {
+  std::string text;
+  if (person.side) text += "side = " + toml_string(std::string(name_of(*person.side))) + "\n";
+  if (person.pick_crease || person.pick_dot) text += "\n[scan]\n";
+  if (person.pick_crease) text += "pick_crease = " + list_of(*person.pick_crease) + "\n";
+  if (person.pick_dot) text += "pick_dot = " + list_of(*person.pick_dot) + "\n";
+  for (const MarkLabel& one : person.marks) text += "\n" + format_person_mark(mark_text_of(one));
+  for (const BoneLabel& one : person.bones) text += "\n" + format_person_bone(one);
+  if (!person.sizes.empty()) text += "\n[measured_mm]\n";
+  for (const SizedDimension& one : person.sizes) {
+    text += name_of(one.dimension) + " = " + toml_number(one.value) + "\n";
+  }
+  if (text.starts_with('\n')) text.erase(0, 1);
+  return text;
 }
 
 }  // namespace palmar

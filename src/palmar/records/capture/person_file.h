@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "palmar/capture/mri/bones/bone_labels.h"
 #include "palmar/capture/scan/mark_labels.h"
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/population/population.h"
+#include "palmar/records/capture/mark_label_file.h"
 
 namespace palmar {
 
@@ -21,7 +24,12 @@ struct PersonFile {
   std::vector<MarkLabel> marks;               ///< on scans and photographs
   std::vector<BoneLabel> bones;               ///< in the reference image
   std::vector<SizedDimension> sizes;          ///< measured by hand, mm
+
+  bool is_empty() const;  ///< says nothing
 };
+
+/// `person` and what `more` says: its side, points and sizes count, its marks and bones come after.
+PersonFile merged(PersonFile person, const PersonFile& more);
 
 /// Reads it from a TOML file, which people edit and all commands that make a person's hand take:
 ///
@@ -40,8 +48,17 @@ struct PersonFile {
 ///     [measured_mm]
 ///     hand_length = 181.0
 ///
-/// All of it may be missing; a mark without a name changes nothing. Throws InputError naming file,
-/// line, key and what is allowed.
+/// All of it may be missing; a mark or bone without a name changes nothing. Throws InputError
+/// naming file, line, key and what is allowed.
 PersonFile read_person(const std::string& path);
+inline constexpr std::uint64_t kMostPersonBytes = 1 << 20;
+/// The same of a text; `path` is for messages.
+PersonFile parse_person(const std::string& text, const std::string& path);
+
+/// The text of such a file. Read again it gives the same, `place` apart, to the last digit.
+std::string format_person(const PersonFile& person);
+/// One mark or bone of it; a comment, in one line, stands behind its head.
+std::string format_person_mark(const MarkText& mark, std::string_view comment = {});
+std::string format_person_bone(const BoneLabel& bone, std::string_view comment = {});
 
 }  // namespace palmar

@@ -59,13 +59,20 @@ void check_laterality(RecordedScan& scan, const MriPipelineOptions& options) {
   scan.surfaces.notes.push_back(with_setting_names(note, options.setting_names));
 }
 
-/// What the user says about a scan counts over what was found.
-RecordedScan finished(RecordedScan scan, const Hand& model, const MriPipelineOptions& options) {
-  if (options.surfaces.side) scan.surfaces.side = *options.surfaces.side;
-  if (scan.posture == ScanPosture::kReference) {
-    apply_bone_labels(scan.surfaces, options.labels, model);
+/// Names that the user gives to bones of the reference count over those that were found. What is
+/// there is shown, also if a name is refused.
+void name_and_show(ScanSurfaces& reference, const Hand& model, const MriPipelineOptions& options,
+                   const Progress& progress) {
+  const auto show = [&] {
+    if (options.show_reference) options.show_reference(reference, progress);
+  };
+  try {
+    apply_bone_labels(reference, options.labels, model);
+  } catch (const InputError&) {
+    show();
+    throw;
   }
-  return scan;
+  show();
 }
 
 /// Surfaces that an earlier run left, or that the user gave, maybe repaired.
@@ -119,7 +126,8 @@ RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, const ScanS
     progress.update(0.0, "taking up what is there");
     scan.surfaces =
         read_kept(selected.has_surfaces ? selected.path : folder, selected.has_surfaces);
-    return finished(std::move(scan), model, options);
+    if (options.surfaces.side) scan.surfaces.side = *options.surfaces.side;
+    return scan;
   }
   const ImageFile file = read_image(selected.path, selected.choice, part_of(progress, 0.0, 0.1));
   scan.laterality = file.laterality;
@@ -138,7 +146,8 @@ RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, const ScanS
   }
   progress.throw_if_cancelled();
   write_scan_surfaces(folder, scan.surfaces, plan.key);
-  return finished(std::move(scan), model, options);
+  if (options.surfaces.side) scan.surfaces.side = *options.surfaces.side;
+  return scan;
 }
 
 /// A hand of which the image shows a part only would come out too short.
@@ -248,7 +257,8 @@ class Shares {
   double at_ = 0.0, left_ = 0.0;  // share that is done; seconds that aren't
 };
 constexpr double kChecked = 0.5;
-constexpr double kFound = 25.0, kKept = 0.1, kTracked = 4.0, kMade = 15.0, kWritten = 12.0;
+constexpr double kFound = 25.0, kKept = 0.1, kShown = 2.0, kTracked = 4.0, kMade = 15.0,
+                 kWritten = 12.0;
 
 /// Step and posture that the work is at, for when it fails.
 struct MriStep {
@@ -289,7 +299,7 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
     shares.plan(plan.is_kept ? kKept : kFound + kChecked);
     plans.push_back(std::move(plan));
   }
-  shares.plan(kTracked * static_cast<double>(scans.size() - 1) + kMade + kWritten);
+  shares.plan(kShown + kTracked * static_cast<double>(scans.size() - 1) + kMade + kWritten);
 
   const auto found = std::count_if(plans.begin(), plans.end(),
                                    [](const PlannedScan& plan) { return !plan.is_kept; });
@@ -306,7 +316,11 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
         result.scans.empty() ? nullptr : &result.scans.front().surfaces;
     result.scans.push_back(surfaces_of(plan, model, reference, options,
                                        shares.next(progress, plan.is_kept ? kKept : kFound, name)));
-    const RecordedScan& scan = result.scans.back();
+    RecordedScan& scan = result.scans.back();
+    step = {"bones", name};
+    if (result.scans.size() == 1) {
+      name_and_show(scan.surfaces, model, options, shares.next(progress, kShown, ""));
+    }
     for (const std::string& note : scan.surfaces.notes) on_note(name + ": " + note);
     const std::vector<std::string> doubts = doubtful_bones(scan.surfaces, model);
     if (!doubts.empty()) {
@@ -319,7 +333,7 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
                     better_scan(scan.surfaces)
               : ""));
     }
-    step = {"bones", name};
+    if (options.looks_only) return;
     if (result.scans.size() == 1) {
       require_bones(scan, model);
       require_whole(scan);

@@ -27,6 +27,10 @@ struct MriPipelineOptions {
   /// Called with each note as soon as it is known; may be empty.
   NoteSink note;
   SettingNames setting_names;  ///< for notes; exceptions name settings in the library's words
+  /// Called with the reference's surfaces and names before anything is computed on them, also if a
+  /// label is then refused; may be empty.
+  std::function<void(const ScanSurfaces&, const Progress&)> show_reference;
+  bool looks_only = false;  ///< ends there
   /// The last step, which writes hand and report.
   std::function<void(ScanRecord&, const Progress&)> write;
   /// Called when a step fails after the reference's surfaces were found, with what was found so

@@ -58,8 +58,8 @@ ScanHandOutcome make_hand_of_surfaces(const ScanHandOptions& options, const std:
     marks[posture] = &scans[posture].marks;
   }
   const PersonFile known = options.known.empty() ? PersonFile{} : read_person(options.known);
-  if (!options.marks.empty()) apply_mark_labels(read_mark_labels(options.marks), marks);
   if (!known.marks.empty()) apply_mark_labels(known.marks, marks);
+  if (!options.marks.empty()) apply_mark_labels(read_mark_labels(options.marks), marks);
   ScanHandOutcome outcome;
   HandFromScan& made = outcome.made;
   if (options.writes_report || options.looks_only) {
