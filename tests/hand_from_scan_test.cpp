@@ -207,6 +207,12 @@ TEST_F(HandFromScanTest, CreasesAreRecognisedByTheirOrder) {
     EXPECT_NEAR(found.shift.at(segment), off, 1e-6) << name_of(segment);
   }
   EXPECT_EQ(found.missing.size(), std::size_t{kSegmentCount - 3});
+  // Far off as well: nothing but creases is drawn right across a finger.
+  SkinMarks far;
+  far.lines = {line_at(creases, Segment::kMiddleProximal, 1.0),
+               line_at(creases, Segment::kMiddleMiddle, 13.0),
+               line_at(creases, Segment::kMiddleDistal, 11.0)};
+  EXPECT_NEAR(find_creases(far, {}, creases).shift.at(Segment::kMiddleMiddle), 13.0, 1e-6);
   // Somebody who says that the last line is none is believed, and what that person calls it.
   const Vec3 last = marks.lines[2].point[6];
   marks.crease_labels = {{last, {}, "m.csv:2"}};

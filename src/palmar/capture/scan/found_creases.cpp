@@ -18,8 +18,9 @@ namespace {
 constexpr double kBaseReach = 10.0, kWristReach = 18.0, kAside = 28.0;  // mm
 constexpr double kBare = 3.5;                                           // mm between two lines
 constexpr double kLeastBreadth = 5.0;                                   // mm; a third of a finger's
-constexpr double kSpread = 5.0;  // mm: how far off creases are suggested
-constexpr double kAlone = 3.0;   // cost of a crease or line without partner
+constexpr double kSpread = 5.0;   // mm: how far off creases are suggested
+constexpr double kAlone = 3.0;    // cost of a crease or line without partner
+constexpr double kCertain = 3.0;  // times as much of a line right across a finger: nothing else is
 
 struct Ink {
   Vec3 point;  // hand frame
@@ -256,6 +257,7 @@ void pair_lines(std::vector<Line>& lines, const HandCreases& creases, Finger fin
     });
     if (!is_taken) open.push_back(k);
   }
+  constexpr double kNever = std::numeric_limits<double>::max();
   std::vector<Line*> candidates;
   for (Line& line : lines) {
     if (line.finger == finger && line.labelled_at.empty() && line.breadth >= kLeastBreadth) {
@@ -267,16 +269,19 @@ void pair_lines(std::vector<Line>& lines, const HandCreases& creases, Finger fin
     const double d = (candidates[i]->along - scale.place[open[k]]) / kSpread;
     return d * d;
   };
+  // A broad line far from where proportions suggest a crease is that crease in another hand.
+  const auto alone = [&](std::size_t i) {
+    return kAlone * std::clamp(candidates[i]->breadth / kLeastBreadth, 1.0, kCertain);
+  };
   // best[i][k]: least cost of the first i lines and k creases.
   std::vector<std::vector<double>> best(n + 1, std::vector<double>(m + 1, 0.0));
   for (std::size_t i = 0; i <= n; ++i) {
     for (std::size_t k = 0; k <= m; ++k) {
-      if (i == 0 || k == 0) {
-        best[i][k] = kAlone * static_cast<double>(i + k);
-        continue;
-      }
-      best[i][k] = std::min({best[i - 1][k] + kAlone, best[i][k - 1] + kAlone,
-                             best[i - 1][k - 1] + cost(i - 1, k - 1)});
+      if (i == 0 && k == 0) continue;
+      const double without_line = i > 0 ? best[i - 1][k] + alone(i - 1) : kNever;
+      const double without_crease = k > 0 ? best[i][k - 1] + kAlone : kNever;
+      const double paired = i > 0 && k > 0 ? best[i - 1][k - 1] + cost(i - 1, k - 1) : kNever;
+      best[i][k] = std::min({without_line, without_crease, paired});
     }
   }
   for (std::size_t i = n, k = m; i > 0 && k > 0;) {
@@ -284,7 +289,7 @@ void pair_lines(std::vector<Line>& lines, const HandCreases& creases, Finger fin
       candidates[i - 1]->crease = scale.segment[open[k - 1]];
       --i;
       --k;
-    } else if (best[i][k] == best[i - 1][k] + kAlone) {
+    } else if (best[i][k] == best[i - 1][k] + alone(i - 1)) {
       --i;
     } else {
       --k;
