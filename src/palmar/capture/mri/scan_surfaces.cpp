@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/capture/mri/bones/bone_chain.h"
 #include "palmar/capture/mri/bones/bone_names.h"
 #include "palmar/capture/mri/bones/bone_regions.h"
 #include "palmar/capture/mri/bones/fat_shift.h"
@@ -55,24 +56,22 @@ TriangleMesh skin_surface(const ScanImage& scan, double edge_length,
 /// Where fat is shown off water, the skin is moved to the bones, and what is left of that makes
 /// them less certain. `seen`: by the bones.
 void move_skin_to_fat(const SurfaceOptions& options, const Vec3& seen, ScanSurfaces& surfaces) {
-  const Vec3& stated = options.fat_shift;
-  constexpr double kNamed = 0.3, kSeen = 0.5;         // mm, by the settings and by the bones alone
+  constexpr double kNamed = 0.3;                      // mm
   constexpr double kLeft = 0.4, kUncorrected = 0.65;  // share of the shift in the bones' errors
+  const Vec3& stated = options.fat_shift;
   surfaces.fat_shift = options.is_fat_side_known ? stated : signed_fat_shift(stated, seen);
   for (Vec3& v : surfaces.skin.vertices) v += surfaces.fat_shift;
   const bool is_corrected = surfaces.fat_shift != Vec3::Zero();
-  const bool is_stated = stated != Vec3::Zero();
-  const double shift = is_stated ? stated.norm() : seen.norm() > kSeen ? seen.norm() : 0.0;
+  const double shift = is_corrected ? surfaces.fat_shift.norm() : stated.norm();
   surfaces.bone_error_estimate =
       std::hypot(surfaces.bone_error_estimate, (is_corrected ? kLeft : kUncorrected) * shift);
   if (shift < kNamed) return;
   surfaces.notes.push_back(fmt::format(
       "fat, and with it the bones' marrow, is shown {}{:.1f} mm off: {}. A read-out of twice the "
       "bandwidth halves it",
-      is_stated ? "" : "about ", shift,
+      stated == Vec3::Zero() ? "about " : "", shift,
       is_corrected ? "the skin was moved to the bones by as much"
-      : is_stated  ? "to which side the bones don't show, and nothing was corrected"
-                   : "the file doesn't state the read-out's bandwidth, and nothing was corrected"));
+                   : "to which side the bones don't show, and nothing was corrected"));
 }
 
 }  // namespace
@@ -186,7 +185,11 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
     found.mesh = std::move(mesh);
   });
   progress.throw_if_cancelled();
-  move_skin_to_fat(options, fat_shift(shells), surfaces);
+  std::vector<LayerFit> palm;
+  for (std::size_t b = 0; b < shells.size(); ++b) {
+    if (is_palm_bone(surfaces.bones[b].name)) palm.push_back(std::move(shells[b]));
+  }
+  move_skin_to_fat(options, fat_shift(palm), surfaces);
   return surfaces;
 }
 

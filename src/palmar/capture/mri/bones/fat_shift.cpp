@@ -44,7 +44,7 @@ Vec3 fat_shift(const std::vector<LayerFit>& bones) {
 Vec3 signed_fat_shift(const Vec3& stated, const Vec3& seen) {
   constexpr double kLeastSeen = 0.3;  // mm
   const double size = stated.norm();
-  if (size == 0.0) return Vec3::Zero();
+  if (size == 0.0) return seen.norm() < kLeastSeen ? Vec3::Zero() : seen;
   const double along = seen.dot(stated) / size;
   if (std::abs(along) < kLeastSeen) return Vec3::Zero();
   return along > 0.0 ? stated : -stated;

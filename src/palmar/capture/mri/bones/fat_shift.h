@@ -9,10 +9,9 @@
 
 namespace palmar {
 
-/// Of a shift of fat so much is seen by fat_shift(): what lies outside the cortex is fat as well in
-/// places, and thicknesses are held near those of their surroundings. 0.18 to 0.35 in images of
-/// four development seeds.
-inline constexpr double kFatShiftShown = 0.25;
+/// Of a shift of fat so much is seen by fat_shift(), as thicknesses are held near those of their
+/// surroundings: 0.69 and 0.75 in images of two development seeds.
+inline constexpr double kFatShiftShown = 0.7;
 
 /// How far an image shows fat from where water is, mm, in the frame of the bones: fat's protons
 /// precess more slowly, and where the read-out's bandwidth is low, marrow lies off its bone. The
@@ -20,13 +19,13 @@ inline constexpr double kFatShiftShown = 0.25;
 ///
 ///     thickness = c - kFatShiftShown shift . normal,
 ///
-/// fitted to each bone by least squares; of the bones the median. Rough: within a third, and 0.1 mm
-/// of what isn't there (0.25 mm from palm to back, where cortices differ). Zero of fewer than five
-/// bones.
+/// fitted to each bone by least squares; of the bones the median. For `bones` of the palm, which
+/// muscle and tendons surround: round phalanges there is fat, which moves along. Zero of fewer than
+/// five bones.
 Vec3 fat_shift(const std::vector<LayerFit>& bones);
 
-/// The shift that a scanner's settings state, to the side that the bones show; zero where they show
-/// less than 0.3 mm.
+/// The shift that a scanner's settings state, to the side that the bones show; without settings
+/// (zero) what the bones show. Zero where they show less than 0.3 mm.
 Vec3 signed_fat_shift(const Vec3& stated, const Vec3& seen);
 
 }  // namespace palmar
