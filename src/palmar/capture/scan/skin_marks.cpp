@@ -127,20 +127,23 @@ bool is_band(const std::vector<int>& patch, const std::vector<char>& is_in,
   return deep > whole / 3.0;
 }
 
-/// Share of a patch's neighbours that are guesses.
-double rim_unseen(const std::vector<int>& patch, const std::vector<char>& is_in,
-                  const std::vector<std::vector<int>>& neighbours,
-                  const std::vector<char>& is_guess) {
+/// Share of a patch and its neighbours that are guesses.
+double guessed_share(const std::vector<int>& patch, const std::vector<char>& is_in,
+                     const std::vector<std::vector<int>>& neighbours,
+                     const std::vector<char>& is_guess) {
   if (is_guess.empty()) return 0.0;
-  int rim = 0, unseen = 0;
+  int all = 0, guesses = 0;
+  const auto count = [&](int v) {
+    ++all;
+    if (is_guess[v]) ++guesses;
+  };
   for (const int v : patch) {
+    count(v);
     for (const int n : neighbours[v]) {
-      if (is_in[n]) continue;
-      ++rim;
-      if (is_guess[n]) ++unseen;
+      if (!is_in[n]) count(n);
     }
   }
-  return rim == 0 ? 0.0 : static_cast<double>(unseen) / rim;
+  return static_cast<double>(guesses) / all;
 }
 
 void check_inks(const Skin& skin, const std::string& name, const SkinMarkOptions& options) {
@@ -221,12 +224,12 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
       is_in[v] = share[ink][v] >= options.least_share ? 1 : 0;
       if (is_in[v]) marks.is_ink[v] = 1;
     }
-    constexpr double kMuch = 0.4;  // of what lies round a mark may be a guess
+    constexpr double kMuch = 0.6;  // of a mark and what lies round it may be a guess
     const double dot_area = 0.25 * std::numbers::pi * options.dot_diameter * options.dot_diameter;
     int odd = 0, unseen = 0;
     double band = 0.0;  // mm^2
     for (const std::vector<int>& patch : patches(neighbours, is_in)) {
-      if (rim_unseen(patch, is_in, neighbours, mesh.is_guess) > kMuch) {
+      if (guessed_share(patch, is_in, neighbours, mesh.is_guess) > kMuch) {
         ++unseen;
         continue;
       }
