@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "palmar/capture/hand_plausibility.h"
+#include "palmar/capture/length_plausibility.h"
 #include "palmar/capture/mri/bones/bone_plausibility.h"
 #include "palmar/capture/mri/bones/image_edge.h"
 #include "palmar/capture/mri/grasp_contact.h"
@@ -368,6 +369,8 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
     keep_scanned_hand(options.work, made_key, result.made);
   }
   for (const std::string& note : result.made.notes) on_note(note);
+  const std::string doubt = length_doubt(result.made.hand.dimensions);
+  if (!doubt.empty()) on_note(doubt);
   if (options.product) {
     step = {"contact", std::string(name_of(ScanPosture::kGrasp))};
     result.contact = grasp_contact(result, options.product->mesh, options.product->source);
