@@ -128,7 +128,7 @@ std::string length_doubt(double length, double length_sd, const RestOfHand& rest
   if (std::abs(length - expected->value) <= expected->range()) return {};
   return fmt::format(
       "Hand length is {:.0f} mm, where the rest of the hand lets one expect {:.0f} +- {:.0f} mm "
-      "(95 of 100 people): look where the crease of the wrist was taken to be.",
+      "(99 of 100 people): look where the crease of the wrist was taken to be.",
       length, expected->value, expected->range());
 }
 

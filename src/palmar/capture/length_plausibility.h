@@ -33,8 +33,8 @@ inline constexpr double kLengthBySkinSd = 4.0;
 
 struct ExpectedLength {
   double value = 0.0, sd = 0.0;  ///< mm
-  /// 95 of 100 people lie within it, as within every +- that Palmar states.
-  double range() const { return 1.96 * sd; }
+  /// 99 of 100 people lie within it: a note about one hand in a hundred that is as it should be.
+  double range() const { return 2.576 * sd; }
 };
 
 /// The hand length that people of `population` with the rest of this hand have: the mean and
@@ -51,7 +51,7 @@ std::optional<ExpectedLength> expected_hand_length(const RestOfHand& rest,
                                                    const Population& population);
 
 /// A sentence for the user if `length` (its error's deviation: `length_sd`, mm) isn't within what
-/// is expected; empty otherwise. Of 20 hands that were measured well one is named.
+/// is expected; empty otherwise. Of 100 hands that were measured well one is named.
 std::string length_doubt(double length, double length_sd, const RestOfHand& rest,
                          const Population& population);
 
