@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // node scripts/capture_figures.mjs [--set development|final] [--only photos,scan,quick,mri] [--subjects N]
-//                                  [--program PALMAR --commit HASH] [--page]
+//                                  [--seeds SEED,SEED] [--program PALMAR --commit HASH] [--page]
 //
 // How far hands from photographs, scans, one photograph and MR images are off, from scratch: makes free persons
 // (docs/method/phantom.md) of the seeds in docs/method/capture_seeds.toml, gives their pictures to the program that
 // people use, and compares with the truth. A case that ends in a refusal or breaks down is a row of the table like
-// any other. --subjects: only the first N seeds of each kind. --page: puts the tables into docs/method, with date
+// any other. --subjects: only the first N seeds of each kind; --seeds: only these of the set's. --page: puts the tables into docs/method, with date
 // and commit. Seeds for development may be looked at as often as one likes; those of the final run are for one run
 // after all decisions.
 //
@@ -29,6 +29,7 @@ function option(name, otherwise) {
 const set = option("--set", "development");
 const program = option("--program", join(root, "build", "release", "bin", "palmar"));
 const most = Number(option("--subjects", "1000"));
+const chosen = option("--seeds", "").split(",").filter(Boolean).map(Number);
 const folder = join(root, "build", "capture_figures", set);
 /** Of everything that makes and measures: the program and those that it starts. */
 const version = ["palmar", "palmar-capture", "palmar-photo", "palmar-dicom"].map((name) => join(dirname(program), name))
@@ -401,12 +402,13 @@ const wanted = option("--only", Object.keys(kinds).join(",")).split(",");
 for (const kind of wanted) {
   if (!kinds[kind]) throw new Error(`--only ${kind}: ${Object.keys(kinds).join(", ")} are allowed`);
   const results = [];
-  for (const seed of seeds[kind].slice(0, most)) {
+  const used = seeds[kind].slice(0, most).filter((seed) => !chosen.length || chosen.includes(seed));
+  for (const seed of used) {
     for (const [name, words] of Object.entries(kinds[kind].cases)) results.push(run_case(kind, seed, name, words));
   }
   const when = new Date().toISOString().slice(0, 10);
-  const head = `${kinds[kind].title}, set "${set}", seeds ${seeds[kind].slice(0, most).join(", ")}: \`node scripts/capture_figures.mjs ` +
-    `--set ${set} --only ${kind}${most < seeds[kind].length ? ` --subjects ${most}` : ""}\`, ${when}, commit ${option("--commit", commit_here())}.`;
+  const head = `${kinds[kind].title}, set "${set}", seeds ${used.join(", ")}: \`node scripts/capture_figures.mjs ` +
+    `--set ${set} --only ${kind}${most < seeds[kind].length ? ` --subjects ${most}` : ""}${chosen.length ? ` --seeds ${chosen.join(",")}` : ""}\`, ${when}, commit ${option("--commit", commit_here())}.`;
   const text = `\n${head}\n\n${text_of(kind, results)}\n`;
   console.log(text);
   if (process.argv.includes("--page")) put_into_page(kind, text);

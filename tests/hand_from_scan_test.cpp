@@ -156,6 +156,31 @@ TEST_F(HandFromScanTest, OfTwoLinesAtTheWristTheNearerOneIsTaken) {
   EXPECT_NEAR(two.shift.at(Segment::kPalm), one.shift.at(Segment::kPalm), 0.1);
 }
 
+// The line alone, with nothing beside it to choose from: the hand is 11.5 mm too long, as a
+// reported one was, and that is said with what its skin, fingers and breadth let one expect.
+TEST_F(HandFromScanTest, AStrapTakenForTheWristsCreaseIsDoubted) {
+  const auto doubts = [](const HandFromScan& of) {
+    return std::count_if(of.notes.begin(), of.notes.end(),
+                         [](const std::string& note) { return note.find("Hand length is ") == 0; });
+  };
+  EXPECT_EQ(doubts(made()), 0);
+  const Hand& hand = made().scanned.hand;
+  const HandCreases suggested(hand.skin, hand.skeleton);
+  const Rigid3 hand_from_scan = made().scanned.patient_from_hand.inverse();
+  const CreasePlane& wrist = suggested.wrist();
+  SurfaceScan strap = scan(ScanPosture::kReference);
+  const Vec3 away = hand_from_scan.inverse().rotation * (-11.5 * wrist.normal);
+  for (InkLine& line : strap.marks.lines) {
+    if (std::abs(wrist.value(hand_from_scan * line.point.front())) > 6.0) continue;
+    for (Vec3& p : line.point) p += away;
+  }
+  const HandFromScan longer =
+      make_hand_from_scans(this->hand(), {{ScanPosture::kReference, strap}});
+  EXPECT_NEAR(longer.scanned.hand.dimensions.hand_length, person().dimensions.hand_length + 11.5,
+              1.5);
+  EXPECT_EQ(doubts(longer), 1);
+}
+
 // Those on the back of a proximal phalanx as well, which lie where the skin still is the palm's.
 TEST_F(HandFromScanTest, DotsBelongToTheBoneThatTheyWereDrawnOn) {
   int dots = 0;

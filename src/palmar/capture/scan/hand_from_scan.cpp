@@ -10,13 +10,14 @@
 #include <utility>
 
 #include "palmar/capture/hand_plausibility.h"
+#include "palmar/capture/length_plausibility.h"
 #include "palmar/capture/marker_matching.h"
 #include "palmar/capture/mri/bones/bone_chain.h"
-#include "palmar/capture/mri/ring_bands.h"
 #include "palmar/capture/scan/bound_dots.h"
 #include "palmar/capture/scan/dotted_joints.h"
 #include "palmar/capture/scan/dotted_thumb.h"
 #include "palmar/capture/scan/missing_marks.h"
+#include "palmar/capture/scan/ring_bands.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
@@ -297,7 +298,6 @@ void take_creases(const SurfaceScan& scan, PlacedSkeleton& placed_model, HandFro
   }
   if (!found.missing.empty()) result.notes.push_back(missing_creases_note(found.missing));
   const auto wrist = found.shift.find(Segment::kPalm);
-  constexpr double kFar = 8.0;  // mm
   if (wrist != found.shift.end() && !found.other_wrist.empty()) {
     const double apart = found.other_wrist.front() - wrist->second;
     result.notes.push_back(fmt::format(
@@ -305,12 +305,6 @@ void take_creases(const SurfaceScan& scan, PlacedSkeleton& placed_model, HandFro
         "the wrist's crease was taken. With the other the hand would be {:.0f} mm {}. Take watches "
         "and bracelets off, or name the line in a file of marks.",
         std::abs(apart), std::abs(apart), apart < 0.0 ? "longer" : "shorter"));
-  } else if (wrist != found.shift.end() && std::abs(wrist->second) > kFar) {
-    result.notes.push_back(
-        fmt::format("The line at the wrist lies {:.0f} mm from where the joints suggest the "
-                    "wrist's crease, and "
-                    "the hand's length hangs on it: look whether it is the crease.",
-                    std::abs(wrist->second)));
   }
   constexpr int kMany = 60;
   if (found.stray > kMany) {
@@ -361,8 +355,11 @@ HandFromScan make_hand_from_scans(const Hand& model,
   MeasuredJoints joints = joints_of(placed_model);
   leave_out_rings(placed_model, scan, result);
   result.scanned = register_model(base, scan, joints, part_of(progress, unit, 2.0 * unit));
+  double length_by_skin = 0.0;
   if (!scan.marks.lines.empty() || !scan.marks.added_lines.empty()) {
+    const double before = result.scanned.hand.dimensions.hand_length;
     take_creases(scan, placed_model, result);
+    if (result.creases.shift.contains(Segment::kPalm)) length_by_skin = before;
     joints = joints_of(placed_model);
     // The same skin, seen from the frame that the creases moved.
     result.scanned = register_model(base, scan, joints, part_of(progress, 2.0 * unit, 3.0 * unit));
@@ -440,13 +437,15 @@ HandFromScan make_hand_from_scans(const Hand& model,
   measure_distances(scan, result);
   result.notes.insert(result.notes.end(), result.scanned.notes.begin(), result.scanned.notes.end());
   const std::vector<std::string> impossible =
-      impossible_dimensions(result.scanned.hand.dimensions, model.dimensions);
+      impossible_dimensions(hand.dimensions, model.dimensions);
   if (!impossible.empty()) {
     throw InputError(fmt::format(
         "{}: what comes out is no hand: {}. Joints or skin were found wrongly: draw the creases, "
         "name them in a file of marks, or mend the scan",
         scan.name, fmt::join(impossible, "; ")));
   }
+  const std::string doubt = length_doubt(hand.dimensions, length_by_skin);
+  if (!doubt.empty()) result.notes.push_back(doubt);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/capture/length_plausibility.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/hand/instance/hand_instance.h"
@@ -97,17 +98,34 @@ std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineE
 }
 
 void allow_for_build(PersonEstimate& estimate) {
+  const auto length_of = [&](Segment segment) {
+    for (const EstimatedDimension& one : estimate.dimensions) {
+      if (one.dimension == HandDimension{DimensionKind::kSegmentLength, segment}) return one.value;
+    }
+    return 0.0;
+  };
   for (EstimatedDimension& one : estimate.dimensions) {
     const auto [kind, segment] = one.dimension;
     double share = 0.0;
     if (kind == DimensionKind::kSegmentLength) {
       share = segment == Segment::kPalm ? kPalmShare : kSegmentShare;
     } else if (kind == DimensionKind::kSegmentWidth && one.is_measured) {
-      share = kOwnWidth;
+      share = segment == Segment::kMiddleProximal ? kProportionScatter : kOwnWidth;
+    } else if (kind == DimensionKind::kHandWidth && one.is_measured) {
+      share = kOwnBreadth;
+    } else if (kind == DimensionKind::kSegmentThickness && !one.is_measured) {
+      share = kDepth;
     } else if (kind != DimensionKind::kHandLength && !one.is_measured) {
       share = kFullness;
     }
-    one.sd = std::hypot(one.sd, share * one.value);
+    double more = share * one.value;
+    const std::optional<Finger> finger = finger_of(segment);
+    if (kind == DimensionKind::kSegmentLength && finger && *finger != Finger::kThumb) {
+      const auto chain = segments_of(*finger);
+      const double others = std::hypot(length_of(*chain[1]), length_of(*chain[2]));
+      if (segment == chain[0]) more = share * others;
+    }
+    one.sd = std::hypot(one.sd, more);
   }
 }
 
@@ -128,16 +146,20 @@ OutlinePerson person_of_outline(const Hand& template_hand, const Population& pop
   const HandInstanceMaker maker(template_hand);
   const Side side = seen.is_right ? Side::kRight : Side::kLeft;
   OutlinePerson person;
+  std::vector<KnownMeasure> measures;
   const auto estimate_from = [&](const HandOutline& outline, const OutlineErrors& errors) {
-    const auto measures = measures_together(
-        own,
-        measures_of(outline, seen_obliquely(errors, scene.sheet.tilt), scene.sheet.scale_error));
+    measures = measures_together(own, measures_of(outline, seen_obliquely(errors, scene.sheet.tilt),
+                                                  scene.sheet.scale_error));
     person.outline = outline;
     person.measures = static_cast<int>(measures.size());
     person.estimate = estimate_person(population, measures);
     allow_for_build(person.estimate);
     person.hand = maker.make(sizes_of(person.estimate)).hand;
     if (person.hand.side != side) person.hand = mirrored(person.hand);
+  };
+  const auto check_length = [&] {
+    const std::string doubt = length_doubt(measures, population);
+    if (!doubt.empty()) person.notes.push_back(doubt);
   };
   estimate_from(seen, kRawErrors);
   for (int round = 0; round < rounds; ++round) {
@@ -151,11 +173,13 @@ OutlinePerson person_of_outline(const Hand& template_hand, const Population& pop
                              error.what() +
                              "): measures are taken as they are seen, with larger errors");
       estimate_from(seen, kRawErrors);
+      check_length();
       return person;
     }
     estimate_from(corrected(seen, person.model->outline, straight_dimensions(person.hand)),
                   kModelErrors);
   }
+  check_length();
   return person;
 }
 

@@ -29,17 +29,30 @@ std::vector<KnownMeasure> measures_together(std::vector<KnownMeasure> own,
 /// Shares by which a hand may differ from the surveys' people of the same length and breadth, as
 /// standard deviations. The regressions' residuals are those of soldiers measured with one tape,
 /// and their means are in the template's proportions; both are too sure of other hands.
-inline constexpr double kFullness = 0.045;  ///< girth, breadth, widths, thicknesses that weren't
-                                            ///< measured: as breadths at the finger joints vary
-                                            ///< about the girth (Greiner 1991). Of a hand from
-                                            ///< elsewhere these were 5 to 11 mm too large
+inline constexpr double kFullness = 0.045;  ///< girth, breadth, widths that weren't measured: as
+                                            ///< breadths at the finger joints vary about the girth
+                                            ///< (Greiner 1991). Of a hand from elsewhere these were
+                                            ///< 5 to 11 mm too large
+/// Thicknesses of phalanges that weren't measured. Nobody's survey has them; ellipses with
+/// Greiner's (1991) breadths and circumferences of the PIP joints of index and middle finger are
+/// 0.89 (men) and 0.96 (women), 0.97 and 1.02 times as deep as broad, the template's segments
+/// beside these joints 1.01 and 1.05 times: the root mean square of what is between.
+inline constexpr double kDepth = 0.075;
 /// Lengths of phalanges: rulers of surveys differ by 10 to 20 % from the template's segments (the
 /// middle finger's last one 28.7 mm in Greiner 1991, 35 here, in hands of 194 mm), and free persons
-/// of the phantom (docs/method/outline.md) by 16 % in the root mean square.
+/// of the phantom (docs/method/outline.md) by 16 % in the root mean square. A first segment of a
+/// finger is what the others leave of its length, and errs by both.
 inline constexpr double kSegmentShare = 0.15;
 inline constexpr double kPalmShare = 0.02;  ///< palm, likewise: 3 mm
 inline constexpr double kOwnWidth = 0.03;   ///< a measured width, which the regression thinks to be
-                                            ///< in proportion to the others
+                                            ///< in proportion to the others; of the middle finger's
+                                            ///< first segment kProportionScatter, as it has none of
+                                            ///< its own
+
+/// A measured breadth over the knuckles: 1.8 mm in all, the root mean square of free persons for
+/// development (docs/method/outline.md). Not among OutlineErrors: counted less, it would follow the
+/// fingers' widths, and err more.
+inline constexpr double kOwnBreadth = 0.016;
 
 /// Widens what is said of an outline's person by these.
 void allow_for_build(PersonEstimate& estimate);

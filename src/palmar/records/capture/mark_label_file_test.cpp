@@ -21,7 +21,7 @@ std::vector<MarkLabel> labels_in(const std::string& rows) {
   return read_mark_labels((folder / "marks.csv").string());
 }
 
-std::string refusal(const std::string& rows) {
+std::string refusal_of_marks(const std::string& rows) {
   return message_of<InputError>([&] { labels_in(rows); });
 }
 
@@ -54,13 +54,13 @@ TEST(MarkLabelFile, WritesWhatItReads) {
 }
 
 TEST(MarkLabelFile, NamesLineAndWhatIsAllowed) {
-  EXPECT_THAT(refusal("reference,crease,indx_middle,1,2,3\n"),
+  EXPECT_THAT(refusal_of_marks("reference,crease,indx_middle,1,2,3\n"),
               AllOf(HasSubstr("marks.csv:2"), HasSubstr("\"index_middle\"")));
-  EXPECT_THAT(refusal("reference,crease,palm,1,2,3\n"), HasSubstr("names no crease"));
-  EXPECT_THAT(refusal("reference,line,wrist,1,2,3\n"), HasSubstr("added_crease"));
-  EXPECT_THAT(refusal("sideways,dot,palm,1,2,3\n"), HasSubstr("is no posture"));
-  EXPECT_THAT(refusal("reference,added_dot,none,1,2,3\n"), HasSubstr("must have a name"));
-  EXPECT_THAT(refusal("reference,dot,palm,1,two,3\n"), HasSubstr("y_mm"));
+  EXPECT_THAT(refusal_of_marks("reference,crease,palm,1,2,3\n"), HasSubstr("names no crease"));
+  EXPECT_THAT(refusal_of_marks("reference,line,wrist,1,2,3\n"), HasSubstr("added_crease"));
+  EXPECT_THAT(refusal_of_marks("sideways,dot,palm,1,2,3\n"), HasSubstr("is no posture"));
+  EXPECT_THAT(refusal_of_marks("reference,added_dot,none,1,2,3\n"), HasSubstr("must have a name"));
+  EXPECT_THAT(refusal_of_marks("reference,dot,palm,1,two,3\n"), HasSubstr("y_mm"));
 }
 
 }  // namespace

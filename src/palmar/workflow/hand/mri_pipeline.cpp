@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "palmar/capture/hand_plausibility.h"
+#include "palmar/capture/length_plausibility.h"
 #include "palmar/capture/mri/bones/bone_plausibility.h"
 #include "palmar/capture/mri/bones/image_edge.h"
 #include "palmar/capture/mri/grasp_contact.h"
@@ -18,9 +19,7 @@
 #include "palmar/formats/image/dicom.h"
 #include "palmar/formats/sha256.h"
 #include "palmar/hand/template_hand.h"
-#include "palmar/records/capture/kept_scan_results.h"
 #include "palmar/records/capture/scan_surfaces_file.h"
-#include "palmar/records/hand/hand_file.h"
 
 namespace palmar {
 namespace {
@@ -244,7 +243,6 @@ ScannedHand make_hand(const Hand& model, const std::map<ScanPosture, ScanSurface
 class Shares {
  public:
   void plan(double seconds) { left_ += seconds; }
-  void drop(double seconds) { left_ -= seconds; }
   /// The next step's part.
   Progress next(const Progress& progress, double seconds, const std::string& what) {
     const double begin = at_;
@@ -308,7 +306,6 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
                          shares.next(progress, kChecked * static_cast<double>(found), ""), on_note);
   }
 
-  std::vector<std::string> digests;
   for (const PlannedScan& plan : plans) {
     const std::string name(name_of(plan.selected->posture));
     step = {"surfaces", name};
@@ -339,31 +336,12 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
       require_whole(scan);
     }
     require_same_side(scan, result.scans.front().surfaces.side);
-    digests.push_back(digest_of(scan.surfaces));
   }
 
-  // What earlier runs kept first: then the time that is left can be determined.
   const ScanSurfaces& reference = result.scans.front().surfaces;
-  std::vector<std::string> keys = {""};
-  std::string all = build_description() + digests.front() + sha256_hex(format_hand(model));
-  for (std::size_t k = 1; k < result.scans.size(); ++k) {
-    const ScanPosture posture = result.scans[k].posture;
-    keys.push_back(sha256_hex(build_description() + digests.front() + digests[k] +
-                              plans.front().key + plans[k].key));
-    all += std::string(name_of(posture)) + keys.back();
-    auto kept = kept_bone_motions(folder_of(posture, options.work), keys.back());
-    if (!kept) continue;
-    result.motions[posture] = std::move(*kept);
-    shares.drop(kTracked);
-  }
-  const std::string made_key = sha256_hex(all);
-  std::optional<ScannedHand> made = kept_scanned_hand(options.work, made_key);
-  if (made) shares.drop(kMade - kKept);
-
   std::optional<BoneImages> bones;
   for (std::size_t k = 1; k < result.scans.size(); ++k) {
     const RecordedScan& scan = result.scans[k];
-    if (result.motions.contains(scan.posture)) continue;
     const Progress part = shares.next(progress, kTracked, std::string(name_of(scan.posture)));
     part.update(0.0, "reading");
     step = {"motions", std::string(name_of(scan.posture))};
@@ -372,13 +350,11 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
       bones = image ? images_of_bones(reference, *image) : BoneImages();
     }
     const std::optional<ImageLevels> image = levels_of(scans[k]);
-    std::vector<BoneMotion> motions =
+    result.motions[scan.posture] =
         track_bones(reference, scan.surfaces, {&*bones, image ? &*image : nullptr}, part);
-    keep_bone_motions(folder_of(scan.posture, options.work), keys[k], motions);
-    result.motions[scan.posture] = std::move(motions);
   }
 
-  const Progress part = shares.next(progress, made ? kKept : kMade, "");
+  const Progress part = shares.next(progress, kMade, "");
   part.update(0.0, "joints");
   step = {"joints", ""};
   const Hand sided = reference.side == model.side ? model : mirrored(model);
@@ -387,13 +363,10 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
   result.joints = measure_joints(surfaces, result.motions, sided);
   for (const std::string& note : result.joints.notes) on_note(note);
   step = {"hand", ""};
-  if (made) {
-    result.made = std::move(*made);
-  } else {
-    result.made = make_hand(sided, surfaces, result, part_of(part, 0.1, 1.0));
-    keep_scanned_hand(options.work, made_key, result.made);
-  }
+  result.made = make_hand(sided, surfaces, result, part_of(part, 0.1, 1.0));
   for (const std::string& note : result.made.notes) on_note(note);
+  const std::string doubt = length_doubt(result.made.hand.dimensions);
+  if (!doubt.empty()) on_note(doubt);
   if (options.product) {
     step = {"contact", std::string(name_of(ScanPosture::kGrasp))};
     result.contact = grasp_contact(result, options.product->mesh, options.product->source);

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/capture/mri/ring_bands.h"
+#include "palmar/capture/scan/ring_bands.h"
 
 #include <algorithm>
 #include <array>
