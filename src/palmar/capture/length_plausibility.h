@@ -26,10 +26,10 @@ struct RestOfHand {
   static RestOfHand of(const HandDimensions& dimensions);
 };
 
-/// Standard deviation of the length by the skin's shape without the wrist's line, mm: 2.6 on free
-/// persons for development; more here, as creases of a hand from elsewhere were 4.4 off in the mean
-/// (docs/method/scan.md, "no lines").
-inline constexpr double kLengthBySkinSd = 4.0;
+/// Standard deviation of the length by the skin's shape without the wrist's line, mm: the root mean
+/// square was 2.6 on the four free persons for development (docs/method/scan.md, "no lines"), and
+/// so few tell it to a third.
+inline constexpr double kLengthBySkinSd = 3.0;
 
 struct ExpectedLength {
   double value = 0.0, sd = 0.0;  ///< mm
