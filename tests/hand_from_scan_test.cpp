@@ -238,6 +238,13 @@ TEST_F(HandFromScanTest, CreasesAreRecognisedByTheirOrder) {
                line_at(creases, Segment::kMiddleMiddle, 13.0),
                line_at(creases, Segment::kMiddleDistal, 11.0)};
   EXPECT_NEAR(find_creases(far, {}, creases).shift.at(Segment::kMiddleMiddle), 13.0, 1e-6);
+  // The whole finger misjudged by more than half a phalanx: three lines are the three creases.
+  far.lines = {line_at(creases, Segment::kMiddleProximal, 15.0),
+               line_at(creases, Segment::kMiddleMiddle, 15.0),
+               line_at(creases, Segment::kMiddleDistal, 15.0)};
+  found = find_creases(far, {}, creases);
+  EXPECT_NEAR(found.shift.at(Segment::kMiddleProximal), 15.0, 1e-6);
+  EXPECT_NEAR(found.shift.at(Segment::kMiddleDistal), 15.0, 1e-6);
   // Somebody who says that the last line is none is believed, and what that person calls it.
   const Vec3 last = marks.lines[2].point[6];
   marks.crease_labels = {{last, {}, "m.csv:2"}};

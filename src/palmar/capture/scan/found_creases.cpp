@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -247,7 +248,28 @@ void take_labels(const SkinMarks& marks, const Rigid3& hand_from_scan, std::vect
   }
 }
 
-/// Pairs the lines of a finger with its creases (dynamic programming).
+/// As many lines right across a finger as creases, as far apart as people's are, are these in their
+/// order, wherever joints suggest them. False: they aren't, and nothing was named.
+bool pair_in_order(const std::vector<Line*>& candidates, const FingerScale& scale,
+                   const std::vector<std::size_t>& open) {
+  constexpr double kRightAcross = 10.0, kFarthest = 25.0;  // mm
+  constexpr double kLeastGap = 8.0, kLargestGap = 45.0;    // mm
+  std::vector<Line*> across;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(across),
+               [](const Line* line) { return line->breadth >= kRightAcross; });
+  if (open.size() < 2 || across.size() != open.size()) return false;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    if (std::abs(across[k]->along - scale.place[open[k]]) > kFarthest) return false;
+    if (k == 0) continue;
+    const double gap = across[k]->along - across[k - 1]->along;
+    if (gap < kLeastGap || gap > kLargestGap) return false;
+  }
+  for (std::size_t k = 0; k < open.size(); ++k) across[k]->crease = scale.segment[open[k]];
+  return true;
+}
+
+/// Pairs the lines of a finger with its creases (dynamic programming, where their number doesn't
+/// decide).
 void pair_lines(std::vector<Line>& lines, const HandCreases& creases, Finger finger) {
   const FingerScale scale(creases, finger);
   std::vector<std::size_t> open;  // creases that no label took
@@ -264,6 +286,7 @@ void pair_lines(std::vector<Line>& lines, const HandCreases& creases, Finger fin
       candidates.push_back(&line);
     }
   }
+  if (pair_in_order(candidates, scale, open)) return;
   const std::size_t n = candidates.size(), m = open.size();
   const auto cost = [&](std::size_t i, std::size_t k) {
     const double d = (candidates[i]->along - scale.place[open[k]]) / kSpread;
