@@ -127,23 +127,22 @@ bool is_band(const std::vector<int>& patch, const std::vector<char>& is_in,
   return deep > whole / 3.0;
 }
 
-/// Share of a patch and its neighbours that are guesses.
-double guessed_share(const std::vector<int>& patch, const std::vector<char>& is_in,
-                     const std::vector<std::vector<int>>& neighbours,
-                     const std::vector<char>& is_guess) {
-  if (is_guess.empty()) return 0.0;
+/// What lies round a patch, counted from each of its vertices, and how much of that is a guess.
+struct Rim {
   int all = 0, guesses = 0;
-  const auto count = [&](int v) {
-    ++all;
-    if (is_guess[v]) ++guesses;
-  };
+};
+Rim rim_of(const std::vector<int>& patch, const std::vector<char>& is_in,
+           const std::vector<std::vector<int>>& neighbours, const std::vector<char>& is_guess) {
+  Rim rim;
+  if (is_guess.empty()) return rim;
   for (const int v : patch) {
-    count(v);
     for (const int n : neighbours[v]) {
-      if (!is_in[n]) count(n);
+      if (is_in[n]) continue;
+      ++rim.all;
+      if (is_guess[n]) ++rim.guesses;
     }
   }
-  return static_cast<double>(guesses) / all;
+  return rim;
 }
 
 void check_inks(const Skin& skin, const std::string& name, const SkinMarkOptions& options) {
@@ -224,12 +223,16 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
       is_in[v] = share[ink][v] >= options.least_share ? 1 : 0;
       if (is_in[v]) marks.is_ink[v] = 1;
     }
-    constexpr double kMuch = 0.6;  // of a mark and what lies round it may be a guess
+    // Of what lies round a dot, of a line and what lies round it may be a guess.
+    constexpr double kRoundDot = 0.4, kOfLine = 0.6;
     const double dot_area = 0.25 * std::numbers::pi * options.dot_diameter * options.dot_diameter;
     int odd = 0, unseen = 0;
     double band = 0.0;  // mm^2
     for (const std::vector<int>& patch : patches(neighbours, is_in)) {
-      if (guessed_share(patch, is_in, neighbours, mesh.is_guess) > kMuch) {
+      const Rim rim = rim_of(patch, is_in, neighbours, mesh.is_guess);
+      const double most =
+          ink == 1 ? kRoundDot * rim.all : kOfLine * (rim.all + static_cast<double>(patch.size()));
+      if (rim.guesses > most) {
         ++unseen;
         continue;
       }
