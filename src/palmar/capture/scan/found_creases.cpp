@@ -248,6 +248,23 @@ void take_labels(const SkinMarks& marks, const Rigid3& hand_from_scan, std::vect
   }
 }
 
+/// Mean of the ink.
+Vec3 mean_of(const Line& line) {
+  Vec3 mean = Vec3::Zero();
+  for (const Ink& ink : line.ink) mean += ink.point / static_cast<double>(line.ink.size());
+  return mean;
+}
+
+/// A point of the ink, nearest to its middle.
+Vec3 middle_of(const Line& line) {
+  const Vec3 mean = mean_of(line);
+  return std::min_element(line.ink.begin(), line.ink.end(),
+                          [&](const Ink& a, const Ink& b) {
+                            return (a.point - mean).squaredNorm() < (b.point - mean).squaredNorm();
+                          })
+      ->point;
+}
+
 /// As many lines right across a finger as creases, as far apart as people's are, are these in their
 /// order, wherever joints suggest them. False: they aren't, and nothing was named.
 bool pair_in_order(const std::vector<Line*>& candidates, const FingerScale& scale,
@@ -261,7 +278,7 @@ bool pair_in_order(const std::vector<Line*>& candidates, const FingerScale& scal
   for (std::size_t k = 0; k < open.size(); ++k) {
     if (std::abs(across[k]->along - scale.place[open[k]]) > kFarthest) return false;
     if (k == 0) continue;
-    const double gap = across[k]->along - across[k - 1]->along;
+    const double gap = (mean_of(*across[k]) - mean_of(*across[k - 1])).norm();
     if (gap < kLeastGap || gap > kLargestGap) return false;
   }
   for (std::size_t k = 0; k < open.size(); ++k) across[k]->crease = scale.segment[open[k]];
@@ -363,17 +380,6 @@ void fit_crease_plane(const std::vector<const Line*>& lines, const Frame& frame,
   found.shift[segment] = a;
   found.plane[segment] = {frame.plane.point + a * frame.plane.normal,
                           (frame.plane.normal - b * frame.aside).normalized()};
-}
-
-/// A point of the ink, nearest to its middle.
-Vec3 middle_of(const Line& line) {
-  Vec3 mean = Vec3::Zero();
-  for (const Ink& ink : line.ink) mean += ink.point / static_cast<double>(line.ink.size());
-  return std::min_element(line.ink.begin(), line.ink.end(),
-                          [&](const Ink& a, const Ink& b) {
-                            return (a.point - mean).squaredNorm() < (b.point - mean).squaredNorm();
-                          })
-      ->point;
 }
 
 }  // namespace
