@@ -223,9 +223,18 @@ RayNodes completed(const std::vector<std::optional<Vec3>>& seen, const std::vect
 }  // namespace
 
 std::array<Vec3, 2> ends_of(const TriangleMesh& bone, const Vec3& distal) {
+  constexpr double kLong = 1.5;  // over the second extent; a distal phalanx of which only the tuft
+                                 // is found is broader than long
   const std::array<Vec3, 6> points = moment_points(bone);
   const Vec3 centre = 0.5 * (points[4] + points[5]);
-  Vec3 axis = (points[4] - points[5]).normalized();
+  const auto extent = [&](std::size_t k) -> Vec3 { return points[2 * k] - points[2 * k + 1]; };
+  Vec3 axis = extent(2).normalized();
+  if (extent(2).norm() < kLong * extent(1).norm()) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Vec3 other = extent(k).normalized();
+      if (std::abs(other.dot(distal - centre)) > std::abs(axis.dot(distal - centre))) axis = other;
+    }
+  }
   if (axis.dot(distal - centre) < 0.0) axis = -axis;
   double lowest = 0.0, highest = 0.0;
   for (const Vec3& v : bone.vertices) {

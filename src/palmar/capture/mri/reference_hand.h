@@ -52,7 +52,8 @@ struct ReferenceHand {
 /// scan's side. Throws InputError with fewer than three bones of the palm to go by.
 ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model);
 
-/// Proximal and distal end of a long bone on its principal axis; `distal` distinguishes the ends.
+/// Proximal and distal end of a bone on its longest principal axis, or, if it is hardly longer than
+/// broad, on the one that points to `distal`, a point beyond it, which distinguishes the ends.
 std::array<Vec3, 2> ends_of(const TriangleMesh& bone, const Vec3& distal);
 
 /// Centre of a bone's head, the end of it that carries `distal`: of the sphere through what lies
