@@ -63,15 +63,16 @@ void move_skin_to_fat(const SurfaceOptions& options, const Vec3& seen, ScanSurfa
   for (Vec3& v : surfaces.skin.vertices) v += surfaces.fat_shift;
   const bool is_corrected = surfaces.fat_shift != Vec3::Zero();
   const double shift = is_corrected ? surfaces.fat_shift.norm() : stated.norm();
-  surfaces.bone_error_estimate =
-      std::hypot(surfaces.bone_error_estimate, (is_corrected ? kLeft : kUncorrected) * shift);
+  // Where the bones don't show what is stated, what they show counts.
+  surfaces.bone_error_estimate = std::hypot(
+      surfaces.bone_error_estimate, is_corrected ? kLeft * shift : kUncorrected * seen.norm());
   if (shift < kNamed) return;
   surfaces.notes.push_back(fmt::format(
       "fat, and with it the bones' marrow, is shown {}{:.1f} mm off: {}. A read-out of twice the "
       "bandwidth halves it",
       stated == Vec3::Zero() ? "about " : "", shift,
       is_corrected ? "the skin was moved to the bones by as much"
-                   : "to which side the bones don't show, and nothing was corrected"));
+                   : "the bones don't show that, or to which side, and nothing was corrected"));
 }
 
 }  // namespace

@@ -104,11 +104,11 @@ void take_from_reference(const ScanSurfaces& reference, SurfaceOptions& how) {
     how.side = reference.side;
     how.doubted_below = 0.75;
   }
-  constexpr double kParallel = 0.99;
-  const double both = reference.fat_shift.norm() * how.fat_shift.norm();
-  const double along = reference.fat_shift.dot(how.fat_shift);
-  if (both == 0.0 || std::abs(along) < kParallel * both) return;
-  if (along < 0.0) how.fat_shift = -how.fat_shift;
+  constexpr double kAlike = 0.25;  // of the shift: one read-out, or nearly
+  const Vec3& shown = reference.fat_shift;
+  const Vec3 towards = shown.dot(how.fat_shift) < 0.0 ? Vec3(-how.fat_shift) : how.fat_shift;
+  if (shown == Vec3::Zero() || (towards - shown).norm() > kAlike * shown.norm()) return;
+  how.fat_shift = towards;
   how.is_fat_side_known = true;
 }
 

@@ -3,6 +3,7 @@
 #include "palmar/capture/mri/bones/fat_shift.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -42,11 +43,11 @@ Vec3 fat_shift(const std::vector<LayerFit>& bones) {
 }
 
 Vec3 signed_fat_shift(const Vec3& stated, const Vec3& seen) {
-  constexpr double kLeastSeen = 0.3;  // mm
+  constexpr double kLeastSeen = 0.3, kLeastShare = 1.0 / 3.0;  // mm; of what is stated
   const double size = stated.norm();
   if (size == 0.0) return seen.norm() < kLeastSeen ? Vec3::Zero() : seen;
   const double along = seen.dot(stated) / size;
-  if (std::abs(along) < kLeastSeen) return Vec3::Zero();
+  if (std::abs(along) < std::max(kLeastSeen, kLeastShare * size)) return Vec3::Zero();
   return along > 0.0 ? stated : -stated;
 }
 

@@ -25,7 +25,8 @@ inline constexpr double kFatShiftShown = 0.7;
 Vec3 fat_shift(const std::vector<LayerFit>& bones);
 
 /// The shift that a scanner's settings state, to the side that the bones show; without settings
-/// (zero) what the bones show. Zero where they show less than 0.3 mm.
+/// (zero) what the bones show. Zero where they show less than 0.3 mm, or a third of what is stated:
+/// a file may state a bandwidth that its image wasn't made with.
 Vec3 signed_fat_shift(const Vec3& stated, const Vec3& seen);
 
 }  // namespace palmar

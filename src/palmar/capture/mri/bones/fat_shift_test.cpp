@@ -72,6 +72,7 @@ TEST(FatShift, GoesToTheSideThatBonesShow) {
   EXPECT_EQ(signed_fat_shift(stated, Vec3(0.5, -0.6, 0)), Vec3(0, -0.8, 0));
   EXPECT_EQ(signed_fat_shift(stated, Vec3(0, 1.5, 0)), stated);
   EXPECT_EQ(signed_fat_shift(stated, Vec3(0.9, 0.1, 0)), Vec3::Zero());
+  EXPECT_EQ(signed_fat_shift(Vec3(0, 50, 0), Vec3(0, 0.8, 0)), Vec3::Zero());  // absurd
   EXPECT_EQ(signed_fat_shift(Vec3::Zero(), Vec3(1, 1, 1)), Vec3(1, 1, 1));
   EXPECT_EQ(signed_fat_shift(Vec3::Zero(), Vec3(0.1, 0.1, 0.1)), Vec3::Zero());
 }
