@@ -15,23 +15,63 @@ function(palmar_export target name)
           COMPONENT development)
 endfunction()
 
-# One ctest entry per test program, not per test: what a program prepares for its tests (a hand, an
-# assessment) is prepared once. `PROGRAM --gtest_filter=...` runs single tests.
-# palmar_add_tests(PROGRAM slow): minutes under the sanitizers, so ./check runs it in Release only.
-# palmar_add_tests(PROGRAM release): before a release only; `--target release_tests` builds these.
-function(palmar_add_tests program)
-  add_test(NAME ${program} COMMAND ${program})
-  set_tests_properties(${program} PROPERTIES TIMEOUT 1500 LABELS "${ARGN}")
+# One ctest entry per test program of a module, not per test: what a program prepares for its tests (a hand, an
+# assessment) is prepared once. `PROGRAM --gtest_filter=...` runs single tests. Tests that begin with `Thorough`
+# stand in an entry NAME_thorough of their own with the label `release`: ./check --full alone runs those.
+function(palmar_add_entry program name filter sources labels)
+  add_test(NAME ${name} COMMAND ${program} --gtest_filter=${filter}-*Thorough*)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 1500 LABELS "${labels}")
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} thorough REGEX "^TEST.*, Thorough" LIMIT_COUNT 1)
+    if(thorough)
+      string(REPLACE ".*" ".Thorough*" patterns "${filter}")
+      string(REGEX REPLACE "^\\*$" "*.Thorough*" patterns "${patterns}")
+      add_test(NAME ${name}_thorough COMMAND ${program} --gtest_filter=${patterns})
+      set_tests_properties(${name}_thorough PROPERTIES TIMEOUT 1500 LABELS release)
+      break()
+    endif()
+  endforeach()
+endfunction()
+
+function(palmar_test_target program)
   palmar_use_headers(${program} palmar_test_headers)
   target_compile_options(${program} PRIVATE ${palmar_once})
-  palmar_batches(${program} 6)
-  if("release" IN_LIST ARGN)
-    set_target_properties(${program} PROPERTIES EXCLUDE_FROM_ALL TRUE)
-    if(NOT TARGET release_tests)
-      add_custom_target(release_tests)
-    endif()
-    add_dependencies(release_tests ${program})
+  target_include_directories(${program} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  target_compile_definitions(${program} PRIVATE
+    PALMAR_SOURCE_DIR="${CMAKE_SOURCE_DIR}" PALMAR_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared"
+    PALMAR_HAND_ASSET="${CMAKE_SOURCE_DIR}/node_modules/@webxr-input-profiles/assets/dist/profiles/generic-hand/right.glb")
+endfunction()
+
+# palmar_test_program(NAME LIBRARY ...): a test program of several subjects, which palmar_test() adds:
+# palmar_test(PROGRAM NAME [SOURCES ...] [FILTER PATTERN] [LABELS ...]): the tests of these sources as one ctest
+# entry. Label `release`: before a release only.
+function(palmar_test_program name)
+  add_executable(${name})
+  target_link_libraries(${name} PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE PALMAR_EXECUTABLE="$<TARGET_FILE:palmar>")
+  if(TARGET palmar-cad)
+    target_compile_definitions(${name} PRIVATE PALMAR_CAD_PROGRAM="$<TARGET_FILE:palmar-cad>")
   endif()
+  palmar_test_target(${name})
+endfunction()
+
+function(palmar_test program name)
+  cmake_parse_arguments(ARG "" "FILTER" "SOURCES;LABELS" ${ARGN})
+  target_sources(${program} PRIVATE ${ARG_SOURCES})
+  set(patterns ${ARG_FILTER})
+  if(NOT ARG_FILTER)
+    foreach(source IN LISTS ARG_SOURCES)
+      file(STRINGS ${source} heads REGEX "^TEST(_F|_P)?\\(")
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+      foreach(head IN LISTS heads)
+        string(REGEX REPLACE "^TEST[_FP]*\\(([A-Za-z0-9]+).*" "\\1" suite "${head}")
+        list(APPEND patterns ${suite}.* */${suite}.*)
+      endforeach()
+    endforeach()
+    list(REMOVE_DUPLICATES patterns)
+  endif()
+  list(JOIN patterns ":" filter)
+  palmar_add_entry(${program} ${name} "${filter}" "${ARG_SOURCES}" "${ARG_LABELS}")
 endfunction()
 
 # With PALMAR_PRECOMPILE: half of what a module's source costs to compile is reading Eigen and the standard
@@ -158,8 +198,8 @@ function(palmar_module name)
   if(PALMAR_TESTS AND ARG_TESTS)
     add_executable(${name}_tests ${ARG_TESTS})
     target_link_libraries(${name}_tests PRIVATE palmar_${name} ${ARG_TEST_LINKS} GTest::gmock GTest::gtest_main)
-    target_compile_definitions(${name}_tests PRIVATE PALMAR_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
-                                                     PALMAR_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
-    palmar_add_tests(${name}_tests)
+    palmar_test_target(${name}_tests)
+    palmar_batches(${name}_tests 6)
+    palmar_add_entry(${name}_tests ${name}_tests "*" "${ARG_TESTS}" "")
   endif()
 endfunction()

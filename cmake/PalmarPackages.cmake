@@ -8,7 +8,7 @@ find_program(PALMAR_NODE node REQUIRED)
 set(manual ${CMAKE_BINARY_DIR}/manual)
 add_custom_target(manual
   COMMAND ${PALMAR_NODE} ${CMAKE_SOURCE_DIR}/scripts/manual.mjs $<TARGET_FILE:palmar> ${manual}
-  DEPENDS palmar palmar-capture palmar-redesign
+  DEPENDS palmar palmar-hands palmar-redesign palmar-serve
   COMMENT "Writing manual pages and completion"
   VERBATIM)
 

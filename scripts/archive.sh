@@ -17,7 +17,7 @@ case "${1:-}" in
   --check) check=1 ;;
   *) echo "usage: scripts/archive.sh [--check]   (got: $1)" >&2; exit 2 ;;
 esac
-programs=(palmar palmar-capture palmar-redesign palmar-cad palmar-dicom palmar-photo)
+programs=(palmar palmar-hands palmar-redesign palmar-serve palmar-cad palmar-dicom palmar-photo)
 palmar_setup "${palmar_cad_packages[@]}" libopencv-contrib-dev libgdcm-dev xz-utils binutils
 cmake --preset release >/dev/null
 cmake --build --preset release --target "${programs[@]}" palmar_template palmar_build_text manual

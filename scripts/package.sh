@@ -18,7 +18,7 @@ case "${1:-}" in
 esac
 palmar_setup "${palmar_cad_packages[@]}" libopencv-contrib-dev libgdcm-dev dpkg-dev
 cmake --preset release >/dev/null
-cmake --build --preset release --target palmar palmar-capture palmar-redesign palmar-cad palmar-dicom palmar-photo \
+cmake --build --preset release --target palmar palmar-hands palmar-redesign palmar-serve palmar-cad palmar-dicom palmar-photo \
   palmar_template manual
 rm -rf build/packages
 cpack --config build/release/CPackConfig.cmake -B build/packages

@@ -223,7 +223,7 @@ TEST(HelpExamples, WorkFromTheRepositoryLineByLine) {
     EXPECT_FALSE(lines.empty()) << "palmar " << verb << " --help has no example";
     const bool is_long =
         verb == "photos" || std::any_of(long_ones.begin(), long_ones.end(),
-                                        [&](const auto& one) { return verb.starts_with(one); });
+                                        [&verb = verb](const auto& one) { return verb.starts_with(one); });
     if (is_long) continue;
     for (const std::string& line : lines) {
       if (!ran.insert(line).second) continue;

@@ -28,7 +28,7 @@
 #include "../worker/worker_main.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "palmar/formats/image/dicom_slice.h"
+#include "hands/images/dicom_slice.h"
 #include "palmar/formats/process/worker.h"
 
 #ifdef __SANITIZE_ADDRESS__

@@ -21,8 +21,8 @@
 #include <string>
 
 #include "../worker/worker_main.h"
-#include "palmar/board/charuco.h"
-#include "palmar/board/picture_matches.h"
+#include "hands/board/charuco.h"
+#include "hands/board/picture_matches.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/formats/file.h"

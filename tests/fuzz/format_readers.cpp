@@ -8,9 +8,9 @@
 
 #include "fuzzed_file.h"
 #include "palmar/formats/csv_reader.h"
-#include "palmar/formats/image/dicom_slice.h"
-#include "palmar/formats/image/exif.h"
-#include "palmar/formats/image/image_formats.h"
+#include "hands/images/dicom_slice.h"
+#include "hands/images/exif.h"
+#include "hands/images/image_formats.h"
 #include "palmar/formats/mesh/glb.h"
 #include "palmar/formats/mesh/gltf.h"
 #include "palmar/formats/mesh/obj.h"

@@ -176,13 +176,13 @@ void add_hand_commands(CLI::App& app, Context& context) {
   hand->require_subcommand(1);
   hand->fallthrough();
   add_template(*hand, context);
-  add_elsewhere(*hand, context, kCaptureProgram, "from-mri",
+  add_elsewhere(*hand, context, kHandsProgram, "from-mri",
                 "A person's hand from MR series of several postures");
-  add_elsewhere(*hand, context, kCaptureProgram, "from-scan",
+  add_elsewhere(*hand, context, kHandsProgram, "from-scan",
                 "A person's hand from surface scans: of any scanning app or photogrammetry "
                 "program, with creases and dots drawn on the skin if possible");
   add_elsewhere(
-      *hand, context, kCaptureProgram, "from-photos",
+      *hand, context, kHandsProgram, "from-photos",
       "A person's hand from photographs of it on the printed board (palmar photos board), "
       "a folder per posture");
   add_info(*hand, context);
@@ -192,7 +192,7 @@ void add_hand_commands(CLI::App& app, Context& context) {
   add_hand_pose(*hand, context);
   add_hand_scale(*hand, context);
   add_elsewhere(
-      *hand, context, kCaptureProgram, "quick",
+      *hand, context, kHandsProgram, "quick",
       "A hand from a few measurements, or from one photograph of it flat on a sheet of A4 or "
       "beside a bank card, and a population; says how well each dimension is known");
   add_export(*hand, context);

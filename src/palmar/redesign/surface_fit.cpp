@@ -181,9 +181,9 @@ std::optional<Paraboloid> paraboloid_through(std::span<const Vec3> points, const
   Paraboloid result;
   result.normal = (normal - c[1] * e1 - c[2] * e2).normalized();
   result.point = c[0] * normal;
-  const auto direction = [&](int k) -> Vec3 {
+  const auto direction = [&, &first = e1, &second = e2](int k) -> Vec3 {
     const Eigen::Vector2d d = solver.eigenvectors().col(k);
-    const Vec3 along = d[0] * e1 + d[1] * e2;
+    const Vec3 along = d[0] * first + d[1] * second;
     return (along - along.dot(result.normal) * result.normal).normalized();
   };
   result.first = direction(0);

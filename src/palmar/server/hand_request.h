@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "palmar/geometry/length_unit.h"
-#include "palmar/records/capture/person_file.h"
+#include "palmar/records/person/person_file.h"
 
 namespace palmar {
 

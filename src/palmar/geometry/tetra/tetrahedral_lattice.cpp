@@ -158,6 +158,16 @@ class LatticeBuilder {
     const bool is_right = tetrahedron_volume(x[a], x[b], x[c], x[d]) > 0.0;
     mesh_.tetrahedra.push_back(is_right ? Tetrahedron{a, b, c, d} : Tetrahedron{a, b, d, c});
   }
+  // vertex() makes vertices, and compilers differ in the order in which they evaluate arguments: it is
+  // said here, so that all number them alike.
+  void add_corners(const Place& p, const Place& q, const Place& r, int apex) {
+    const int c = vertex(r), b = vertex(q), a = vertex(p);
+    add(a, b, c, apex);
+  }
+  void add_edge(int own, int opposite, const Place& p, const Place& q) {
+    const int d = vertex(q), c = vertex(p);
+    add(own, opposite, c, d);
+  }
 
   void add_face(int level, const Place& c, int axis, int side) {
     const int size = tree_.size_of(level);
@@ -187,8 +197,8 @@ class LatticeBuilder {
     const int opposite = centre(other_level, other);
     if (other_level != level) {
       for (const int apex : {own, opposite}) {
-        add(vertex(corner[0]), vertex(corner[1]), vertex(corner[2]), apex);
-        add(vertex(corner[0]), vertex(corner[2]), vertex(corner[3]), apex);
+        add_corners(corner[0], corner[1], corner[2], apex);
+        add_corners(corner[0], corner[2], corner[3], apex);
       }
       return;
     }
@@ -197,10 +207,10 @@ class LatticeBuilder {
       const Place& q = corner[(k + 1) % 4];
       const Place middle{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2};
       if (corners_.contains(key_of(middle))) {
-        add(own, opposite, vertex(p), vertex(middle));
-        add(own, opposite, vertex(middle), vertex(q));
+        add_edge(own, opposite, p, middle);
+        add_edge(own, opposite, middle, q);
       } else {
-        add(own, opposite, vertex(p), vertex(q));
+        add_edge(own, opposite, p, q);
       }
     }
   }

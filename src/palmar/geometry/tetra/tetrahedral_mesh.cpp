@@ -129,7 +129,9 @@ class Clipper {
       prism({in[0], cut(in[0], out[0]), cut(in[0], out[1]), in[1], cut(in[1], out[0]),
              cut(in[1], out[1])});
     } else {
-      pyramid(in[0], in[1], cut(in[1], out[0]), cut(in[0], out[0]), on[0]);
+      // One after the other: a cut makes a vertex, and compilers differ in the order of arguments.
+      const int first = cut(in[0], out[0]), second = cut(in[1], out[0]);
+      pyramid(in[0], in[1], second, first, on[0]);
     }
   }
 

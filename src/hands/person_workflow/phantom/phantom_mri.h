@@ -1,0 +1,47 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "hands/phantom/mri/mri_subject.h"
+#include "hands/phantom/mri/scan_grid.h"
+#include "palmar/workflow/note.h"
+#include "hands/person_workflow/phantom/phantom_postures.h"
+
+namespace palmar {
+
+/// MR series (DICOM) of a synthetic person's hand, with the truth beside them
+/// (docs/method/phantom.md).
+struct PhantomMriRequest {
+  std::string out;                    ///< folder; mri/POSTURE and truth/ go into it
+  std::vector<ScanPosture> postures;  ///< which; none: all eight
+  MriSubjectOptions person;           ///< its seed chooses the person
+  ScanGridOptions grid;               ///< how the operator places the slices
+  ScannerOptions scanner;             ///< its seed follows from the person's
+  bool both_hands = false;            ///< the other hand lies beside it, on the patient's left
+  std::string base = "template";  ///< whose skin's outline the person starts from: "template" or
+                                  ///< a *.hand.glb file
+  NoteSink note;                  ///< gets what an image doesn't show; may be empty
+
+  void check() const;  ///< throws UsageError: setting, value, what is allowed
+};
+
+struct PhantomMriOutcome {
+  struct Series {
+    ScanPosture posture{};
+    std::string folder;
+    VolumeGrid grid;
+  };
+  PhantomPerson person;
+  std::vector<Series> series;
+};
+
+/// Makes the person, images of every posture and the truth; about 10 s per posture at the usual
+/// resolution. What an earlier run left in a posture's folder goes. Throws UsageError, InputError
+/// for `base`, OutputError, Cancelled.
+PhantomMriOutcome make_phantom_mri(const PhantomMriRequest& request, const Progress& progress = {});
+
+}  // namespace palmar

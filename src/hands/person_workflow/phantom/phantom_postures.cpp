@@ -1,0 +1,19 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "hands/person_workflow/phantom/phantom_postures.h"
+
+#include <algorithm>
+
+namespace palmar {
+
+std::vector<ScanPosture> sorted_postures(const std::vector<ScanPosture>& postures) {
+  std::vector<ScanPosture> sorted = postures;
+  for (int p = 0; postures.empty() && p < kScanPostureCount; ++p) {
+    sorted.push_back(static_cast<ScanPosture>(p));
+  }
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  return sorted;
+}
+
+}  // namespace palmar

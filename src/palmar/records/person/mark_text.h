@@ -1,0 +1,33 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "palmar/hand/person/person_labels.h"
+
+namespace palmar {
+
+/// What a file says of one mark, in its words:
+/// posture "reference" ..., mark "crease", "dot", "added_crease" or "added_dot", name of a segment,
+/// "wrist" of a crease, "none" for what is no mark.
+struct MarkText {
+  std::string posture, mark, name;
+  Vec3 point = Vec3::Zero();
+  std::string place;  ///< "file:line"
+};
+/// The same as a label; nothing without a name. `fail` throws what is wrong with where it stands.
+std::optional<MarkLabel> mark_label_of(const MarkText& text,
+                                       const std::function<void(const std::string&)>& fail);
+/// A label in those words; without a segment it is "none".
+MarkText mark_text_of(const MarkLabel& label);
+/// The name of a mark in such a file: a segment, "wrist"; "" where there is none.
+std::string mark_name(MarkLabel::Kind kind, const std::optional<Segment>& segment);
+
+/// "crease" or "dot".
+std::string_view name_of(MarkLabel::Kind kind);
+
+}  // namespace palmar
