@@ -22,7 +22,7 @@
 #include "palmar/grasp/rest/balance.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 #include "template_fixture.h"
 
 namespace palmar {

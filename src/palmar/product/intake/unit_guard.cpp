@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/product/unit_guard.h"
+#include "palmar/product/intake/unit_guard.h"
 
 #include <cmath>
 

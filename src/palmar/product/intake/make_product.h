@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "palmar/product/intake/unit_guard.h"
 #include "palmar/product/product.h"
-#include "palmar/product/unit_guard.h"
 
 namespace palmar {
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/product/check.h"
+#include "palmar/product/intake/check.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/product/contact_body.h"
+#include "palmar/product/intake/contact_body.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "palmar/geometry/types.h"
-#include "palmar/product/check.h"
+#include "palmar/product/intake/check.h"
 
 namespace palmar {
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/product/repair.h"
+#include "palmar/product/intake/repair.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 
 #include <array>
 #include <cmath>
@@ -13,8 +13,8 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/repair/orient.h"
 #include "palmar/geometry/repair/weld.h"
-#include "palmar/product/check.h"
-#include "palmar/product/contact_body.h"
+#include "palmar/product/intake/check.h"
+#include "palmar/product/intake/contact_body.h"
 #include "palmar/product/parts/product_parts.h"
 
 namespace palmar {

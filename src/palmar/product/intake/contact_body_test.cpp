@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/product/contact_body.h"
+#include "palmar/product/intake/contact_body.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 
 namespace palmar {
 namespace {
