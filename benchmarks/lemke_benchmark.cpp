@@ -25,7 +25,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/records/hand/hand_asset.h"
 
 namespace {

@@ -23,7 +23,7 @@
 #include "palmar/grasp/grasp_place.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/instance/hand_instance.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/product/primitives.h"
 #include "palmar/records/hand/hand_asset.h"
 #include "palmar/records/product/product_file.h"

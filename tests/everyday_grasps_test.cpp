@@ -21,6 +21,7 @@
 #include "palmar/grasp/grasp_place.h"
 #include "palmar/grasp/power/placement.h"
 #include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "palmar/records/product/product_file.h"

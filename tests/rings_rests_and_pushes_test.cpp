@@ -20,6 +20,7 @@
 #include "palmar/grasp/precision/laid_hand.h"
 #include "palmar/grasp/precision/ring_targets.h"
 #include "palmar/grasp/rest/balance.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/intake/make_product.h"

@@ -26,7 +26,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/process/external_program.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/hand/tissue_block.h"
 #include "palmar/records/fe/ccx_results.h"
 #include "palmar/records/fe/inp_file.h"

@@ -10,7 +10,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/anatomy.h"
-#include "palmar/hand/posture/posture.h"
+#include "palmar/hand/posture.h"
 
 namespace palmar {
 

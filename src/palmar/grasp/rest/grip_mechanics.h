@@ -8,7 +8,7 @@
 
 #include "palmar/contact/solve/contact_solver.h"
 #include "palmar/grasp/rest/grip_force.h"
-#include "palmar/hand/posture/posture.h"
+#include "palmar/hand/posture.h"
 #include "palmar/hand/tendons/digit_pose.h"
 #include "palmar/product/product.h"
 

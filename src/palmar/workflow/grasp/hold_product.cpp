@@ -4,7 +4,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/grasp_place.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/workflow/hand/load_hand.h"
 
 namespace palmar {

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/hand/hand_points.h"
+#include "palmar/hand/skin/hand_points.h"
 
 #include <algorithm>
 #include <limits>

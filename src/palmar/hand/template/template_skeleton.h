@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 
 namespace palmar {
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/hand/posture/joint_placement.h"
+#include "palmar/hand/template/joint_placement.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/section.h"
-#include "palmar/hand/hand_frame.h"
+#include "palmar/hand/template/hand_frame.h"
 
 namespace palmar {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 
 namespace palmar {
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/hand/hand_frame.h"
+#include "palmar/hand/template/hand_frame.h"
 
 #include <array>
 #include <string>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 
 #include <cmath>
 #include <string>
@@ -13,11 +13,11 @@
 #include "palmar/geometry/repair/weld.h"
 #include "palmar/hand/bones/bones.h"
 #include "palmar/hand/dimensions/dimensions.h"
-#include "palmar/hand/hand_frame.h"
 #include "palmar/hand/skin/forearm_cut.h"
 #include "palmar/hand/skin/joint_weights.h"
 #include "palmar/hand/skin/regions.h"
-#include "palmar/hand/template_skeleton.h"
+#include "palmar/hand/template/hand_frame.h"
+#include "palmar/hand/template/template_skeleton.h"
 
 namespace palmar {
 

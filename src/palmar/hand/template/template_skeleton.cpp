@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/hand/template_skeleton.h"
+#include "palmar/hand/template/template_skeleton.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
-#include "palmar/hand/hand_frame.h"
-#include "palmar/hand/posture/joint_placement.h"
 #include "palmar/hand/skin/thumb_cmc.h"
+#include "palmar/hand/template/hand_frame.h"
+#include "palmar/hand/template/joint_placement.h"
 
 namespace palmar {
 namespace {

@@ -34,8 +34,4 @@ struct TemplateOptions {
 /// Deterministic. Throws InputError if the asset lacks a frame or its skin is not closed.
 Hand build_template(const HandAsset& asset, const TemplateOptions& options = {});
 
-/// The mirror image (right <-> left): x -> -x, triangles turned, axes reflected so that the same
-/// posture angles give the mirrored posture.
-Hand mirrored(const Hand& hand);
-
 }  // namespace palmar
