@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/contact_totals.h"
-#include "palmar/contact/prepared_hand.h"
-#include "palmar/contact/pressed_skin.h"
-#include "palmar/contact/response/deformed_skin.h"
-#include "palmar/contact/response/skin_displacement.h"
+#include "palmar/contact/prepared/contact_totals.h"
+#include "palmar/contact/prepared/deformed_skin.h"
+#include "palmar/contact/prepared/prepared_hand.h"
+#include "palmar/contact/prepared/pressed_skin.h"
+#include "palmar/contact/prepared/skin_displacement.h"
 #include "palmar/contact/solve/contact_system.h"
 #include "palmar/contact/solve/skin_product.h"
 #include "palmar/core/parallel.h"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/solve/lcp.h"
 #include "palmar/contact/solve/lemke.h"
 #include "palmar/core/parallel.h"

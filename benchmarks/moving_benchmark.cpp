@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/footprint.h"
-#include "palmar/contact/moving_footprint.h"
+#include "palmar/contact/footprint/footprint.h"
+#include "palmar/contact/footprint/moving_footprint.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/intake/make_product.h"
 #include "palmar/product/intake/unit_guard.h"

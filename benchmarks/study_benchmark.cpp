@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "palmar/contact/footprint.h"
+#include "palmar/contact/footprint/footprint.h"
 #include "palmar/contact/hand_family.h"
 #include "palmar/core/parallel.h"
 #include "palmar/grasp/grasp_place.h"

@@ -20,7 +20,7 @@
 #include <span>
 
 #include "axisymmetric_deck.h"
-#include "palmar/contact/hand_contact.h"
+#include "palmar/contact/hand/hand_contact.h"
 #include "palmar/contact/press/half_space_press.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "palmar/contact/contact_test_hand.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "palmar/contact/resolution.h"
+#include "palmar/contact/prepared/resolution.h"
 #include "palmar/core/version.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/hold/hold_json.h"

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "palmar/contact/footprint.h"
+#include "palmar/contact/footprint/footprint.h"
 #include "palmar/contact/hand_family.h"
 #include "palmar/contact/refine/refined_contact.h"
 #include "palmar/core/error.h"

@@ -9,7 +9,7 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/contact/contact_test_hand.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/self/meeting_loads.h"
 #include "palmar/contact/self/skin_meetings.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/contact/prepared/contact_solver.h"
 #include "palmar/grasp/rest/grip_force.h"
 #include "palmar/hand/posture.h"
 #include "palmar/hand/tendons/digit_pose.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palmar/contact/resolution.h"
+#include "palmar/contact/prepared/resolution.h"
 #include "palmar/core/text.h"
 #include "palmar/grasp/rest/task_force.h"
 #include "palmar/report/page/plain_words.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/footprint.h"
+#include "palmar/contact/footprint/footprint.h"
 #include "palmar/contact/friction/friction.h"
 #include "palmar/core/progress.h"
 #include "palmar/grasp/find_grasp.h"

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/self/skin_touch.h"
+#include "palmar/contact/skin_touch.h"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/footprint.h"
+#include "palmar/contact/footprint/footprint.h"
 
 #include <algorithm>
 #include <array>

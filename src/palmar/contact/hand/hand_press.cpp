@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "palmar/contact/hand_contact.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/hand/hand_contact.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/press/half_space_press.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "palmar/contact/contact_totals.h"
-#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/contact/prepared/contact_solver.h"
+#include "palmar/contact/prepared/contact_totals.h"
 #include "palmar/core/enum_index.h"
 
 namespace palmar {

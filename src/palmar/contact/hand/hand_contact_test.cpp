@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/hand_contact.h"
+#include "palmar/contact/hand/hand_contact.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "palmar/contact/contact_test_hand.h"
-#include "palmar/contact/footprint.h"
-#include "palmar/contact/moving_footprint.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/footprint/footprint.h"
+#include "palmar/contact/footprint/moving_footprint.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/analytic_distance.h"

@@ -1,13 +1,13 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/contact_totals.h"
+#include "palmar/contact/prepared/contact_totals.h"
 
 #include <algorithm>
 
-#include "palmar/contact/contact_patch.h"
-#include "palmar/contact/pressed_skin.h"
-#include "palmar/contact/printed/sub_active_region.h"
-#include "palmar/contact/resolution.h"
+#include "palmar/contact/prepared/contact_patch.h"
+#include "palmar/contact/prepared/pressed_skin.h"
+#include "palmar/contact/prepared/resolution.h"
+#include "palmar/contact/prepared/sub_active_region.h"
 #include "palmar/core/enum_index.h"
 
 namespace palmar {

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "palmar/contact/prepared_hand.h"
-#include "palmar/contact/response/skin_displacement.h"
+#include "palmar/contact/prepared/prepared_hand.h"
+#include "palmar/contact/prepared/skin_displacement.h"
 #include "palmar/contact/solve/skin_product.h"
 
 namespace palmar {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "palmar/contact/contact_totals.h"
-#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/contact/prepared/contact_solver.h"
+#include "palmar/contact/prepared/contact_totals.h"
 #include "palmar/core/enum_index.h"
 
 namespace palmar {

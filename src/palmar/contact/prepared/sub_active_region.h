@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/solve/lcp.h"
 #include "palmar/contact/solve/skin_product.h"
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/response/skin_displacement.h"
+#include "palmar/contact/prepared/skin_displacement.h"
 
 #include <algorithm>
 #include <array>

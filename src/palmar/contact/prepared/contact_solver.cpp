@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/contact/prepared/contact_solver.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <numeric>
 #include <string>
 
-#include "palmar/contact/contact_totals.h"
-#include "palmar/contact/pressed_skin.h"
-#include "palmar/contact/printed/sub_active_region.h"
-#include "palmar/contact/response/deformed_skin.h"
+#include "palmar/contact/prepared/contact_totals.h"
+#include "palmar/contact/prepared/deformed_skin.h"
+#include "palmar/contact/prepared/pressed_skin.h"
+#include "palmar/contact/prepared/sub_active_region.h"
 #include "palmar/contact/response/layered_response.h"
 #include "palmar/contact/response/response.h"
 #include "palmar/core/enum_index.h"

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/response/deformed_skin.h"
+#include "palmar/contact/prepared/deformed_skin.h"
 
 #include <algorithm>
 #include <cmath>

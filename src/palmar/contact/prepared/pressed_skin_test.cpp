@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/pressed_skin.h"
+#include "palmar/contact/prepared/pressed_skin.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/moving_footprint.h"
+#include "palmar/contact/footprint/moving_footprint.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/printed/sub_active_region.h"
+#include "palmar/contact/prepared/sub_active_region.h"
 
 #include <algorithm>
 #include <array>

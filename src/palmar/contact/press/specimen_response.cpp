@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/response/specimen_response.h"
+#include "palmar/contact/press/specimen_response.h"
 
 #include <algorithm>
 #include <cmath>

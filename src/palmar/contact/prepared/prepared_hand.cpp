@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 
 #include <cmath>
 #include <optional>

@@ -9,8 +9,8 @@
 
 #include "palmar/contact/bone/loaded_skin.h"
 #include "palmar/contact/contact.h"
-#include "palmar/contact/prepared_hand.h"
-#include "palmar/contact/response/skin_displacement.h"
+#include "palmar/contact/prepared/prepared_hand.h"
+#include "palmar/contact/prepared/skin_displacement.h"
 #include "palmar/contact/self/meeting_loads.h"
 #include "palmar/contact/solve/contact_system.h"
 #include "palmar/contact/solve/skin_product.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/solve/skin_product.h"
 
 namespace palmar {

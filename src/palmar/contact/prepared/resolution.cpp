@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/resolution.h"
+#include "palmar/contact/prepared/resolution.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/contact/contact_test_hand.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"

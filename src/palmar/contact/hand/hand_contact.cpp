@@ -1,13 +1,13 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/hand_contact.h"
+#include "palmar/contact/hand/hand_contact.h"
 
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "palmar/contact/prepared/contact_solver.h"
 #include "palmar/contact/refine/refine_contact.h"
-#include "palmar/contact/solve/contact_solver.h"
 #include "palmar/core/error.h"
 
 namespace palmar {

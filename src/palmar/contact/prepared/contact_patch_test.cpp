@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/contact/contact_patch.h"
+#include "palmar/contact/prepared/contact_patch.h"
 
 #include <gtest/gtest.h>
 
