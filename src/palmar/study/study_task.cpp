@@ -26,7 +26,7 @@
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/product/gloved.h"
 #include "palmar/study/assessment/assessment.h"
-#include "palmar/study/assessment/grasp_demand.h"
+#include "palmar/study/grasp_demand.h"
 
 namespace palmar {
 namespace {

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/study/assessment/grasp_demand.h"
+#include "palmar/study/grasp_demand.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/study/assessment/exclusion.h"
+#include "palmar/study/statistics/exclusion.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

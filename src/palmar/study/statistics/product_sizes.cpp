@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/study/product_sizes.h"
+#include "palmar/study/statistics/product_sizes.h"
 
 #include <algorithm>
 #include <numeric>
