@@ -12,7 +12,7 @@
 #include "grasp/grasp_options.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "palmar/records/assessment_json.h"
+#include "palmar/records/assessment/assessment_json.h"
 #include "palmar/records/study/people_range.h"
 #include "palmar/workflow/assess.h"
 #include "palmar/workflow/live/assess_bench.h"

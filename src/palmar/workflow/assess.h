@@ -15,7 +15,7 @@
 #include "palmar/grasp/grasp_settings.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/grasp/rest/rest_settings.h"
-#include "palmar/records/verdict_text.h"
+#include "palmar/records/assessment/verdict_text.h"
 #include "palmar/report/page/print_pdf.h"
 #include "palmar/report/page/report_extras.h"
 #include "palmar/study/assessment/assessment.h"

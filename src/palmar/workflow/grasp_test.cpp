@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "palmar/records/assessment_json.h"
+#include "palmar/records/assessment/assessment_json.h"
 #include "palmar/workflow/effort.h"
 #include "palmar/workflow/grasp/grasp_evaluate.h"
 #include "palmar/workflow/grasp/grasp_reach.h"

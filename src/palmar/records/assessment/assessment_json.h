@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "palmar/records/verdict_text.h"
+#include "palmar/records/assessment/verdict_text.h"
 #include "palmar/study/assessment/assessment.h"
 
 namespace palmar {

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/records/index_json.h"
+#include "palmar/records/assessment/index_json.h"
 
 #include <fmt/format.h>
 

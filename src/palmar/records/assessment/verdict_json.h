@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "palmar/records/verdict_text.h"
+#include "palmar/records/assessment/verdict_text.h"
 #include "palmar/study/assessment/verdict.h"
 
 namespace palmar {

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/records/verdict_json.h"
+#include "palmar/records/assessment/verdict_json.h"
 
 #include <nlohmann/json.hpp>
 

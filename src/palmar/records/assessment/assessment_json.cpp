@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/records/assessment_json.h"
+#include "palmar/records/assessment/assessment_json.h"
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -8,12 +8,12 @@
 #include "palmar/contact/prepared/resolution.h"
 #include "palmar/core/version.h"
 #include "palmar/geometry/degrees.h"
+#include "palmar/records/assessment/index_json.h"
+#include "palmar/records/assessment/verdict_json.h"
 #include "palmar/records/hold/hold_json.h"
-#include "palmar/records/index_json.h"
 #include "palmar/records/json_values.h"
 #include "palmar/records/posture/placement_json.h"
 #include "palmar/records/sensors/sensor_json.h"
-#include "palmar/records/verdict_json.h"
 #include "palmar/study/assessment/error_budget.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
