@@ -11,7 +11,7 @@
 #include "palmar/contact/prepared/resolution.h"
 #include "palmar/records/assessment/index_json.h"
 #include "palmar/report/page/friction_words.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/plain_words.h"
 #include "palmar/study/assessment/error_budget.h"
 #include "palmar/study/assessment/hold_doubts.h"
 #include "plain_names.h"

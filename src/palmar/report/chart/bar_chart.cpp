@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/colour_bar.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 

@@ -12,12 +12,12 @@
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/report/chart/study_figures.h"
 #include "palmar/report/page/file_names.h"
-#include "palmar/report/picture/study_pictures.h"
 #include "palmar/report/study/face_words.h"
 #include "palmar/report/study/study_answer.h"
 #include "palmar/report/study/study_csv.h"
 #include "palmar/report/study/study_page.h"
-#include "palmar/report/study/study_words.h"
+#include "palmar/report/study/study_pictures.h"
+#include "palmar/report/words/study_words.h"
 
 namespace palmar {
 namespace {

@@ -1,16 +1,16 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/report/picture/study_pictures.h"
+#include "palmar/report/study/study_pictures.h"
 
 #include <utility>
 
 #include "palmar/core/error.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
-#include "palmar/report/picture/study_scene.h"
 #include "palmar/report/picture/thumb_inset.h"
+#include "palmar/report/study/study_scene.h"
 #include "palmar/report/words/phrases.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

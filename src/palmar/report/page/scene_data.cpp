@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/report/picture/scene_data.h"
+#include "palmar/report/page/scene_data.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/report/page/page_json.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/display_mesh.h"
 #include "palmar/report/words/phrases.h"
+#include "palmar/report/words/plain_words.h"
 #include "palmar/report/words/texts.h"
 
 namespace palmar {

@@ -6,7 +6,7 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/report/picture/assessment_pictures.h"
-#include "palmar/report/picture/study_scene.h"
+#include "palmar/report/study/study_scene.h"
 
 namespace palmar {
 

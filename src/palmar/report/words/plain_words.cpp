@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/plain_words.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/report/picture/study_scene.h"
+#include "palmar/report/study/study_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,12 @@
 #include "palmar/core/parallel.h"
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/display_mesh.h"
 #include "palmar/report/picture/packed_field.h"
 #include "palmar/report/study/face_words.h"
-#include "palmar/report/study/study_words.h"
 #include "palmar/report/words/phrases.h"
+#include "palmar/report/words/plain_words.h"
+#include "palmar/report/words/study_words.h"
 #include "palmar/study/statistics/study_statistics.h"
 
 namespace palmar {

@@ -1,12 +1,12 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/report/study/study_words.h"
+#include "palmar/report/words/study_words.h"
 
 #include <cmath>
 #include <cstdio>
 
 #include "palmar/grasp/rest/task_force.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/plain_words.h"
 #include "palmar/study/statistics/study_statistics.h"
 
 namespace palmar {

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/report/page/html_text.h"
+#include "palmar/report/words/html_text.h"
 
 #include <cstdint>
 
