@@ -12,7 +12,7 @@
 #include <string>
 
 #include "palmar/core/parallel.h"
-#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/power/grip_axis.h"
 #include "palmar/grasp/rest/balance.h"

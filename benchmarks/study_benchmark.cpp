@@ -20,7 +20,7 @@
 #include "palmar/contact/footprint/footprint.h"
 #include "palmar/contact/hand_family.h"
 #include "palmar/core/parallel.h"
-#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/find/grasp_place.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/template/template_hand.h"

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/find/grasp_place.h"
 
 #include <gmock/gmock.h>
 

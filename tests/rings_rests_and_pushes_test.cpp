@@ -16,7 +16,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
-#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/find/grasp_place.h"
 #include "palmar/grasp/precision/laid_hand.h"
 #include "palmar/grasp/precision/ring_targets.h"
 #include "palmar/grasp/rest/balance.h"

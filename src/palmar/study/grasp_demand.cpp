@@ -12,7 +12,7 @@
 #include "palmar/grasp/indices/stability.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/grip_force.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/hand/posture/named_postures.h"
 
 namespace palmar {

@@ -12,7 +12,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/core/language.h"
 #include "palmar/core/progress.h"
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/records/assessment/verdict_text.h"

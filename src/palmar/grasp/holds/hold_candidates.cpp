@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "palmar/geometry/degrees.h"
-#include "palmar/grasp/grip_choice.h"
 #include "palmar/grasp/holds/hold_limits.h"
+#include "palmar/grasp/power/grip_choice.h"
 
 namespace palmar {
 namespace {

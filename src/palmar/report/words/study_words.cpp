@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/report/words/plain_words.h"
 #include "palmar/study/statistics/study_statistics.h"
 

@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/joint_strength.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/study/assessment/held_torque.h"
 #include "palmar/workflow/grasp.h"

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/precision/posable_skin.h"
+#include "palmar/grasp/power/posable_skin.h"
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/rest/finger_cones.h"
+#include "palmar/grasp/power/finger_cones.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 
 #include <fmt/format.h>
 

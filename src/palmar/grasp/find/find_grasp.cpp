@@ -1,12 +1,12 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 
 #include <cmath>
 #include <string>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/find/grasp_place.h"
 
 namespace palmar {
 
@@ -44,6 +44,16 @@ void GraspOptions::check() const {
 Grasp find_grasp(const Hand& hand, const Product& product, const GraspOptions& options,
                  const Progress& progress) {
   return GraspPlace(hand, product, options, progress).reference_grasp();
+}
+
+Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGraspOptions& options,
+                        const Progress& progress) {
+  options.check();
+  GraspOptions asked;
+  asked.grip = options.grip;
+  asked.power = options;
+  asked.holds.is_power_only = true;
+  return find_grasp(hand, product, asked, progress);
 }
 
 }  // namespace palmar

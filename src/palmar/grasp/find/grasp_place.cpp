@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/find/grasp_place.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "palmar/grasp/holds/firm_hold.h"
 #include "palmar/grasp/holds/hold_place.h"
 #include "palmar/grasp/holds/laid_holds.h"
-#include "palmar/grasp/power/power_place.h"
+#include "palmar/grasp/holds/power_place.h"
 #include "palmar/grasp/precision/laid_hand.h"
 #include "palmar/grasp/precision/precision_grip.h"
 

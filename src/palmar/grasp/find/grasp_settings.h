@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 
 namespace palmar {
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/power/power_place.h"
+#include "palmar/grasp/holds/power_place.h"
 
 #include <fmt/format.h>
 
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/grasp_verdict.h"
-#include "palmar/grasp/grip_choice.h"
+#include "palmar/grasp/power/grasp_verdict.h"
 #include "palmar/grasp/power/grip_axis.h"
+#include "palmar/grasp/power/grip_choice.h"
 #include "palmar/grasp/power/site_distance.h"
 
 namespace palmar {

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/grasp_verdict.h"
+#include "palmar/grasp/power/grasp_verdict.h"
 
 #include <fmt/format.h>
 

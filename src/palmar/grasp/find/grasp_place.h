@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "palmar/core/progress.h"
-#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 
 namespace palmar {
 

@@ -38,4 +38,9 @@ struct GraspOptions {
 Grasp find_grasp(const Hand& hand, const Product& product, const GraspOptions& options = {},
                  const Progress& progress = {});
 
+/// Power grasp (docs/method/grasp.md; Xie 2014, 5.5.1). Deterministic. Not being able to hold the
+/// product is a status, never an exception. Throws UsageError on bad options, Cancelled.
+Grasp close_power_grasp(const Hand& hand, const Product& product,
+                        const PowerGraspOptions& options = {}, const Progress& progress = {});
+
 }  // namespace palmar

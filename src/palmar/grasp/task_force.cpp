@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 
 #include <fmt/format.h>
 

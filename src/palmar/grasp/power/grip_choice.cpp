@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/grip_choice.h"
+#include "palmar/grasp/power/grip_choice.h"
 
 #include <cmath>
 #include <limits>
