@@ -10,7 +10,7 @@
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/records/assessment/assessment_json.h"
 #include "palmar/server/live_worker_fixture.h"
-#include "palmar/workflow/live/assess_bench.h"
+#include "palmar/workflow/assess_bench.h"
 
 namespace palmar {
 namespace {

@@ -9,7 +9,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/workflow/hand/photo_cameras.h"
 #include "palmar/workflow/hand/scan_hand.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

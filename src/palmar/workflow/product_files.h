@@ -10,7 +10,7 @@
 #include "palmar/product/intake/repair.h"
 #include "palmar/product/product.h"
 #include "palmar/records/product/product_file.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

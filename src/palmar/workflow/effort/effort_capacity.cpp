@@ -12,7 +12,7 @@
 #include "palmar/grasp/task_force.h"
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/study/assessment/held_torque.h"
-#include "palmar/workflow/grasp.h"
+#include "palmar/workflow/grasp/grasp.h"
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 

@@ -10,7 +10,7 @@
 #include "palmar/core/setting_names.h"
 #include "palmar/records/capture/photo_set.h"
 #include "palmar/workflow/hand/photo_mesh.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/workflow/study.h"
+#include "palmar/workflow/study/study.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/workflow/effort.h"
+#include "palmar/workflow/effort/effort.h"
 
 #include <fmt/format.h>
 
 #include "palmar/study/assessment/assessment.h"
-#include "palmar/workflow/grasp.h"
+#include "palmar/workflow/grasp/grasp.h"
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 

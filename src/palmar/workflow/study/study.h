@@ -13,7 +13,7 @@
 #include "palmar/records/study/study_file.h"
 #include "palmar/study/study_plan.h"
 #include "palmar/study/study_record.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 #include "palmar/workflow/study/study_estimate.h"
 
 namespace palmar {

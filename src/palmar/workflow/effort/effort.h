@@ -11,7 +11,7 @@
 #include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/workflow/hand/load_hand.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 #include "palmar/workflow/product/product_choice.h"
 
 namespace palmar {

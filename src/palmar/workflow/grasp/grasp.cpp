@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/workflow/grasp.h"
+#include "palmar/workflow/grasp/grasp.h"
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/given_grasp.h"

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/workflow/grasp.h"
+#include "palmar/workflow/grasp/grasp.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/records/assessment/assessment_json.h"
-#include "palmar/workflow/effort.h"
+#include "palmar/workflow/effort/effort.h"
 #include "palmar/workflow/grasp/grasp_evaluate.h"
 #include "palmar/workflow/grasp/grasp_reach.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"

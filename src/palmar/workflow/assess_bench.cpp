@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/workflow/live/assess_bench.h"
+#include "palmar/workflow/assess_bench.h"
 
 #include <unistd.h>
 
