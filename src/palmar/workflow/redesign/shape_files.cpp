@@ -17,7 +17,11 @@
 
 namespace palmar {
 namespace fs = std::filesystem;
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 Deviation kept_deviation(const HandleShape& shape, const TriangleMesh& solid,
                          const Product& product) {
