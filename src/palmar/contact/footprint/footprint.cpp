@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kReach = 1.0;   // mm; the skin's facets stand off a curved product by less
 constexpr double kBridge = 5.0;  // mm; how deep under an edge a facet of skin goes straight through
-constexpr double kFacing = 0.3;  // cosine; skin and product normals must not agree by more
+constexpr double kOpposing = 0.3;  // cosine; skin and product normals must not agree by more
 
 /// Loaded points sorted along x, for finding those near a triangle.
 class LoadedPoints {
@@ -149,7 +149,7 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
                        .cross(skin.vertices[t[2]] - skin.vertices[t[0]])
                        .normalized();
     // Not through a thin wall: the skin must face this side.
-    if (n.dot(normals[i]) > kFacing) continue;
+    if (n.dot(normals[i]) > kOpposing) continue;
     // Skin that stands off the product carries nothing; a facet between two sides of an edge goes
     // through the product, and the edge lies before it.
     const Vec3 off = surface.vertices[i] - found->point;

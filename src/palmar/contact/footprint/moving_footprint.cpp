@@ -21,14 +21,14 @@ constexpr double kMargin = 0.5;
 constexpr double kOver = 0.02;
 constexpr double kOpposed = 0.3;  // cosine; skin and product normals must not agree by more
 constexpr double kCell = 3.0;     // mm
-constexpr double kMostCells = 1e6;
+constexpr double kMostGridCells = 1e6;
 
 // Mean area of a triangle over its longest edge squared: an equilateral one has 0.43, one of halves
 // of a square 0.25.
 constexpr double kSplitTriangle = 0.3;
 constexpr double kCoarser = 1.3;
-constexpr double kLongest = 1000.0;  // mm
-constexpr double kSkinEdge = 2.5;    // mm; the template hand's skin has edges of 2 to 4
+constexpr double kLongestEdge = 1000.0;  // mm
+constexpr double kSkinEdge = 2.5;        // mm; the template hand's skin has edges of 2 to 4
 
 }  // namespace
 
@@ -43,7 +43,7 @@ MovingFootprint::MovingFootprint(TriangleMesh surface) : surface_(std::move(surf
   low_ = box.min();
   const Vec3 sides = box.sizes();
   cell_ = kCell;
-  while (((sides / cell_).array() + 1.0).prod() > kMostCells) cell_ *= 2.0;
+  while (((sides / cell_).array() + 1.0).prod() > kMostGridCells) cell_ *= 2.0;
   for (int k = 0; k < 3; ++k) cells_[k] = static_cast<int>(sides[k] / cell_) + 1;
   const auto index = [&](const Vec3& v) {
     const auto [x, y, z] = cell_of(v);
@@ -127,7 +127,7 @@ const MovingFootprint::Loaded& MovingFootprint::under(const Hand& hand,
 
 TriangleMesh surface_for_moving(const TriangleMesh& product, int most_triangles) {
   const double wanted = std::sqrt(surface_area(product) / (kSplitTriangle * most_triangles));
-  for (double edge = std::max(kSkinEdge, wanted); edge <= kLongest; edge *= kCoarser) {
+  for (double edge = std::max(kSkinEdge, wanted); edge <= kLongestEdge; edge *= kCoarser) {
     TriangleMesh surface = split_long_edges(product, edge);
     if (surface.triangle_count() <= most_triangles) return surface;
   }

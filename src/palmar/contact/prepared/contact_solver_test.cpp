@@ -25,11 +25,11 @@ using contact_test::HalfSpace;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double kRadius = 10.0;  // mm
+constexpr double kSkinRadius = 10.0;  // mm
 
 /// A ball of skin whose lower half belongs to two regions that meet under its lowest point.
 std::shared_ptr<Hand> split_ball() {
-  auto hand = ball_hand(kRadius, 3);
+  auto hand = ball_hand(kSkinRadius, 3);
   for (std::size_t v = 0; v < hand->region.size(); ++v) {
     if (hand->region[v] == Region::kDorsum) continue;
     hand->region[v] =
@@ -39,13 +39,13 @@ std::shared_ptr<Hand> split_ball() {
 }
 
 ContactResult on_plane(const PreparedHand& hand, double depth, const ContactOptions& options = {},
-                       double radius = kRadius) {
+                       double radius = kSkinRadius) {
   return solve_hand_contact(hand, hand.hand().skin.vertices, {}, HalfSpace(depth - radius),
                             options);
 }
 
 TEST(CoupledRegions, ABorderUnderTheContactChangesNothing) {
-  const PreparedHand whole(ball_hand(kRadius, 3));
+  const PreparedHand whole(ball_hand(kSkinRadius, 3));
   const PreparedHand split(split_ball());
   for (const double depth : {0.5, 1.0, 2.0, 4.0}) {
     const ContactResult one = on_plane(whole, depth);
@@ -140,7 +140,7 @@ TEST(ContactSolver, AlongAMotionItAnswersAsAfresh) {
   ContactSolver solver(hand);
   ContactResult along;
   for (const double depth : {0.4, 0.45, 0.5, 1.5, 1.45, 0.2, -1.0, 3.0}) {
-    solver.solve(hand.hand().skin.vertices, {}, HalfSpace(depth - kRadius), along);
+    solver.solve(hand.hand().skin.vertices, {}, HalfSpace(depth - kSkinRadius), along);
     const ContactResult afresh = on_plane(hand, depth);
     EXPECT_EQ(along.status, afresh.status) << depth;
     EXPECT_NEAR(along.total.force, afresh.total.force, 1e-9 * (1.0 + afresh.total.force));
@@ -159,7 +159,7 @@ TEST(ContactSolver, ForceRisesWithoutJumpsInAMotion) {
   ContactResult contact;
   std::vector<double> log_force;
   for (double depth = 1.0; depth < 5.0; depth += 0.05) {
-    solver.solve(hand.hand().skin.vertices, {}, HalfSpace(depth - kRadius), contact);
+    solver.solve(hand.hand().skin.vertices, {}, HalfSpace(depth - kSkinRadius), contact);
     log_force.push_back(std::log(contact.total.force));
   }
   for (std::size_t i = 1; i + 1 < log_force.size(); ++i) {
@@ -289,14 +289,14 @@ TEST(FineMeshes, FarResponsesByClustersGiveTheSame) {
 TEST(Coating, ThickCoverIsAHalfSpaceInSeries) {
   // Two elastic bodies: 1 / E* = 1 / E1* + 1 / E2* (Hertz); both incompressible, so force is that
   // of G1 G2 / (G1 + G2).
-  const PreparedHand hand(ball_hand(kRadius, 3));
+  const PreparedHand hand(ball_hand(kSkinRadius, 3));
   ContactOptions options;
   options.shear_modulus = 0.05;
   options.coatings.push_back(
       {.thickness = 50.0, .shear_modulus = 0.025, .poisson = 0.5, .where = {}});
   const ContactResult contact = on_plane(hand, 1.0, options);
   const double G = 0.05 * 0.025 / (0.05 + 0.025);
-  const double hertz = 16.0 / 3.0 * G * std::sqrt(kRadius);
+  const double hertz = 16.0 / 3.0 * G * std::sqrt(kSkinRadius);
   // A contact of sqrt(R depth) / h = 0.06 on a layer is up to 6 % stiffer than on a half-space.
   EXPECT_GT(contact.total.force, 0.98 * hertz);
   EXPECT_LT(contact.total.force, 1.08 * hertz);
@@ -327,7 +327,7 @@ TEST(Coating, ThinCoverUnderHardSkinIsTheBondedLayer) {
 }
 
 TEST(Coating, HardCoverIsNone) {
-  const PreparedHand hand(ball_hand(kRadius, 3));
+  const PreparedHand hand(ball_hand(kSkinRadius, 3));
   ContactOptions options;
   const ContactResult rigid = on_plane(hand, 2.0, options);
   options.coatings.push_back({.thickness = 2.0, .shear_modulus = 1e4, .poisson = 0.5, .where = {}});
@@ -336,7 +336,7 @@ TEST(Coating, HardCoverIsNone) {
 }
 
 TEST(Coating, SoftCoverSpreadsTheLoadWhereItIs) {
-  const PreparedHand hand(ball_hand(kRadius, 3));
+  const PreparedHand hand(ball_hand(kSkinRadius, 3));
   ContactOptions options;
   const ContactResult rigid = on_plane(hand, 3.0, options);
   options.coatings.push_back(
@@ -351,7 +351,7 @@ TEST(Coating, SoftCoverSpreadsTheLoadWhereItIs) {
 }
 
 TEST(Coating, IsChecked) {
-  const PreparedHand hand(ball_hand(kRadius, 2));
+  const PreparedHand hand(ball_hand(kSkinRadius, 2));
   ContactOptions options;
   options.coatings.push_back(
       {.thickness = -1.0, .shear_modulus = 1.0, .poisson = 0.5, .where = {}});
