@@ -10,13 +10,6 @@
 namespace palmar {
 namespace {
 
-// Share along a segment at which it is nearest to a point, in [0, 1].
-double foot(const Vec3& a, const Vec3& b, const Vec3& point) {
-  const Vec3 along = b - a;
-  const double length2 = along.squaredNorm();
-  return length2 > 0.0 ? std::clamp(along.dot(point - a) / length2, 0.0, 1.0) : 0.0;
-}
-
 double radius_at(const RoundCone& cone, double t) {
   return (1.0 - t) * cone.radius_a + t * cone.radius_b;
 }
@@ -46,7 +39,7 @@ void fit_radii(const Hand& hand, const std::vector<char>& belongs, RoundCone& co
 }  // namespace
 
 double distance_to(const RoundCone& cone, const Vec3& point) {
-  const double t = foot(cone.a, cone.b, point);
+  const double t = nearest_share(cone.a, cone.b, point);
   return (point - (cone.a + t * (cone.b - cone.a))).norm() - radius_at(cone, t);
 }
 
@@ -54,8 +47,8 @@ ConeContact contact_of(const RoundCone& p, const RoundCone& q) {
   // Nearest points of two segments by alternating feet; four rounds reach 0.1 mm for fingers.
   double s = 0.5, t = 0.5;
   for (int round = 0; round < 4; ++round) {
-    t = foot(q.a, q.b, p.a + s * (p.b - p.a));
-    s = foot(p.a, p.b, q.a + t * (q.b - q.a));
+    t = nearest_share(q.a, q.b, p.a + s * (p.b - p.a));
+    s = nearest_share(p.a, p.b, q.a + t * (q.b - q.a));
   }
   const Vec3 on_p = p.a + s * (p.b - p.a);
   const Vec3 across = q.a + t * (q.b - q.a) - on_p;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "palmar/hand/hand.h"
@@ -16,6 +17,13 @@ struct RoundCone {
   Finger finger = Finger::kThumb;
   int level = 0;  ///< 0 metacarpal, 1 proximal, 2 middle, 3 distal phalanx (thumb: 0, 1, 2)
 };
+
+/// Share along the line from a to b at which it is nearest to a point, in [0, 1].
+inline double nearest_share(const Vec3& a, const Vec3& b, const Vec3& point) {
+  const Vec3 along = b - a;
+  const double length2 = along.squaredNorm();
+  return length2 > 0.0 ? std::clamp(along.dot(point - a) / length2, 0.0, 1.0) : 0.0;
+}
 
 /// Distance of a point to the surface of a cone, mm, negative inside. The nearest point of the
 /// centre line decides, which for the slight taper of a finger is right to a tenth of a millimetre.

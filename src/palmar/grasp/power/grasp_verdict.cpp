@@ -15,7 +15,7 @@ namespace {
 constexpr double kHalfRound = 1.0 / 3.0;  // of a turn
 constexpr double kLargeGirth = 1.0;       // hand lengths; what a hand spans from thumb to fingertip
 constexpr double kSheetWidth = 5.0;       // finger limit depths; wider is a sheet, not a wire
-constexpr double kAtLimit = 0.1;          // mm; that near to the limit depth counts as there
+constexpr double kAtLimitDepth = 0.1;     // mm; that near to the limit depth counts as there
 
 std::string words_of(Segment segment) {
   static constexpr std::array<const char*, 3> kPart = {"base", "middle part", "tip"};
@@ -60,12 +60,12 @@ void finish_stops(const HoldMeasure& measure, const DepthLimits& limits, Grasp& 
     stop.penetration = measure.penetration[s];
     const double limit = segment == Segment::kPalm ? limits.palm : limits.finger;
     if (segment == Segment::kPalm) {
-      stop.reason = stop.penetration > limit - kAtLimit ? StopReason::kLimitDepth
-                    : stop.penetration > 0.0            ? StopReason::kDistalStop
-                                                        : StopReason::kNotReached;
+      stop.reason = stop.penetration > limit - kAtLimitDepth ? StopReason::kLimitDepth
+                    : stop.penetration > 0.0                 ? StopReason::kDistalStop
+                                                             : StopReason::kNotReached;
       continue;
     }
-    if (stop.penetration > limit - kAtLimit) {
+    if (stop.penetration > limit - kAtLimitDepth) {
       stop.reason = StopReason::kLimitDepth;
     } else if (stop.reason == StopReason::kRangeOfMotion && stop.penetration <= 0.0) {
       stop.reason = StopReason::kNotReached;

@@ -16,6 +16,11 @@ namespace palmar {
 
 constexpr double kSkinRange = kSiteBand;  ///< mm; farther skin needn't know how far
 constexpr double kNeighbourGive = 1.5;    ///< mm; skin of two fingers pressed together
+constexpr int kLongestAdvance = 60;       ///< steps
+
+/// All but the thumb.
+inline constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
+                                                   Finger::kLittle};
 
 /// How deep skin may go into the product, mm.
 struct DepthLimits {

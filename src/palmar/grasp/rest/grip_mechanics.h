@@ -24,6 +24,7 @@ inline constexpr int kGripCoordinates = kGripJoints + 6;
 using GripVector = Eigen::Matrix<double, kGripCoordinates, 1>;
 using GripMatrix = Eigen::Matrix<double, kGripCoordinates, kGripCoordinates>;
 
+inline constexpr double kNoWay = 1e-6;           ///< rad; less is none
 inline constexpr double kForcesAccuracy = 5e-4;  ///< relative; of what is reported. Our choice
 
 struct GripState {
