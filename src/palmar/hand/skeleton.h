@@ -93,6 +93,9 @@ struct CmcShare {
 };
 CmcShare cmc_share(const Skeleton& skeleton, const Posture& posture);
 
+/// One axis of a joint turned to its angle, as a displacement from the reference posture.
+Rigid3 axis_displacement(const JointDof& dof, const Posture& posture);
+
 /// Displacement of the thumb metacarpal for shares of the limit postures (eq. 2-5, 2-6, both at
 /// once), hand frame.
 Rigid3 cmc_displacement(const Skeleton& skeleton, const CmcShare& share);
