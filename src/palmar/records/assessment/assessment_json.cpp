@@ -23,10 +23,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// File names may hold bytes that are no UTF-8; they must not stop the output.
-std::string dumped(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
-}
-
 Json posture_object(const Posture& angles) {
   Json posture = Json::object();
   for (int d = 0; d < kDofCount; ++d) {
@@ -401,7 +397,7 @@ Json settings_object(const Assessment& assessment) {
 std::string grasp_json(const Grasp& grasp) {
   Json json = grasp_object(grasp);
   json["hold"] = hold_object(grasp);
-  return dumped(json);
+  return json_file_text(json);
 }
 
 std::string placements_json(const Grasp& grasp) {
@@ -409,10 +405,10 @@ std::string placements_json(const Grasp& grasp) {
   list.push_back(
       runner_up_object({grasp.grip, grasp.posture, grasp.product_from_hand, grasp.score}));
   for (const GraspRunnerUp& other : grasp.runners_up) list.push_back(runner_up_object(other));
-  return dumped({{"status", name_of(grasp.status)},
-                 {"message", grasp.message},
-                 {"candidates", grasp.candidates},
-                 {"placements", std::move(list)}});
+  return json_file_text({{"status", name_of(grasp.status)},
+                         {"message", grasp.message},
+                         {"candidates", grasp.candidates},
+                         {"placements", std::move(list)}});
 }
 
 bool is_assessment_json(const std::string& text) {
@@ -456,7 +452,7 @@ std::string assessment_json(const AssessmentSet& set, const VerdictWords& words)
                      {"verdict", verdict_object(verdict, words, names)},
                      {"versions", {{"palmar", version()}, {"build", build_description()}}},
                      {"command_line", set.command_line}};
-  return dumped(json);
+  return json_file_text(json);
 }
 
 }  // namespace palmar

@@ -30,13 +30,6 @@ std::uint32_t share_16(double share) {
   return static_cast<std::uint32_t>(std::lround(65535.0 * std::clamp(share, 0.0, 1.0)));
 }
 
-std::string triple(double a, double b, double c) {
-  return "[" + exact_number(a) + "," + exact_number(b) + "," + exact_number(c) + "]";
-}
-
-std::string triple(const Vec3& v) { return triple(v.x(), v.y(), v.z()); }
-std::string triple(Rgb c) { return triple(c.r, c.g, c.b); }
-
 // {"low": corner of the box, "size": its sides, "data": positions as shares of the sides}
 std::string positions(const TriangleMesh& mesh) {
   Box3 box;
@@ -48,8 +41,8 @@ std::string positions(const TriangleMesh& mesh) {
   for (const Vec3& v : mesh.vertices) {
     for (int k = 0; k < 3; ++k) append_16(bytes, share_16((v[k] - low[k]) / size[k]));
   }
-  return "{\"low\":" + triple(low) + ",\"size\":" + triple(size) + ",\"data\":\"" + base64(bytes) +
-         "\"}";
+  return "{\"low\":" + json_triple(low) + ",\"size\":" + json_triple(size) + ",\"data\":\"" +
+         base64(bytes) + "\"}";
 }
 
 // uint16 where that is enough for the number of vertices, else uint32; the viewer decides alike.
@@ -121,11 +114,12 @@ std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
   const ProductFootprint footprint = footprint_of(assessed);
   const DisplayMesh product =
       display_mesh(footprint.surface, footprint.pressure, kMostProductTriangles);
-  return "{\"table\":\"" + base64(table) + "\",\"neutral\":" + triple(scale.neutral) +
-         ",\"skinColour\":" + triple(kSkinColour) + ",\"productColour\":" + triple(kProductColour) +
-         ",\"palmward\":" + triple(rotation * Vec3::UnitZ()) +
-         ",\"distal\":" + triple(rotation * Vec3::UnitY()) +
-         ",\"radial\":" + triple(rotation * (radial * Vec3::UnitX())) + ",\"skin\":" +
+  return "{\"table\":\"" + base64(table) + "\",\"neutral\":" + json_triple(scale.neutral) +
+         ",\"skinColour\":" + json_triple(kSkinColour) +
+         ",\"productColour\":" + json_triple(kProductColour) +
+         ",\"palmward\":" + json_triple(rotation * Vec3::UnitZ()) +
+         ",\"distal\":" + json_triple(rotation * Vec3::UnitY()) +
+         ",\"radial\":" + json_triple(rotation * (radial * Vec3::UnitX())) + ",\"skin\":" +
          mesh_object(deformed_skin(hand, assessment), skin_pressure(hand, assessment),
                      scale.upper) +
          ",\"undeformed\":" + positions(undeformed_skin(hand, assessment)) +

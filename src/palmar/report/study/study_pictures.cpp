@@ -60,12 +60,12 @@ Scene threads_on_borders(const Product& product) {
   return {std::move(threads)};
 }
 
-struct View {
+struct ProductView {
   std::string name, title, alt;
   Vec3 direction, up;  ///< into the scene
 };
 
-Picture picture_of(const Scene& scene, const View& view, const std::string& product,
+Picture picture_of(const Scene& scene, const ProductView& view, const std::string& product,
                    const std::string& subtitle, const ColourScale& scale,
                    const PictureOptions& options, const Progress& progress) {
   const double aspect = static_cast<double>(options.width) / options.height;

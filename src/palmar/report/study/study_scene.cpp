@@ -22,18 +22,11 @@
 namespace palmar {
 namespace {
 
-constexpr int kMostProductTriangles = 40000;
+constexpr int kMostTrianglesEach = 40000;
 constexpr double kShownReach = 30.0;  // mm; deeper inside nothing is brought to the surface
 constexpr double kThesisEnd = 0.7;    // MPa; colour scale of Xie 2014, fig. 5-12
 
 std::size_t place(int i) { return static_cast<std::size_t>(i); }
-
-std::string triple(const Vec3& v) {
-  return "[" + exact_number(v.x()) + "," + exact_number(v.y()) + "," + exact_number(v.z()) + "]";
-}
-std::string triple(Rgb c) {
-  return "[" + std::to_string(c.r) + "," + std::to_string(c.g) + "," + std::to_string(c.b) + "]";
-}
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -62,7 +55,7 @@ struct ShownProduct {
   std::vector<int> face_of_triangle;  ///< of `map`
   DisplayMesh shown;
   std::vector<double> shown_field(const std::vector<double>& field) const {
-    return display_mesh(map, field, kMostProductTriangles).value;
+    return display_mesh(map, field, kMostTrianglesEach).value;
   }
 };
 
@@ -72,7 +65,7 @@ ShownProduct shown_product(const Product& product) {
   one.map = std::move(map.mesh);
   one.face_of_triangle = std::move(map.face_of_triangle);
   one.shown =
-      display_mesh(one.map, std::vector<double>(one.map.vertices.size()), kMostProductTriangles);
+      display_mesh(one.map, std::vector<double>(one.map.vertices.size()), kMostTrianglesEach);
   return one;
 }
 
@@ -143,7 +136,7 @@ std::string map_json(const PressureMap& skin, const PressureMap& product, const 
 }
 
 /// What is shown of one hand.
-struct HandPart {
+struct GraspsOfHand {
   std::vector<const StudyRecord*> records;
   std::vector<std::string> grasps;
 };
@@ -255,14 +248,14 @@ std::string study_scene_json(const StudySceneInput& input) {
       records.push_back(record);
     }
   });
-  std::vector<HandPart> parts(hands.size());
+  std::vector<GraspsOfHand> parts(hands.size());
   for (const StudyRecord& record : records) {
     const auto place =
         std::lower_bound(hands.begin(), hands.end(), task_at(plan, record.number).hand);
     parts[static_cast<std::size_t>(place - hands.begin())].records.push_back(&record);
   }
   parallel_for(static_cast<int>(parts.size()), [&](int i) {
-    HandPart& part = parts[place(i)];
+    GraspsOfHand& part = parts[place(i)];
     std::optional<Hand> hand;
     for (const StudyRecord* record : part.records) {
       if (!hand && is_in_hand(*record)) hand = input.hand_of(task_at(plan, record->number));
@@ -279,9 +272,9 @@ std::string study_scene_json(const StudySceneInput& input) {
     for (const std::uint8_t byte : {c.r, c.g, c.b}) fern += static_cast<char>(byte);
   }
   std::string json = "{\"table\":\"" + base64(table) + "\",\"shareTable\":\"" + base64(fern) +
-                     "\",\"neutral\":" + triple(kNeutralColour) +
-                     ",\"skinColour\":" + triple(kSkinColour) +
-                     ",\"productColour\":" + triple(kProductColour) +
+                     "\",\"neutral\":" + json_triple(kNeutralColour) +
+                     ",\"skinColour\":" + json_triple(kSkinColour) +
+                     ",\"productColour\":" + json_triple(kProductColour) +
                      ",\"vertices\":" + std::to_string(base.skin.vertices.size()) +
                      ",\"triangles\":\"" + packed_triangles(base.skin.triangles) +
                      "\",\"open\":" + packed_positions(base.skin.vertices) + ",\"hands\":[";
@@ -311,9 +304,9 @@ std::string study_scene_json(const StudySceneInput& input) {
             ",\"vertices\":" + std::to_string(one.shown.mesh.vertices.size()) +
             ",\"triangles\":\"" + packed_triangles(one.shown.mesh.triangles) +
             "\",\"places\":" + packed_positions(one.shown.mesh.vertices) +
-            ",\"palmward\":" + triple(rotation * Vec3::UnitZ()) +
-            ",\"distal\":" + triple(rotation * Vec3::UnitY()) +
-            ",\"radial\":" + triple(rotation * (radial * Vec3::UnitX())) +
+            ",\"palmward\":" + json_triple(rotation * Vec3::UnitZ()) +
+            ",\"distal\":" + json_triple(rotation * Vec3::UnitY()) +
+            ",\"radial\":" + json_triple(rotation * (radial * Vec3::UnitX())) +
             ",\"typical\":" + std::to_string(typical) +
             ",\"held\":" + std::to_string(input.maps[p].hands) +
             ",\"faces\":" + faces_json(input, static_cast<int>(p), one, phrases) + ",\"maps\":" +
@@ -321,7 +314,7 @@ std::string study_scene_json(const StudySceneInput& input) {
   }
   json += "],\"grasps\":[";
   bool is_first = true;
-  for (const HandPart& part : parts) {
+  for (const GraspsOfHand& part : parts) {
     for (const std::string& grasp : part.grasps) {
       json += (is_first ? "" : ",") + grasp;
       is_first = false;
