@@ -22,16 +22,17 @@
 namespace palmar {
 namespace {
 
-constexpr int kRays = 48;
+constexpr int kSkyDirections = 48;
 constexpr int kProbes = 2000;  // triangles looked at to determine whether there is a cavity at all
 
 /// Directions over the hemisphere about z, dense as the cosine; Hammersley's points.
-std::array<Vec3, kRays> hemisphere() {
-  std::array<Vec3, kRays> directions;
-  for (int i = 0; i < kRays; ++i) {
+std::array<Vec3, kSkyDirections> hemisphere() {
+  std::array<Vec3, kSkyDirections> directions;
+  for (int i = 0; i < kSkyDirections; ++i) {
     double inverse = 0.0, digit = 0.5;
     for (int bits = i; bits > 0; bits /= 2, digit /= 2.0) inverse += digit * (bits % 2);
-    const double radius = std::sqrt((i + 0.5) / kRays), turn = 2.0 * std::numbers::pi * inverse;
+    const double radius = std::sqrt((i + 0.5) / kSkyDirections),
+                 turn = 2.0 * std::numbers::pi * inverse;
     directions[i] =
         Vec3(radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1.0 - radius * radius));
   }
@@ -58,7 +59,7 @@ class Surroundings {
     for (const Vec3& direction : directions_) {
       if (!rays_.first_hit(from, turned * direction)) ++free;
     }
-    return static_cast<double>(free) / kRays;
+    return static_cast<double>(free) / kSkyDirections;
   }
 
   /// Thickness of the wall that parts a triangle from an outer face, mm; nothing if it is thick or
@@ -100,7 +101,7 @@ class Surroundings {
   const TriangleMesh& mesh_;
   const ContactBodyOptions& options_;
   RayQuery rays_;
-  std::array<Vec3, kRays> directions_;
+  std::array<Vec3, kSkyDirections> directions_;
   double off_ = 0.0;
 };
 

@@ -20,7 +20,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kWeldShare = 1e-6;  // of the size; single-precision files round to about 1e-7
+constexpr double kFileRounding = 1e-6;  // of the size; single-precision files round to about 1e-7
 
 std::string tenths(double value) {
   std::array<char, 32> text{};
@@ -142,7 +142,7 @@ Product make_product(const std::string& name, const TriangleMesh& raw, const Uni
     for (const int v : t) box.extend(in_mm.vertices[v]);
   }
   const WeldResult welded =
-      weld(in_mm, {.tolerance = kWeldShare * box.sizes().maxCoeff(),
+      weld(in_mm, {.tolerance = kFileRounding * box.sizes().maxCoeff(),
                    .groups = faces != nullptr ? bodies_of_triangles(*faces) : std::vector<int>()});
   if (welded.mesh.triangle_count() < 2 || !(surface_area(welded.mesh) > 0.0)) {
     throw InputError(source + ": its triangles have no area (size " +
