@@ -156,7 +156,7 @@ void step_deforming(benchmark::State& state) {
   ContactResult contact = c.contact;
   for (auto _ : state) {
     contact.displacement = u.with_bulge;
-    deform_skin(c.hand.impl().skin, c.skin, *c.product.distance, u.is_active, contact);
+    deform_skin(c.hand.impl().skin, c.skin, *c.product.distance, u.is_active, {}, contact);
   }
 }
 BENCHMARK(step_deforming)->Unit(benchmark::kMillisecond);
