@@ -16,19 +16,19 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/contact_totals.h"
-#include "palmar/contact/prepared_hand.h"
-#include "palmar/contact/pressed_skin.h"
-#include "palmar/contact/response/deformed_skin.h"
-#include "palmar/contact/response/skin_displacement.h"
+#include "palmar/contact/prepared/contact_totals.h"
+#include "palmar/contact/prepared/deformed_skin.h"
+#include "palmar/contact/prepared/prepared_hand.h"
+#include "palmar/contact/prepared/pressed_skin.h"
+#include "palmar/contact/prepared/skin_displacement.h"
 #include "palmar/contact/solve/contact_system.h"
 #include "palmar/contact/solve/skin_product.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
-#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/records/hand/hand_asset.h"
 
 namespace {
@@ -156,7 +156,7 @@ void step_deforming(benchmark::State& state) {
   ContactResult contact = c.contact;
   for (auto _ : state) {
     contact.displacement = u.with_bulge;
-    deform_skin(c.hand.impl().skin, c.skin, *c.product.distance, u.is_active, contact);
+    deform_skin(c.hand.impl().skin, c.skin, *c.product.distance, u.is_active, {}, contact);
   }
 }
 BENCHMARK(step_deforming)->Unit(benchmark::kMillisecond);

@@ -22,9 +22,9 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
-#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/records/hand/hand_asset.h"
 
 namespace {

@@ -10,7 +10,7 @@
 
 #include "palmar/core/parallel.h"
 #include "palmar/effort/effort.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/product/primitives.h"
 #include "palmar/records/hand/hand_asset.h"
 #include "palmar/study/assessment/assessment.h"

@@ -12,11 +12,11 @@
 #include <string>
 
 #include "palmar/core/parallel.h"
-#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/power/grip_axis.h"
 #include "palmar/grasp/rest/balance.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/product/primitives.h"
 #include "palmar/records/hand/hand_asset.h"
 #include "palmar/records/product/product_file.h"

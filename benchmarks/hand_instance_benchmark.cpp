@@ -12,7 +12,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/instance/hand_instance.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/records/hand/hand_asset.h"
 
 namespace {

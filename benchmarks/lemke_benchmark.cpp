@@ -17,15 +17,15 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/solve/lcp.h"
 #include "palmar/contact/solve/lemke.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
-#include "palmar/grasp/grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/records/hand/hand_asset.h"
 
 namespace {

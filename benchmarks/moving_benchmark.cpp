@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/footprint.h"
-#include "palmar/contact/moving_footprint.h"
+#include "palmar/contact/footprint/footprint.h"
+#include "palmar/contact/footprint/moving_footprint.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/product/make_product.h"
-#include "palmar/product/unit_guard.h"
+#include "palmar/product/intake/make_product.h"
+#include "palmar/product/intake/unit_guard.h"
 #include "palmar/workflow/live/live_session.h"
 
 namespace {

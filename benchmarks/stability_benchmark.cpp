@@ -21,7 +21,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/indices/stability.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/product/primitives.h"
 #include "palmar/records/hand/hand_asset.h"
 #include "palmar/study/assessment/assessment.h"

@@ -17,13 +17,13 @@
 #include <string>
 #include <vector>
 
-#include "palmar/contact/footprint.h"
+#include "palmar/contact/footprint/footprint.h"
 #include "palmar/contact/hand_family.h"
 #include "palmar/core/parallel.h"
-#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/find/grasp_place.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/instance/hand_instance.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/product/primitives.h"
 #include "palmar/records/hand/hand_asset.h"
 #include "palmar/records/product/product_file.h"

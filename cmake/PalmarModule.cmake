@@ -6,7 +6,7 @@
 # One static library palmar_NAME (alias palmar::NAME) per folder of src/palmar and one test program
 # NAME_tests from the *_test.cpp files beside the sources. A module can only link modules that were
 # added before it, so the order of add_subdirectory() in src/palmar/CMakeLists.txt is the layering;
-# tests/check_layers.cmake holds the #include lines to the same order.
+# tests/layers/layers.mjs holds the #include lines to the same order.
 
 # palmar_export(TARGET NAME): installed, for other projects palmar::NAME (cmake/PalmarInstall.cmake).
 function(palmar_export target name)

@@ -300,7 +300,9 @@ function page(modules, files, uses) {
 
 The folders of \`src/palmar\` are the modules. Their order stands in \`src/palmar/modules.txt\`, and CMake, a test and
 this page read it there. A module includes and links only modules that come before it: \`cmake/PalmarModule.cmake\`
-refuses a link against the order, and the test \`layers\` refuses such an \`#include\`.
+refuses a link against the order, and the test \`layers\` refuses such an \`#include\` and folders
+inside a module that include each other in a circle. The test \`types\` refuses a type that is defined twice at one
+namespace.
 
 ![Modules of Palmar, bottom to top](modules.svg)
 

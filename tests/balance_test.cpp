@@ -3,6 +3,7 @@
 //
 // The template hand's grasps come to rest (grasp/balance.h).
 #include "palmar/grasp/rest/balance.h"
+#include "palmar/grasp/find/find_grasp.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -16,6 +16,7 @@
 #include "holds/tried_products.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/mirror.h"
 #include "template_fixture.h"
 
 namespace palmar {

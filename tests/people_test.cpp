@@ -19,8 +19,8 @@
 #include "palmar/population/segment_regressions.h"
 #include "palmar/product/primitives.h"
 #include "palmar/study/assessment/assessment.h"
-#include "palmar/study/assessment/exclusion.h"
-#include "palmar/study/assessment/grasp_demand.h"
+#include "palmar/study/grasp_demand.h"
+#include "palmar/study/statistics/exclusion.h"
 #include "template_fixture.h"
 
 namespace palmar {

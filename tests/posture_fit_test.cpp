@@ -11,6 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/marker_set.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/landmarks.h"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "palmar/core/error.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/marker_set.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/landmarks.h"

@@ -11,6 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/remesh/remesh.h"
 #include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/posture/posture_from_mesh.h"
 #include "palmar/hand/skin/skinning.h"

@@ -17,6 +17,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/grasp/power/finger_motion.h"
 #include "palmar/grasp/precision/fingertip_ik.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"

@@ -26,6 +26,7 @@
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/rest/balance.h"
 #include "palmar/grasp/rest/other_grip.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "template_fixture.h"

@@ -16,13 +16,14 @@
 #include "palmar/contact/contact.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
-#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/find/grasp_place.h"
 #include "palmar/grasp/precision/laid_hand.h"
 #include "palmar/grasp/precision/ring_targets.h"
 #include "palmar/grasp/rest/balance.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 #include "template_fixture.h"
 
 namespace palmar {

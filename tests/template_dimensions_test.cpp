@@ -10,6 +10,7 @@
 #include "palmar/geometry/remesh/subdivide.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/dimensions/tape_measures.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/skeleton_in_posture.h"
 #include "palmar/hand/skin/creases.h"
 #include "palmar/hand/skin/skinning.h"

@@ -6,7 +6,7 @@
 
 #include <filesystem>
 
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/records/hand/hand_asset.h"
 
 namespace palmar {

@@ -16,6 +16,7 @@
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/instance/scaled_hand.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/creases.h"
 #include "palmar/hand/skin/skinning.h"

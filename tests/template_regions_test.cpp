@@ -8,6 +8,7 @@
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/skin/regions.h"
 #include "template_fixture.h"
 

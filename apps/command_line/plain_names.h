@@ -5,7 +5,7 @@
 #include <string>
 
 #include "palmar/hand/anatomy.h"
-#include "palmar/hand/posture/posture.h"
+#include "palmar/hand/posture.h"
 
 namespace palmar::cli {
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/plain_words.h"
 #include "plain_names.h"
 
 namespace palmar::cli {

@@ -20,13 +20,13 @@
 #include <span>
 
 #include "axisymmetric_deck.h"
-#include "palmar/contact/hand_contact.h"
+#include "palmar/contact/hand/hand_contact.h"
 #include "palmar/contact/press/half_space_press.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/process/external_program.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 #include "palmar/hand/tissue_block.h"
 #include "palmar/records/fe/ccx_results.h"
 #include "palmar/records/fe/inp_file.h"

@@ -7,7 +7,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "palmar/core/error.h"
-#include "palmar/records/assessment_json.h"
+#include "palmar/records/assessment/assessment_json.h"
 #include "palmar/records/project_file.h"
 #include "palmar/workflow/assess.h"
 #include "task.h"

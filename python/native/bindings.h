@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "palmar/contact/contact.h"
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/hand/hand.h"

@@ -1,13 +1,13 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/workflow/effort.h"
+#include "palmar/workflow/effort/effort.h"
 #include "arrays.h"
 #include "bindings.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/effort_json.h"
-#include "palmar/workflow/contact_with_band.h"
 #include "palmar/workflow/effort/effort_capacity.h"
+#include "palmar/workflow/grasp/contact_with_band.h"
 #include "palmar/workflow/words/fingertip_words.h"
 #include "palmar/workflow/words/person_words.h"
 #include "task.h"

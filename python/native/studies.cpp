@@ -8,7 +8,7 @@
 #include "palmar/records/study/study_plan_json.h"
 #include "palmar/report/study/study_csv.h"
 #include "palmar/study/statistics/study_analysis.h"
-#include "palmar/workflow/study.h"
+#include "palmar/workflow/study/study.h"
 #include "palmar/workflow/study/study_export.h"
 #include "palmar/workflow/study/study_report.h"
 #include "palmar/workflow/study/study_shards.h"

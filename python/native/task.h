@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "palmar/core/progress.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar::python {
 

@@ -14,7 +14,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/remesh.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 #include "palmar/records/product/product_file.h"
 #include "peoples_holds.h"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "palmar/core/version.h"
-#include "palmar/report/study/study_words.h"
+#include "palmar/report/words/study_words.h"
 
 namespace palmar::cli {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "assess/balance_arguments.h"
 #include "assess/friction_arguments.h"
-#include "palmar/contact/resolution.h"
-#include "palmar/records/index_json.h"
+#include "palmar/contact/prepared/resolution.h"
+#include "palmar/records/assessment/index_json.h"
 #include "palmar/report/page/friction_words.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/plain_words.h"
 #include "palmar/study/assessment/error_budget.h"
 #include "palmar/study/assessment/hold_doubts.h"
 #include "plain_names.h"

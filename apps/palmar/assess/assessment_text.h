@@ -5,7 +5,7 @@
 #include <string>
 
 #include "palmar/hand/hand.h"
-#include "palmar/records/verdict_text.h"
+#include "palmar/records/assessment/verdict_text.h"
 #include "palmar/study/assessment/assessment.h"
 
 namespace palmar::cli {

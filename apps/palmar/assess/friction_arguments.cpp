@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "palmar/report/page/friction_words.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "palmar/core/error.h"
 #include "palmar/effort/effort.h"
 #include "palmar/records/effort_json.h"
-#include "palmar/workflow/effort.h"
+#include "palmar/workflow/effort/effort.h"
 #include "palmar/workflow/effort/effort_capacity.h"
 #include "palmar/workflow/effort/effort_fingertip.h"
 #include "palmar/workflow/words/fingertip_words.h"

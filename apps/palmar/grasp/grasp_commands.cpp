@@ -6,8 +6,8 @@
 #include "grasp/grasp_options.h"
 #include "grasp/grasp_reach_command.h"
 #include "palmar/formats/file.h"
-#include "palmar/records/assessment_json.h"
-#include "palmar/workflow/grasp.h"
+#include "palmar/records/assessment/assessment_json.h"
+#include "palmar/workflow/grasp/grasp.h"
 #include "text.h"
 
 namespace palmar::cli {

@@ -9,7 +9,7 @@
 #include "cli.h"
 #include "grasp/hold_arguments.h"
 #include "palmar/contact/contact.h"
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/workflow/words/contact_words.h"
 
 namespace palmar::cli {

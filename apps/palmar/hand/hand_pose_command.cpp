@@ -19,7 +19,7 @@
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/posture/posture_fit.h"
 #include "palmar/hand/posture/posture_from_mesh.h"
-#include "palmar/product/unit_guard.h"
+#include "palmar/product/intake/unit_guard.h"
 #include "palmar/records/posture/marker_set_file.h"
 #include "palmar/records/posture/posture_report.h"
 #include "palmar/report/picture/hand_export.h"

@@ -8,7 +8,7 @@
 #include "cli.h"
 #include "grasp/hold_arguments.h"
 #include "palmar/study/study_plan.h"
-#include "palmar/workflow/study.h"
+#include "palmar/workflow/study/study.h"
 
 namespace palmar::cli {
 

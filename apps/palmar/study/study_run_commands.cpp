@@ -7,7 +7,7 @@
 
 #include "cli.h"
 #include "palmar/records/study/study_plan_json.h"
-#include "palmar/workflow/study.h"
+#include "palmar/workflow/study/study.h"
 #include "study/study_arguments.h"
 
 namespace palmar::cli {

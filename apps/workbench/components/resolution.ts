@@ -9,7 +9,7 @@ import { note } from "./parts";
 import { regionWords } from "./verdicts";
 
 const mostNamed = 3;
-const toldShare = 0.3; // of a region's force, as in contact/resolution.h
+const toldShare = 0.3; // of a region's force, as in contact/prepared/resolution.h
 
 /// What was done about sharp edges, or that pressures on them are not resolved, where that is so.
 export function resolutionNote(contact: ContactResult, vocabulary: Vocabulary): Markup | null {

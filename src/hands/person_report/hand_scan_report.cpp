@@ -20,12 +20,12 @@
 #include "hands/person_records/hand_from_scan_json.h"
 #include "hands/person_records/mark_label_file.h"
 #include "palmar/report/page/page_json.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/colormap.h"
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/report/picture/render.h"
 #include "hands/person_report/found_sheet.h"
 #include "hands/person_report/scan_report.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

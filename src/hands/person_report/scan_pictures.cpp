@@ -11,11 +11,11 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/bones/bone_shape.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/colormap.h"
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/report/picture/render.h"
 #include "hands/person_report/scan_report.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

@@ -10,8 +10,8 @@
 #include "hands/person_records/scan_record_json.h"
 #include "palmar/report/chart/bar_chart.h"
 #include "palmar/report/page/page_json.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/words/phrases.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 std::string plain_words(ScanPosture posture) {

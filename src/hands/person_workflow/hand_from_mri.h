@@ -13,7 +13,7 @@
 #include "palmar/core/setting_names.h"
 #include "palmar/geometry/length_unit.h"
 #include "hands/person_workflow/steps/scan_selection.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

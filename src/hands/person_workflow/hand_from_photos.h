@@ -9,7 +9,7 @@
 #include "palmar/core/progress.h"
 #include "hands/person_workflow/steps/photo_cameras.h"
 #include "hands/person_workflow/steps/scan_hand.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

@@ -13,7 +13,7 @@
 #include "hands/images/exif.h"
 #include "palmar/formats/mesh/texture_file.h"
 #include "palmar/hand/instance/hand_instance.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/population/segment_regressions.h"
 #include "palmar/records/person/person_file.h"
 #include "palmar/records/hand/hand_file.h"

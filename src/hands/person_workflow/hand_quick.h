@@ -10,7 +10,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/population/population.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

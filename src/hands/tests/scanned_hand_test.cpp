@@ -17,6 +17,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/repair/self_intersection.h"
 #include "palmar/hand/instance/hand_instance.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/records/hand/hand_file.h"
 #include "subject_fixture.h"

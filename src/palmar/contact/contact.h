@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "palmar/contact/self/skin_touch.h"
+#include "palmar/contact/skin_touch.h"
 #include "palmar/geometry/distance/distance_field.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/hand.h"

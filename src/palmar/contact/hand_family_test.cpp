@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "palmar/contact/contact_test_hand.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 
@@ -18,10 +18,10 @@ using contact_test::HalfSpace;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double kBallRadius = 10.0;  // mm
+constexpr double kFamilyRadius = 10.0;  // mm
 
 std::shared_ptr<Hand> ellipsoid(const Vec3& stretch) {
-  auto hand = ball_hand(kBallRadius, 3);
+  auto hand = ball_hand(kFamilyRadius, 3);
   for (Vec3& v : hand->skin.vertices) v = v.cwiseProduct(stretch);
   return hand;
 }
@@ -46,21 +46,22 @@ void expect_alike(const std::shared_ptr<Hand>& hand, const HandFamily& family, d
 
 // 1e-5: tables of the disc's response and of the arc in single precision.
 TEST(HandFamily, PreparesItsBaseAsAlways) {
-  expect_alike(ball_hand(kBallRadius, 3), HandFamily(ball_hand(kBallRadius, 3)), kBallRadius, 1e-5);
+  expect_alike(ball_hand(kFamilyRadius, 3), HandFamily(ball_hand(kFamilyRadius, 3)), kFamilyRadius,
+               1e-5);
 }
 
 TEST(HandFamily, IsExactForAHandScaledAsAWhole) {
-  const HandFamily family(ball_hand(kBallRadius, 3));
+  const HandFamily family(ball_hand(kFamilyRadius, 3));
   for (const double factor : {0.8, 1.25}) {
-    expect_alike(ellipsoid(Vec3::Constant(factor)), family, factor * kBallRadius, 1e-5);
+    expect_alike(ellipsoid(Vec3::Constant(factor)), family, factor * kFamilyRadius, 1e-5);
   }
 }
 
 TEST(HandFamily, IsNearlyExactForAStretchedHand) {
-  const HandFamily family(ball_hand(kBallRadius, 3));
+  const HandFamily family(ball_hand(kFamilyRadius, 3));
   // Three standard deviations of hand length (17 %) against three of the circumference.
-  expect_alike(ellipsoid({1.17, 0.85, 0.85}), family, 0.85 * kBallRadius, 0.005);
-  expect_alike(ellipsoid({0.85, 1.2, 1.2}), family, 1.2 * kBallRadius, 0.005);
+  expect_alike(ellipsoid({1.17, 0.85, 0.85}), family, 0.85 * kFamilyRadius, 0.005);
+  expect_alike(ellipsoid({0.85, 1.2, 1.2}), family, 1.2 * kFamilyRadius, 0.005);
 }
 
 TEST(HandFamily, KnowsEveryModel) {
@@ -68,13 +69,13 @@ TEST(HandFamily, KnowsEveryModel) {
   independent.coupling = RegionCoupling::kIndependent;
   for (const ContactModel& model : {independent, xie2014_model()}) {
     // A flattened region has a picture of its own; scaled as a whole it stays the same.
-    expect_alike(ellipsoid(Vec3::Constant(0.9)), HandFamily(ball_hand(kBallRadius, 3), model),
-                 0.9 * kBallRadius, 1e-4);
+    expect_alike(ellipsoid(Vec3::Constant(0.9)), HandFamily(ball_hand(kFamilyRadius, 3), model),
+                 0.9 * kFamilyRadius, 1e-4);
   }
 }
 
 TEST(HandFamily, ResponsesAreSymmetricAndDontDependOnThreads) {
-  const HandFamily family(ball_hand(kBallRadius, 3));
+  const HandFamily family(ball_hand(kFamilyRadius, 3));
   const auto hand = ellipsoid({1.1, 0.95, 0.9});
   set_thread_count(1);
   const PreparedHand one(hand, family);
@@ -91,8 +92,8 @@ TEST(HandFamily, ResponsesAreSymmetricAndDontDependOnThreads) {
 }
 
 TEST(HandFamily, RefusesAnotherMesh) {
-  const HandFamily family(ball_hand(kBallRadius, 3));
-  EXPECT_THAT([&] { PreparedHand(ball_hand(kBallRadius, 2), family); },
+  const HandFamily family(ball_hand(kFamilyRadius, 3));
+  EXPECT_THAT([&] { PreparedHand(ball_hand(kFamilyRadius, 2), family); },
               ThrowsMessage<UsageError>(HasSubstr("hand \"ball\" has not the mesh of hand")));
   EXPECT_THAT([&] { PreparedHand(nullptr, family); },
               ThrowsMessage<UsageError>(HasSubstr("no hand was given")));

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
 namespace palmar {

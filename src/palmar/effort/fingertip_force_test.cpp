@@ -9,6 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
 namespace palmar {

@@ -21,8 +21,8 @@ constexpr std::array<std::uint32_t, 64> kRound = {
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
-constexpr std::size_t kBlock = 64;     // bytes
-constexpr std::size_t kLengthAt = 56;  // of the last block, where the message's length stands
+constexpr std::size_t kMessageBlock = 64;  // bytes
+constexpr std::size_t kLengthAt = 56;      // of the last block, where the message's length stands
 
 }  // namespace
 
@@ -62,14 +62,14 @@ void Sha256::take_block(const std::uint8_t* block) {
 }
 
 void Sha256::add(std::string_view bytes) {
-  auto used = static_cast<std::size_t>(length_ % kBlock);
+  auto used = static_cast<std::size_t>(length_ % kMessageBlock);
   length_ += bytes.size();
   for (std::size_t done = 0; done < bytes.size();) {
-    const std::size_t part = std::min(kBlock - used, bytes.size() - done);
+    const std::size_t part = std::min(kMessageBlock - used, bytes.size() - done);
     std::copy_n(bytes.data() + done, part, waiting_.begin() + static_cast<std::ptrdiff_t>(used));
     done += part;
     used += part;
-    if (used == kBlock) {
+    if (used == kMessageBlock) {
       take_block(waiting_.data());
       used = 0;
     }
@@ -80,7 +80,7 @@ std::string Sha256::hex() const {
   Sha256 last = *this;
   const std::uint64_t bits = 8 * length_;
   std::string padding(1, '\x80');
-  while ((length_ + padding.size()) % kBlock != kLengthAt) padding += '\0';
+  while ((length_ + padding.size()) % kMessageBlock != kLengthAt) padding += '\0';
   for (int shift = 56; shift >= 0; shift -= 8) padding += static_cast<char>(bits >> shift);
   last.add(padding);
   std::string digits;

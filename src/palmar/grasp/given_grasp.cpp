@@ -14,7 +14,7 @@
 namespace palmar {
 namespace {
 
-constexpr double kFar = 1000.0;    // mm; how far a gap is reported
+constexpr double kFarthestGap = 1000.0;  // mm; how far a gap is reported
 constexpr double kDeepest = 15.0;  // mm; half a finger's thickness and more: no contact but a clash
 
 void check(const Posture& posture, const Rigid3& product_from_hand) {
@@ -42,7 +42,7 @@ std::string list_of(const std::vector<Finger>& fingers) {
 void judge(Grasp& grasp) {
   std::vector<Finger> touching;
   double deepest = 0.0;
-  double nearest = -kFar;
+  double nearest = -kFarthestGap;
   for (const SegmentStop& stop : grasp.stops) {
     deepest = std::max(deepest, stop.penetration);
     nearest = std::max(nearest, stop.penetration);
@@ -89,9 +89,9 @@ Grasp given_grasp(const Hand& hand, const Product& product, const Posture& postu
     segment.push_back(hand.segment[v]);
   }
   std::vector<DistanceSample> samples(points.size());
-  product.distance->sample(points, kFar, samples);
+  product.distance->sample(points, kFarthestGap, samples);
   for (int s = 0; s < kSegmentCount; ++s) {
-    grasp.stops[s] = {static_cast<Segment>(s), StopReason::kGiven, -kFar};
+    grasp.stops[s] = {static_cast<Segment>(s), StopReason::kGiven, -kFarthestGap};
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     SegmentStop& stop = grasp.stops[index_of(segment[i])];

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/find_grasp.h"
 
 namespace palmar {
 
@@ -50,16 +49,6 @@ void PowerGraspOptions::check() const {
   if (placement.turn && !std::isfinite(*placement.turn)) {
     throw UsageError("placement: turn is not a number; an angle is required");
   }
-}
-
-Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGraspOptions& options,
-                        const Progress& progress) {
-  options.check();
-  GraspOptions asked;
-  asked.grip = options.grip;
-  asked.power = options;
-  asked.holds.is_power_only = true;
-  return find_grasp(hand, product, asked, progress);
 }
 
 std::string name_of(StopReason reason) {

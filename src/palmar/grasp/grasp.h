@@ -10,7 +10,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/grasp/grip.h"
-#include "palmar/grasp/holds/hold_value.h"
+#include "palmar/grasp/hold_value.h"
 #include "palmar/hand/hand.h"
 #include "palmar/product/product.h"
 
@@ -99,10 +99,5 @@ struct Grasp {
   int candidates = 0;                     ///< placements that the search tried
   std::vector<GraspRunnerUp> runners_up;  ///< best first
 };
-
-/// Power grasp (docs/method/grasp.md; Xie 2014, 5.5.1). Deterministic. Not being able to hold the
-/// product is a status, never an exception. Throws UsageError on bad options, Cancelled.
-Grasp close_power_grasp(const Hand& hand, const Product& product,
-                        const PowerGraspOptions& options = {}, const Progress& progress = {});
 
 }  // namespace palmar

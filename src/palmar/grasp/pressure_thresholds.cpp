@@ -7,20 +7,20 @@ namespace palmar {
 namespace {
 
 /// Where the hand was measured: finger, palm, ball of the thumb.
-enum class Place { kFinger, kPalm, kThenar };
+enum class MeasuredSite { kFinger, kPalm, kThenar };
 
-Place place_of(Region region) {
+MeasuredSite place_of(Region region) {
   switch (region) {
     case Region::kThenar:
-      return Place::kThenar;
+      return MeasuredSite::kThenar;
     case Region::kDorsum:
     case Region::kHypothenar:
     case Region::kCentralPalm:
     case Region::kRadialPalm:
     case Region::kUlnarPalm:
-      return Place::kPalm;
+      return MeasuredSite::kPalm;
     default:
-      return Place::kFinger;
+      return MeasuredSite::kFinger;
   }
 }
 
@@ -41,11 +41,11 @@ std::string_view name_of(PressureFamily family) {
 double pain_onset_film(Region region) {
   if (region == Region::kDorsum) return 2.0;
   switch (place_of(region)) {
-    case Place::kThenar:
+    case MeasuredSite::kThenar:
       return 2.0;
-    case Place::kPalm:
+    case MeasuredSite::kPalm:
       return 2.6;
-    case Place::kFinger:
+    case MeasuredSite::kFinger:
       break;
   }
   return 3.0;
@@ -53,11 +53,11 @@ double pain_onset_film(Region region) {
 
 double pain_onset_probe(Region region) {
   switch (place_of(region)) {
-    case Place::kThenar:
+    case MeasuredSite::kThenar:
       return 0.447;
-    case Place::kPalm:
+    case MeasuredSite::kPalm:
       return 0.494;
-    case Place::kFinger:
+    case MeasuredSite::kFinger:
       break;
   }
   return 0.496;
@@ -65,11 +65,11 @@ double pain_onset_probe(Region region) {
 
 double discomfort_onset_probe(Region region) {
   switch (place_of(region)) {
-    case Place::kThenar:
+    case MeasuredSite::kThenar:
       return 0.100;
-    case Place::kPalm:
+    case MeasuredSite::kPalm:
       return 0.200;
-    case Place::kFinger:
+    case MeasuredSite::kFinger:
       break;
   }
   return 0.188;

@@ -1,8 +1,8 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include <utility>
+#include "palmar/hand/mirror.h"
 
-#include "palmar/hand/template_hand.h"
+#include <utility>
 
 namespace palmar {
 namespace {

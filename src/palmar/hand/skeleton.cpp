@@ -12,14 +12,10 @@
 namespace palmar {
 namespace {
 
-/// One axis of a joint turned to its angle, as a displacement from the reference posture.
-Rigid3 turned(const JointDof& dof, const Posture& posture) {
-  return Rigid3::about_axis(dof.axis, dof.centre, posture[dof.dof] - dof.reference);
-}
-
 Rigid3 turned(const Joint& joint, const Posture& posture) {
   Rigid3 displacement;
-  for (const JointDof& dof : joint.dofs) displacement = turned(dof, posture) * displacement;
+  for (const JointDof& dof : joint.dofs)
+    displacement = axis_displacement(dof, posture) * displacement;
   return displacement;
 }
 
@@ -35,6 +31,10 @@ Vec3 rotation_vector(const Quat& q) {
 }
 
 }  // namespace
+
+Rigid3 axis_displacement(const JointDof& dof, const Posture& posture) {
+  return Rigid3::about_axis(dof.axis, dof.centre, posture[dof.dof] - dof.reference);
+}
 
 const JointDof& Skeleton::dof(Dof d) const {
   for (const Joint& joint : joints) {

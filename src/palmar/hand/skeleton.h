@@ -10,7 +10,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/anatomy.h"
-#include "palmar/hand/posture/posture.h"
+#include "palmar/hand/posture.h"
 
 namespace palmar {
 
@@ -92,6 +92,9 @@ struct CmcShare {
   double s_fe = 0.0, s_aa = 0.0;
 };
 CmcShare cmc_share(const Skeleton& skeleton, const Posture& posture);
+
+/// One axis of a joint turned to its angle, as a displacement from the reference posture.
+Rigid3 axis_displacement(const JointDof& dof, const Posture& posture);
 
 /// Displacement of the thumb metacarpal for shares of the limit postures (eq. 2-5, 2-6, both at
 /// once), hand frame.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kSurfaceSnap = 0.23;  // edges; nearer vertices are put on a surface: our choice
 
-constexpr double kForearm = -12.0;  // mm from the wrist's centre; no tissue beyond: our choice
+constexpr double kTissueEnd = -12.0;  // mm from the wrist's centre; no tissue beyond: our choice
 
 /// All bones as one surface.
 TriangleMesh all_bones(const Hand& hand) {
@@ -143,7 +143,7 @@ TissueMesh make_tissue_mesh(const Hand& hand, const TissueMeshOptions& options) 
   lattice_options.edge = 2.0 * options.finger_edge;
   lattice_options.levels = 2;
   lattice_options.is_wanted = [&](const LatticeCube& cube) {
-    if (cube.centre.y() < kForearm) return false;
+    if (cube.centre.y() < kTissueEnd) return false;
     // The corners of its tetrahedra are within one edge of its middle.
     return skin.at(cube.centre).distance < 1.1 * cube.edge;
   };

@@ -15,10 +15,6 @@
 namespace palmar {
 namespace {
 
-constexpr HandDimension kLength{DimensionKind::kHandLength};
-constexpr HandDimension kCircumference{DimensionKind::kHandCircumference};
-constexpr HandDimension kWidth{DimensionKind::kHandWidth};
-
 // Mean ages aren't among the figures: soldiers about 30, adults of 18-64 years about 40. They only
 // choose the row of the grip strength table.
 constexpr double kSoldiersAge = 30.0, kAdultsAge = 40.0;  // years
@@ -40,10 +36,10 @@ Stratum ansur2_stratum(Sex sex, double share) {
       .sex = sex,
       .share = share,
       .age = kSoldiersAge,
-      .driving = {{kLength, figures.length.mean, figures.length.sd, kAnsurSource},
-                  {kCircumference, figures.circumference.mean, figures.circumference.sd,
+      .driving = {{kHandLengthDimension, figures.length.mean, figures.length.sd, kAnsurSource},
+                  {kCircumferenceDimension, figures.circumference.mean, figures.circumference.sd,
                    kAnsurSource},
-                  {kWidth, figures.breadth.mean, figures.breadth.sd, kAnsurSource}},
+                  {kHandWidthDimension, figures.breadth.mean, figures.breadth.sd, kAnsurSource}},
       .correlation = ansur_correlation(sex),
       .regressions = segment_regressions({sex, figures.length.mean, figures.circumference.mean})};
 }
@@ -66,9 +62,9 @@ Stratum japanese_stratum(Sex sex, double share) {
           .sex = sex,
           .share = share,
           .age = kAdultsAge,
-          .driving = {driving(kLength, means.length, ansur.length),
-                      driving(kCircumference, means.circumference, ansur.circumference),
-                      driving(kWidth, means.breadth, ansur.breadth)},
+          .driving = {driving(kHandLengthDimension, means.length, ansur.length),
+                      driving(kCircumferenceDimension, means.circumference, ansur.circumference),
+                      driving(kHandWidthDimension, means.breadth, ansur.breadth)},
           .correlation = ansur_correlation(sex),
           .regressions = segment_regressions({sex, means.length, means.circumference})};
 }
@@ -82,8 +78,9 @@ Population xie2014() {
                   .sex = std::nullopt,
                   .share = 1.0,
                   .age = std::nullopt,
-                  .driving = {{kLength, 184.0, 10.4, std::string(kSource) + ", Japanese database"},
-                              {kCircumference, 193.0, 14.0,
+                  .driving = {{kHandLengthDimension, 184.0, 10.4,
+                               std::string(kSource) + ", Japanese database"},
+                              {kCircumferenceDimension, 193.0, 14.0,
                                std::string(kSource) + ", Japanese database"}},
                   .correlation = Eigen::Matrix2d{{1.0, 0.36}, {0.36, 1.0}},
                   .regressions = {}}},

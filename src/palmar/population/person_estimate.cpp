@@ -13,8 +13,6 @@
 namespace palmar {
 namespace {
 
-constexpr HandDimension kLength{DimensionKind::kHandLength};
-constexpr HandDimension kPalm{DimensionKind::kSegmentLength, Segment::kPalm};
 constexpr HandDimension kMiddleProximal{DimensionKind::kSegmentLength, Segment::kMiddleProximal};
 constexpr HandDimension kMiddleMiddle{DimensionKind::kSegmentLength, Segment::kMiddleMiddle};
 constexpr HandDimension kMiddleDistal{DimensionKind::kSegmentLength, Segment::kMiddleDistal};
@@ -42,15 +40,15 @@ JointMoments complete(const Stratum& stratum) {
     const Eigen::Index i = place_of(m, one.dimension, stratum.name);
     m.covariance(i, i) += std::pow(kProportionScatter * m.mean[i], 2);
   }
-  if (has(m, kMiddleProximal) || !has(m, kLength) || !has(m, kPalm) || !has(m, kMiddleMiddle) ||
-      !has(m, kMiddleDistal)) {
+  if (has(m, kMiddleProximal) || !has(m, kHandLengthDimension) || !has(m, kPalmLengthDimension) ||
+      !has(m, kMiddleMiddle) || !has(m, kMiddleDistal)) {
     return m;
   }
   const Eigen::Index n = m.mean.size();
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(n + 1, n);
   map.topRows(n).setIdentity();
-  map(n, place_of(m, kLength, "")) = 1.0;
-  for (const HandDimension part : {kPalm, kMiddleMiddle, kMiddleDistal}) {
+  map(n, place_of(m, kHandLengthDimension, "")) = 1.0;
+  for (const HandDimension part : {kPalmLengthDimension, kMiddleMiddle, kMiddleDistal}) {
     map(n, place_of(m, part, "")) = -1.0;
   }
   m.mean = (map * m.mean).eval();

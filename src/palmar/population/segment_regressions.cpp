@@ -10,10 +10,7 @@
 namespace palmar {
 namespace {
 
-constexpr HandDimension kLength{DimensionKind::kHandLength};
-constexpr HandDimension kCircumference{DimensionKind::kHandCircumference};
-constexpr HandDimension kPalm{DimensionKind::kSegmentLength, Segment::kPalm};
-constexpr HandDimension kWidth{DimensionKind::kSegmentWidth, Segment::kMiddleProximal};
+constexpr HandDimension kMiddleWidth{DimensionKind::kSegmentWidth, Segment::kMiddleProximal};
 
 // Proximal phalanx of the thumb, 66 European adults: 31.57 mm, SD 3.13 mm (Buryanov & Kotiuk 2010,
 // Int J Morphol 28:755-758), less a hand length that varies by 5.1 % as in ANSUR II. Greiner's link
@@ -41,10 +38,10 @@ double template_value(HandDimension dimension) {
 DimensionRegression palm(const SegmentDrivers& drivers) {
   const AnsurFigures& ansur = ansur2_figures(drivers.sex);
   const double elasticity = ansur.palm_slope * ansur.length.mean / ansur.palm.mean;
-  const double share = template_value(kPalm) / template_value(kLength);
-  return {.dimension = kPalm,
+  const double share = template_value(kPalmLengthDimension) / template_value(kHandLengthDimension);
+  return {.dimension = kPalmLengthDimension,
           .intercept = share * drivers.mean_length * (1.0 - elasticity),
-          .terms = {{kLength, share * elasticity}},
+          .terms = {{kHandLengthDimension, share * elasticity}},
           .residual_sd = share * drivers.mean_length * ansur.palm_residual / ansur.palm.mean,
           .evidence = Evidence::kRegressed,
           .source = kAnsur};
@@ -54,15 +51,16 @@ DimensionRegression palm(const SegmentDrivers& drivers) {
 // share of the mean; part of it comes through the palm's residual already.
 DimensionRegression finger_segment(Segment segment, const SegmentDrivers& drivers,
                                    const DimensionRegression& palm, double scatter) {
-  const double template_rest = template_value(kLength) - template_value(kPalm);
+  const double template_rest =
+      template_value(kHandLengthDimension) - template_value(kPalmLengthDimension);
   const double share = template_value(length_of(segment)) / template_rest;
   const double rest =
-      drivers.mean_length * template_rest / template_value(kLength);  // mean of L - P
+      drivers.mean_length * template_rest / template_value(kHandLengthDimension);  // mean of L - P
   const double through_palm = palm.residual_sd / rest;
   const double own = std::sqrt(std::max(0.0, scatter * scatter - through_palm * through_palm));
   return {.dimension = length_of(segment),
           .intercept = 0.0,
-          .terms = {{kLength, share}, {kPalm, -share}},
+          .terms = {{kHandLengthDimension, share}, {kPalmLengthDimension, -share}},
           .residual_sd = own * share * rest,
           .evidence = Evidence::kRegressed,
           .source = kGreiner};
@@ -70,10 +68,10 @@ DimensionRegression finger_segment(Segment segment, const SegmentDrivers& driver
 
 DimensionRegression thumb_segment(Segment segment, const SegmentDrivers& drivers, double scatter,
                                   const char* source) {
-  const double share = template_value(length_of(segment)) / template_value(kLength);
+  const double share = template_value(length_of(segment)) / template_value(kHandLengthDimension);
   return {.dimension = length_of(segment),
           .intercept = 0.0,
-          .terms = {{kLength, share}},
+          .terms = {{kHandLengthDimension, share}},
           .residual_sd = scatter * share * drivers.mean_length,
           .evidence = Evidence::kRegressed,
           .source = source};
@@ -83,10 +81,10 @@ DimensionRegression leading_width(const SegmentDrivers& drivers) {
   const GreinerFigures& greiner = greiner_figures(drivers.sex);
   const double scatter = 0.5 * (residual_share(greiner.index_pip_breadth, greiner.circumference) +
                                 residual_share(greiner.middle_pip_breadth, greiner.circumference));
-  const double share = template_value(kWidth) / template_value(kCircumference);
-  return {.dimension = kWidth,
+  const double share = template_value(kMiddleWidth) / template_value(kCircumferenceDimension);
+  return {.dimension = kMiddleWidth,
           .intercept = 0.0,
-          .terms = {{kCircumference, share}},
+          .terms = {{kCircumferenceDimension, share}},
           .residual_sd = scatter * share * drivers.mean_circumference,
           .evidence = Evidence::kRegressed,
           .source = kGreiner};
@@ -141,13 +139,14 @@ std::vector<DimensionRegression> segment_regressions(const SegmentDrivers& drive
        {DimensionKind::kSegmentWidth, DimensionKind::kSegmentThickness}) {
     for (int s = 1; s < kSegmentCount; ++s) {
       const HandDimension dimension{kind, static_cast<Segment>(s)};
-      if (dimension == kWidth) continue;
-      list.push_back({.dimension = dimension,
-                      .intercept = 0.0,
-                      .terms = {{kWidth, template_value(dimension) / template_value(kWidth)}},
-                      .residual_sd = 0.0,
-                      .evidence = Evidence::kScaled,
-                      .source = kShared});
+      if (dimension == kMiddleWidth) continue;
+      list.push_back(
+          {.dimension = dimension,
+           .intercept = 0.0,
+           .terms = {{kMiddleWidth, template_value(dimension) / template_value(kMiddleWidth)}},
+           .residual_sd = 0.0,
+           .evidence = Evidence::kScaled,
+           .source = kShared});
     }
   }
   return list;

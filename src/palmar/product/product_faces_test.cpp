@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/product/check.h"
 #include "palmar/product/gloved.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/check.h"
+#include "palmar/product/intake/make_product.h"
 #include "palmar/product/primitives.h"
 
 namespace palmar {

@@ -17,11 +17,11 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
-#include "palmar/product/check.h"
-#include "palmar/product/contact_body.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/check.h"
+#include "palmar/product/intake/contact_body.h"
+#include "palmar/product/intake/make_product.h"
+#include "palmar/product/intake/unit_guard.h"
 #include "palmar/product/primitives.h"
-#include "palmar/product/unit_guard.h"
 
 namespace palmar {
 namespace {

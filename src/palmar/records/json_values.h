@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "palmar/geometry/types.h"
 
@@ -23,6 +24,11 @@ nlohmann::ordered_json or_null(const std::optional<T>& value) {
 inline nlohmann::ordered_json finite_or_null(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? nlohmann::ordered_json(*value)
                                         : nlohmann::ordered_json(nullptr);
+}
+
+/// As a file has it; bytes that are no UTF-8 don't stop it.
+inline std::string json_file_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace palmar

@@ -18,22 +18,23 @@
 namespace palmar {
 namespace {
 
-enum class Quantity { kDepth, kForce, kArea, kWeight, kForceSd, kSubject };
+enum class CurveQuantity { kDepth, kForce, kArea, kWeight, kForceSd, kSubject };
 
 struct CurveColumn {
   const char* name;
-  Quantity quantity;
+  CurveQuantity quantity;
   double factor;  ///< to ours
 };
-constexpr std::array<CurveColumn, 9> kCurveColumns = {{{"depth_mm", Quantity::kDepth, 1.0},
-                                                       {"force_n", Quantity::kForce, 1.0},
-                                                       {"force_mn", Quantity::kForce, 1e-3},
-                                                       {"area_mm2", Quantity::kArea, 1.0},
-                                                       {"area_cm2", Quantity::kArea, 100.0},
-                                                       {"weight", Quantity::kWeight, 1.0},
-                                                       {"force_sd_n", Quantity::kForceSd, 1.0},
-                                                       {"force_sd_mn", Quantity::kForceSd, 1e-3},
-                                                       {"subject", Quantity::kSubject, 1.0}}};
+constexpr std::array<CurveColumn, 9> kCurveColumns = {
+    {{"depth_mm", CurveQuantity::kDepth, 1.0},
+     {"force_n", CurveQuantity::kForce, 1.0},
+     {"force_mn", CurveQuantity::kForce, 1e-3},
+     {"area_mm2", CurveQuantity::kArea, 1.0},
+     {"area_cm2", CurveQuantity::kArea, 100.0},
+     {"weight", CurveQuantity::kWeight, 1.0},
+     {"force_sd_n", CurveQuantity::kForceSd, 1.0},
+     {"force_sd_mn", CurveQuantity::kForceSd, 1e-3},
+     {"subject", CurveQuantity::kSubject, 1.0}}};
 
 /// Beginnings of columns that need a unit behind them, the longer ones first.
 struct NeedsUnit {
@@ -42,9 +43,9 @@ struct NeedsUnit {
 constexpr std::array<NeedsUnit, 4> kNeedsUnit = {
     {{"force_sd", "n or mn"}, {"depth", "mm"}, {"force", "n or mn"}, {"area", "mm2 or cm2"}}};
 
-class Reader {
+class CurveReader {
  public:
-  explicit Reader(const CsvFile& file) : file_(file) {}
+  explicit CurveReader(const CsvFile& file) : file_(file) {}
 
   MeasuredCurves read() {
     read_header();
@@ -80,11 +81,12 @@ class Reader {
              " say the same; one is needed");
       }
     }
-    if (of_quantity_.count(Quantity::kWeight) + of_quantity_.count(Quantity::kForceSd) > 1) {
+    if (of_quantity_.count(CurveQuantity::kWeight) + of_quantity_.count(CurveQuantity::kForceSd) >
+        1) {
       fail("columns weight and force_sd exclude each other: weight is 1 / sd^2");
     }
-    require(Quantity::kDepth, "depth_mm");
-    require(Quantity::kForce, "force_n (or force_mn)");
+    require(CurveQuantity::kDepth, "depth_mm");
+    require(CurveQuantity::kForce, "force_n (or force_mn)");
   }
 
   /// A known quantity without a unit, or with one that isn't known.
@@ -105,7 +107,7 @@ class Reader {
     }
   }
 
-  void require(Quantity quantity, const std::string& name) const {
+  void require(CurveQuantity quantity, const std::string& name) const {
     if (of_quantity_.count(quantity) > 0) return;
     const std::string nearest = nearest_name(name.substr(0, name.find(' ')), curves_.ignored);
     fail("column " + name + " is missing; the header has " + joined(file_.header, ", ") +
@@ -138,22 +140,22 @@ class Reader {
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       if (column_[i] == nullptr) continue;
       switch (column_[i]->quantity) {
-        case Quantity::kDepth:
+        case CurveQuantity::kDepth:
           point.depth = at_least_zero(row, i);
           break;
-        case Quantity::kForce:
+        case CurveQuantity::kForce:
           point.force = at_least_zero(row, i);
           break;
-        case Quantity::kArea:
+        case CurveQuantity::kArea:
           if (!row.cells[i].empty()) point.area = at_least_zero(row, i);
           break;
-        case Quantity::kWeight:
+        case CurveQuantity::kWeight:
           point.weight = above_zero(row, i);
           break;
-        case Quantity::kForceSd:
+        case CurveQuantity::kForceSd:
           point.weight = std::pow(above_zero(row, i), -2);
           break;
-        case Quantity::kSubject:
+        case CurveQuantity::kSubject:
           point.subject = row.cells[i];
           break;
       }
@@ -167,7 +169,7 @@ class Reader {
 
   const CsvFile& file_;
   std::vector<const CurveColumn*> column_;  ///< per cell; null: ignored
-  std::map<Quantity, std::size_t> of_quantity_;
+  std::map<CurveQuantity, std::size_t> of_quantity_;
   MeasuredCurves curves_;
 };
 
@@ -175,7 +177,7 @@ class Reader {
 
 MeasuredCurves read_measured_curves(const std::string& path) {
   const CsvFile file = read_csv(path);
-  return Reader(file).read();
+  return CurveReader(file).read();
 }
 
 }  // namespace palmar

@@ -20,11 +20,11 @@ std::string with_text(const std::string& csv) {
   return path;
 }
 
-MeasuredCurves read(const std::string& csv) { return read_measured_curves(with_text(csv)); }
+MeasuredCurves read_curves(const std::string& csv) { return read_measured_curves(with_text(csv)); }
 
 std::string curves_message(const std::string& csv) {
   try {
-    read(csv);
+    read_curves(csv);
   } catch (const InputError& e) {
     return e.what();
   }
@@ -32,7 +32,7 @@ std::string curves_message(const std::string& csv) {
 }
 
 TEST(MeasuredCurves, UnitsOfTheHeaderAreConverted) {
-  const MeasuredCurves curves = read(
+  const MeasuredCurves curves = read_curves(
       "# somebody 1999, table 2\n"
       "subject,depth_mm,force_mN,area_cm2,time_s\n"
       "\"Doe, J.\",0,0,,0\n"
@@ -51,14 +51,14 @@ TEST(MeasuredCurves, UnitsOfTheHeaderAreConverted) {
 }
 
 TEST(MeasuredCurves, SemicolonsTabsAndDeviationsAreRead) {
-  EXPECT_DOUBLE_EQ(read("depth_mm;force_n\n1;2\n").points[0].force, 2.0);
-  EXPECT_DOUBLE_EQ(read("\xEF\xBB\xBF"
-                        "depth_mm\tforce_n\n1\t2\n")
+  EXPECT_DOUBLE_EQ(read_curves("depth_mm;force_n\n1;2\n").points[0].force, 2.0);
+  EXPECT_DOUBLE_EQ(read_curves("\xEF\xBB\xBF"
+                               "depth_mm\tforce_n\n1\t2\n")
                        .points[0]
                        .force,
                    2.0);
-  EXPECT_DOUBLE_EQ(read("depth_mm,force_n,force_sd_mn\n1,2,500\n").points[0].weight, 4.0);
-  EXPECT_DOUBLE_EQ(read("depth_mm,force_n,weight\n1,2,3\n").points[0].weight, 3.0);
+  EXPECT_DOUBLE_EQ(read_curves("depth_mm,force_n,force_sd_mn\n1,2,500\n").points[0].weight, 4.0);
+  EXPECT_DOUBLE_EQ(read_curves("depth_mm,force_n,weight\n1,2,3\n").points[0].weight, 3.0);
 }
 
 TEST(MeasuredCurves, BadHeadersSayWhatIsNeeded) {

@@ -19,16 +19,17 @@ struct Column {
   double PressStep::*value;
 };
 
-constexpr Column kColumns[] = {{"depth_mm", &PressStep::depth},
-                               {"force_n", &PressStep::force},
-                               {"contact_area_mm2", &PressStep::area},
-                               {"peak_pressure_mpa", &PressStep::peak_pressure},
-                               {"peak_pressure_cells_mpa", &PressStep::peak_pressure_cells},
-                               {"mean_pressure_mpa", &PressStep::mean_pressure},
-                               {"shear_modulus_mpa", &PressStep::shear_modulus},
-                               {"complementarity_error_n_mm", &PressStep::complementarity_error},
-                               {"relative_residual", &PressStep::relative_residual},
-                               {"spacing_mm", &PressStep::spacing}};
+constexpr Column kStepColumns[] = {
+    {"depth_mm", &PressStep::depth},
+    {"force_n", &PressStep::force},
+    {"contact_area_mm2", &PressStep::area},
+    {"peak_pressure_mpa", &PressStep::peak_pressure},
+    {"peak_pressure_cells_mpa", &PressStep::peak_pressure_cells},
+    {"mean_pressure_mpa", &PressStep::mean_pressure},
+    {"shear_modulus_mpa", &PressStep::shear_modulus},
+    {"complementarity_error_n_mm", &PressStep::complementarity_error},
+    {"relative_residual", &PressStep::relative_residual},
+    {"spacing_mm", &PressStep::spacing}};
 
 Json coating_object(const std::optional<Coating>& coating) {
   if (!coating) return nullptr;
@@ -44,7 +45,7 @@ std::string press_json(const PressOptions& options, const PressSetting& setting,
   Json list = Json::array();
   for (const PressStep& step : steps) {
     Json object = Json::object();
-    for (const Column& column : kColumns) object[column.name] = step.*column.value;
+    for (const Column& column : kStepColumns) object[column.name] = step.*column.value;
     object["vertices"] = step.vertices;
     list.push_back(std::move(object));
   }
@@ -67,10 +68,10 @@ std::string press_json(const PressOptions& options, const PressSetting& setting,
 
 CsvTable press_table(const std::vector<PressStep>& steps) {
   CsvTable table;
-  for (const Column& column : kColumns) table.header.emplace_back(column.name);
+  for (const Column& column : kStepColumns) table.header.emplace_back(column.name);
   for (const PressStep& step : steps) {
     std::vector<std::string>& row = table.rows.emplace_back();
-    for (const Column& column : kColumns) row.push_back(shortest(step.*column.value));
+    for (const Column& column : kStepColumns) row.push_back(shortest(step.*column.value));
   }
   return table;
 }

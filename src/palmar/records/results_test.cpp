@@ -13,7 +13,7 @@
 #include "palmar/formats/bytes.h"
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/formats/test_files.h"
-#include "palmar/records/assessment_json.h"
+#include "palmar/records/assessment/assessment_json.h"
 #include "palmar/records/csv.h"
 #include "palmar/records/hand/hand_json.h"
 #include "palmar/records/press_json.h"

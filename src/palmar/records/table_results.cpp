@@ -21,10 +21,6 @@ std::string key(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + "_" + unit;
 }
 
-std::string dumped(const ordered_json& json) {
-  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
-}
-
 template <typename Result, typename Fill>
 std::string results_json(const TableResults<Result>& results, const Fill& fill) {
   ordered_json json;
@@ -40,7 +36,7 @@ std::string results_json(const TableResults<Result>& results, const Fill& fill) 
     fill(one, group.result);
     json["groups"].push_back(std::move(one));
   }
-  return dumped(json);
+  return json_file_text(json);
 }
 
 ordered_json interval(const std::optional<Interval>& ends) {

@@ -35,13 +35,14 @@ struct LawKey {
   double factor;  ///< file's unit / ours
   double lowest, highest;
 };
-constexpr double kSmallest = 1e-3;  // mm; stands for "more than 0"
+constexpr double kSmallestLength = 1e-3;  // mm; stands for "more than 0"
 constexpr std::array<LawKey, 3> kLawKeys = {
     {{"g0", "_kpa", "kPa", &StiffeningLaw::g0, kKpaPerMpa, kKpaPerMpa* kMinShearModulus,
       kKpaPerMpa* kMaxShearModulus},
      {"g_limit", "_kpa", "kPa", &StiffeningLaw::g_limit, kKpaPerMpa, kKpaPerMpa* kMinShearModulus,
       kKpaPerMpa* kMaxShearModulus},
-     {"limit_depth", "_mm", "mm", &StiffeningLaw::limit_depth, 1.0, kSmallest, kMaxTissueLength}}};
+     {"limit_depth", "_mm", "mm", &StiffeningLaw::limit_depth, 1.0, kSmallestLength,
+      kMaxTissueLength}}};
 
 struct Level {
   const char* suffix;
@@ -64,9 +65,10 @@ struct RegionKey {
 constexpr std::array<RegionKey, 5> kRegionKeys = {
     {{"poisson_layered", "", &RegionTissue::poisson_layered, 0.0, 0.5},
      {"swelling_height_mm", "mm", &RegionTissue::swelling_height, 0.0, kMaxTissueLength},
-     {"swelling_radius_mm", "mm", &RegionTissue::swelling_radius, kSmallest, kMaxTissueLength},
-     {"swelling_width_mm", "mm", &RegionTissue::swelling_width, kSmallest, kMaxTissueLength},
-     {"neighbourhood_mm", "mm", &RegionTissue::neighbourhood, kSmallest, kMaxTissueLength}}};
+     {"swelling_radius_mm", "mm", &RegionTissue::swelling_radius, kSmallestLength,
+      kMaxTissueLength},
+     {"swelling_width_mm", "mm", &RegionTissue::swelling_width, kSmallestLength, kMaxTissueLength},
+     {"neighbourhood_mm", "mm", &RegionTissue::neighbourhood, kSmallestLength, kMaxTissueLength}}};
 
 struct BoneKey {
   const char* name;
@@ -273,14 +275,9 @@ std::string decimal(double value) {
 }
 
 /// TOML's basic strings have JSON's escapes.
-std::string quoted(const std::string& text) {
-  using PlainJson = nlohmann::json;
-  return PlainJson(text).dump(-1, ' ', false, PlainJson::error_handler_t::replace);
-}
-
 std::string region_toml(const std::string& section, const RegionTissue& region) {
   std::string text = "\n[" + section + "]\n";
-  if (!region.source.empty()) text += "source = " + quoted(region.source) + "\n";
+  if (!region.source.empty()) text += "source = " + toml_string(region.source) + "\n";
   for (const RegionKey& item : kRegionKeys) {
     text += std::string(item.name) + " = " + decimal(region.*item.value) + "\n";
   }
@@ -313,7 +310,7 @@ std::string tissue_toml(const Tissue& tissue) {
   std::string text =
       "# Tissue of a hand; see docs/using/tissue.md. Moduli in kPa, lengths in mm.\n";
   text += "version = " + std::to_string(kTissueFileVersion) + "\n";
-  text += "source = " + quoted(tissue.source) + "\n";
+  text += "source = " + toml_string(tissue.source) + "\n";
   std::array<const RegionTissue*, kTissueClassCount> group{};
   for (int r = 0; r < kRegionCount; ++r) {
     const RegionTissue*& first = group[index_of(tissue_class_of(static_cast<Region>(r)))];

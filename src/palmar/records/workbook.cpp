@@ -93,7 +93,7 @@ std::string text_cell(const std::string& place, const std::string& text, int sty
          "\"><is><t xml:space=\"preserve\">" + xml_text(text) + "</t></is></c>";
 }
 
-std::string heading_of(const std::string& column) {
+std::string workbook_heading(const std::string& column) {
   const ColumnWords words = words_of_column(column);
   return words.words + (words.unit.empty() ? "" : " [" + words.unit + "]");
 }
@@ -109,7 +109,7 @@ std::string sheet_xml(const CsvTable& table) {
       "<sheetViews><sheetView workbookViewId=\"0\"><pane ySplit=\"1\" topLeftCell=\"A2\" "
       "activePane=\"bottomLeft\" state=\"frozen\"/></sheetView></sheetViews><cols>";
   for (std::size_t c = 0; c < columns; ++c) {
-    std::size_t widest = std::min<std::size_t>(heading_of(table.header[c]).size(), 18);
+    std::size_t widest = std::min<std::size_t>(workbook_heading(table.header[c]).size(), 18);
     for (const auto& row : table.rows) {
       if (!number_in(row[c])) widest = std::max(widest, std::min<std::size_t>(row[c].size(), 40));
     }
@@ -119,7 +119,7 @@ std::string sheet_xml(const CsvTable& table) {
   }
   xml += "</cols><sheetData><row r=\"1\">";
   for (std::size_t c = 0; c < columns; ++c) {
-    xml += text_cell(letters_of(c) + "1", heading_of(table.header[c]), kHeading);
+    xml += text_cell(letters_of(c) + "1", workbook_heading(table.header[c]), kHeading);
   }
   xml += "</row>";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {

@@ -3,7 +3,7 @@
 #include "palmar/redesign/contact_study.h"
 
 #include "palmar/geometry/mesh/mesh_measures.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 #include "palmar/redesign/imprint.h"
 
 namespace palmar {

@@ -10,7 +10,7 @@
 
 #include "palmar/geometry/remesh/split_edges.h"
 #include "palmar/geometry/smooth_step.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 
 namespace palmar {
 namespace {

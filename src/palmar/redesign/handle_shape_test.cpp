@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 #include "palmar/product/primitives.h"
 
 namespace palmar {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 
 namespace palmar {
 namespace {

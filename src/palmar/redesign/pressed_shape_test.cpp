@@ -20,6 +20,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/repair/self_intersection.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/product/primitives.h"
 #include "palmar/redesign/press_limits.h"
 

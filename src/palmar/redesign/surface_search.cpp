@@ -20,9 +20,9 @@ constexpr double kNoises[] = {0.02, 0.06, 0.15, 0.35, 0.7};  // of the values' v
 constexpr double kAlone = 0.65, kTogether = 0.35;            // shares of the covariance; choices
 constexpr double kLevel = 1.0;    // variance of the constant, by that of the values
 constexpr double kCourage = 1.0;  // deviations by which a place may be better than the surface
-constexpr int kPool = 1200, kNear = 400;  // points that are looked at for the next candidate
-constexpr double kReach = 0.12;           // standard deviation of those near the best, of the range
-constexpr double kCareful = 0.75;         // of the budget; from there on the surface itself decides
+constexpr int kPool = 1200, kNearPoints = 400;  // points that are looked at for the next candidate
+constexpr double kReach = 0.12;    // standard deviation of those near the best, of the range
+constexpr double kCareful = 0.75;  // of the budget; from there on the surface itself decides
 
 double covariance_of(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double length) {
   const auto n = static_cast<double>(a.size());
@@ -151,7 +151,7 @@ struct SurfaceSearch {
     };
     const int from = kPool * static_cast<int>(history.size());
     for (int k = 0; k < kPool; ++k) add(spread_point(from + k, variables()));
-    for (int k = 0; lead && k < kNear; ++k) {
+    for (int k = 0; lead && k < kNearPoints; ++k) {
       // Sums of twelve evenly spread numbers are normally distributed, about.
       Eigen::VectorXd x = place_of(history[static_cast<std::size_t>(*lead)].values);
       const Eigen::VectorXd a = spread_point(from + 3 * k, variables()),

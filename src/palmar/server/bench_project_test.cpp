@@ -8,9 +8,9 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/vtk.h"
-#include "palmar/records/assessment_json.h"
+#include "palmar/records/assessment/assessment_json.h"
 #include "palmar/server/live_worker_fixture.h"
-#include "palmar/workflow/live/assess_bench.h"
+#include "palmar/workflow/assess_bench.h"
 
 namespace palmar {
 namespace {

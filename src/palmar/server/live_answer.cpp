@@ -10,7 +10,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/length_unit.h"
-#include "palmar/records/assessment_json.h"
+#include "palmar/records/assessment/assessment_json.h"
 #include "palmar/records/hold/hold_json.h"
 #include "palmar/records/posture/placement_json.h"
 #include "palmar/records/posture/posture_file.h"

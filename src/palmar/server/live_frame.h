@@ -6,8 +6,8 @@
 #include <string>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/footprint.h"
-#include "palmar/contact/moving_footprint.h"
+#include "palmar/contact/footprint/footprint.h"
+#include "palmar/contact/footprint/moving_footprint.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/hand/hand.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "palmar/contact/moving_footprint.h"
+#include "palmar/contact/footprint/moving_footprint.h"
 #include "palmar/server/live_request.h"
 #include "palmar/server/product_shelf.h"
 

@@ -14,7 +14,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/formats/text_scan.h"
-#include "palmar/product/unit_guard.h"
+#include "palmar/product/intake/unit_guard.h"
 #include "palmar/records/product/made_product.h"
 #include "palmar/server/access.h"
 #include "palmar/server/live_request.h"

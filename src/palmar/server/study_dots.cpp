@@ -9,8 +9,8 @@
 #include "palmar/records/study/study_store.h"
 #include "palmar/report/chart/study_charts.h"
 #include "palmar/report/chart/study_figures.h"
-#include "palmar/report/picture/study_scene.h"
 #include "palmar/report/study/study_report.h"
+#include "palmar/report/study/study_scene.h"
 #include "palmar/study/statistics/study_results.h"
 #include "palmar/study/statistics/study_statistics.h"
 

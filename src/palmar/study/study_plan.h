@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/grasp/grip.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/population/hand_profile.h"
 #include "palmar/population/hand_sample.h"
 #include "palmar/population/population.h"

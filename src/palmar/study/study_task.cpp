@@ -13,20 +13,20 @@
 #include <string>
 #include <utility>
 
-#include "palmar/contact/footprint.h"
+#include "palmar/contact/footprint/footprint.h"
 #include "palmar/contact/hand_family.h"
 #include "palmar/contact/refine/refined_contact.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
-#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/find/grasp_place.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/grip_force.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/product/gloved.h"
 #include "palmar/study/assessment/assessment.h"
-#include "palmar/study/assessment/grasp_demand.h"
+#include "palmar/study/grasp_demand.h"
 
 namespace palmar {
 namespace {

@@ -11,6 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 #include "palmar/core/text.h"
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "palmar/validation/validation_cases.h"

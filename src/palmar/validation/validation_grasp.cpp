@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/grasp/rest/grip_force.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"

@@ -11,7 +11,7 @@
 
 #include "palmar/contact/press/press.h"
 #include "palmar/core/enum_index.h"
-#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "palmar/validation/validation_cases.h"

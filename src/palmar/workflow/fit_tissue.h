@@ -8,7 +8,7 @@
 #include "palmar/contact/press/press.h"
 #include "palmar/contact/tissue/tissue_fit.h"
 #include "palmar/workflow/hand/load_hand.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

@@ -4,7 +4,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/mesh/mesh_file.h"
-#include "palmar/product/unit_guard.h"
+#include "palmar/product/intake/unit_guard.h"
 #include "palmar/records/product/cad_format.h"
 
 namespace palmar {

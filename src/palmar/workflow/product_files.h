@@ -6,11 +6,11 @@
 #include <string>
 
 #include "palmar/core/progress.h"
-#include "palmar/product/check.h"
+#include "palmar/product/intake/check.h"
+#include "palmar/product/intake/repair.h"
 #include "palmar/product/product.h"
-#include "palmar/product/repair.h"
 #include "palmar/records/product/product_file.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

@@ -7,7 +7,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/validation/validation.h"
 #include "palmar/workflow/hand/load_hand.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

@@ -15,7 +15,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 #include "palmar/geometry/degrees.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/mirror.h"
 
 namespace palmar {
 namespace {

@@ -13,7 +13,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
-#include "palmar/hand/hand_points.h"
+#include "palmar/hand/skin/hand_points.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/skin/thumb_ball.h"
 

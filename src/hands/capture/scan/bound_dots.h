@@ -6,7 +6,7 @@
 
 #include "hands/capture/scan/skin_marks.h"
 #include "palmar/geometry/rigid3.h"
-#include "palmar/hand/hand_points.h"
+#include "palmar/hand/skin/hand_points.h"
 
 namespace palmar {
 

@@ -25,9 +25,9 @@
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/cluster_vertices.h"
 #include "palmar/hand/dimensions/dimensions.h"
-#include "palmar/hand/hand_points.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/skin/drawn_creases.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/skin/hand_points.h"
 
 namespace palmar {
 namespace {

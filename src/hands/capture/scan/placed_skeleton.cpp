@@ -18,8 +18,8 @@
 #include "palmar/geometry/rotation.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/instance/segment_scaling.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/skeleton_in_posture.h"
-#include "palmar/hand/template_hand.h"
 
 namespace palmar {
 namespace {

@@ -19,9 +19,9 @@
 #include "palmar/core/progress_part.h"
 #include "palmar/core/text.h"
 #include "palmar/hand/dimensions/dimensions.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/skin/joint_weights.h"
 #include "palmar/hand/skin/regions.h"
-#include "palmar/hand/template_hand.h"
 #include "palmar/hand/tissue.h"
 
 namespace palmar {

@@ -9,7 +9,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/hand/instance/hand_instance.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/mirror.h"
 
 namespace palmar {
 namespace {

@@ -8,7 +8,7 @@
 #include "palmar/core/progress.h"
 #include "hands/phantom/mri/mri_subject.h"
 #include "hands/phantom/mri/scan_grid.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 #include "hands/person_workflow/phantom/phantom_postures.h"
 
 namespace palmar {

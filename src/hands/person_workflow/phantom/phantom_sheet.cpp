@@ -15,7 +15,7 @@
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/formats/mesh/texture_file.h"
 #include "palmar/hand/dimensions/hand_dimension.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/records/hand/hand_file.h"
 #include "palmar/workflow/hand/load_hand.h"
 

@@ -18,7 +18,7 @@
 #include "palmar/formats/file.h"
 #include "hands/images/dicom.h"
 #include "palmar/formats/sha256.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/mirror.h"
 #include "hands/person_records/scan_surfaces_file.h"
 
 namespace palmar {

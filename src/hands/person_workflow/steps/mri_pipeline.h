@@ -14,7 +14,7 @@
 #include "palmar/core/setting_names.h"
 #include "palmar/product/product.h"
 #include "hands/person_workflow/steps/scan_selection.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

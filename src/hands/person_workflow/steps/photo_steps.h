@@ -10,7 +10,7 @@
 #include "palmar/core/setting_names.h"
 #include "hands/person_records/photo_set.h"
 #include "hands/person_workflow/steps/photo_mesh.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

@@ -13,7 +13,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/dimensions/dimensions.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/mirror.h"
 #include "hands/phantom/mri/held_bar.h"
 #include "hands/phantom/mri/subject_tissues.h"
 #include "hands/phantom/person/soft_tissue.h"

@@ -47,11 +47,11 @@
 namespace palmar {
 namespace {
 
-constexpr double kNear = 5.0;         // mm; points of a line farther from the surface aren't on it
-constexpr double kOnEdge = 1e-4;      // mm; nearer than this both faces are equally near
-constexpr double kStep = 3.0;         // mm; between the cutter's places
-constexpr double kClear = 0.5;        // mm; the cutter's end above the surface
-constexpr double kSpineError = 1e-3;  // mm
+constexpr double kNear = 5.0;     // mm; points of a line farther from the surface aren't on it
+constexpr double kOnEdge = 1e-4;  // mm; nearer than this both faces are equally near
+constexpr double kCutterSpacing = 3.0;  // mm; between the cutter's places
+constexpr double kCutterRise = 0.5;     // mm; the cutter's end above the surface
+constexpr double kSpineError = 1e-3;    // mm
 constexpr int kCurvatureTests = 200;
 
 gp_Pnt point_of(const Vec3& at) { return {at.x(), at.y(), at.z()}; }
@@ -108,11 +108,13 @@ Handle(Geom_BSplineCurve) open_near(const std::vector<gp_Pnt>& points, double to
   return near.IsDone() ? near.Curve() : Handle(Geom_BSplineCurve)();
 }
 
-/// Points along a curve, about kStep apart; of a closed one without the last, which is the first.
+/// Points along a curve, about kCutterSpacing apart; of a closed one without the last, which is the
+/// first.
 std::vector<gp_Pnt> points_along(const Handle(Geom_BSplineCurve) & curve, bool is_closed) {
   const GeomAdaptor_Curve adaptor(curve);
   const double length = GCPnts_AbscissaPoint::Length(adaptor);
-  const int count = std::max(is_closed ? 12 : 4, static_cast<int>(std::lround(length / kStep)) + 1);
+  const int count =
+      std::max(is_closed ? 12 : 4, static_cast<int>(std::lround(length / kCutterSpacing)) + 1);
   const GCPnts_UniformAbscissa even(adaptor, count);
   std::vector<gp_Pnt> points;
   for (int i = 1; even.IsDone() && i <= even.NbPoints(); ++i) {
@@ -128,8 +130,8 @@ void run_out(std::vector<gp_Pnt>& centres, const gp_Vec& normal, const GrooveEdi
   const gp_Pnt last = centres.back();
   const gp_Vec way = gp_Vec(centres[centres.size() - 2], last).Normalized();
   const double bend = 2 * groove.radius;
-  const double run = std::sqrt(2 * bend * (groove.depth + kClear));
-  const int steps = std::max(3, static_cast<int>(std::ceil(run / kStep)));
+  const double run = std::sqrt(2 * bend * (groove.depth + kCutterRise));
+  const int steps = std::max(3, static_cast<int>(std::ceil(run / kCutterSpacing)));
   for (int i = 1; i <= steps; ++i) {
     const double s = run * i / steps;
     centres.push_back(last.Translated(way * s + normal * (s * s / (2 * bend))));

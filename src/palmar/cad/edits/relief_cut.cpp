@@ -36,8 +36,8 @@
 namespace palmar {
 namespace {
 
-constexpr double kClear = 3.0;     // mm; the cutter's body reaches that far beyond the material
-constexpr double kThrough = 60.0;  // mm; beyond an end that is gone through
+constexpr double kCutterReach = 3.0;  // mm; the cutter's body reaches that far beyond the material
+constexpr double kThrough = 60.0;     // mm; beyond an end that is gone through
 constexpr double kRoundingShare = 0.01;  // of area and volume; rounding a junction changes less
 constexpr double kLeast = 0.01;          // mm^3; a cut of less takes nothing away
 
@@ -61,10 +61,10 @@ struct ToolFrame {
 /// or with a flat top where they are steep.
 std::vector<gp_Pnt> cutter_roof(const RidgeRelief& relief, const ToolFrame& frame, double s) {
   const double sine = std::sin(relief.half_angle), cosine = std::cos(relief.half_angle);
-  const double far = relief.radius + kClear;
-  const double flat = relief.radius + relief.depth + kClear;
+  const double far = relief.radius + kCutterReach;
+  const double flat = relief.radius + relief.depth + kCutterReach;
   std::vector<gp_Pnt> roof = {frame.at(s, far * sine, far * cosine)};
-  if (far / std::max(cosine, 1e-9) <= flat + 4.0 * kClear) {
+  if (far / std::max(cosine, 1e-9) <= flat + 4.0 * kCutterReach) {
     roof.push_back(frame.at(s, 0.0, far / cosine));
   } else {
     roof.push_back(frame.at(s, far * sine, flat));
@@ -119,8 +119,8 @@ TopoDS_Shape run_out_body(const RidgeRelief& relief, const ToolFrame& frame, dou
 
 /// Height of the cutter's roof above its axis.
 double roof_height(const RidgeRelief& relief) {
-  const double far = (relief.radius + kClear) / std::max(std::cos(relief.half_angle), 1e-9);
-  return std::min(far, relief.radius + relief.depth + 5.0 * kClear);
+  const double far = (relief.radius + kCutterReach) / std::max(std::cos(relief.half_angle), 1e-9);
+  return std::min(far, relief.radius + relief.depth + 5.0 * kCutterReach);
 }
 
 TopTools_ListOfShape cutter_bodies(const RidgeRelief& relief) {

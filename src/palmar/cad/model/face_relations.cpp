@@ -126,12 +126,12 @@ EdgeRelation relation_of(const CadModel::Impl& model, int number,
 }
 
 /// One edge of a face over which it rounds.
-struct Side {
+struct RoundingEdge {
   int edge = 0, neighbour = 0;
   double curvature = 0.0;
 };
 
-bool lies_between_backs(const std::vector<Side>& sides,
+bool lies_between_backs(const std::vector<RoundingEdge>& sides,
                         const std::vector<EdgeRelation>& relations) {
   if (sides.size() != 2) return false;
   const gp_Dir& one = relations[sides[0].edge - 1].normal;
@@ -155,7 +155,7 @@ std::vector<EdgeRelation> edge_relations(const CadModel::Impl& model) {
 
 std::vector<Blend> blends_of(const CadModel::Impl& model,
                              const std::vector<EdgeRelation>& relations) {
-  std::vector<std::vector<Side>> sides(static_cast<std::size_t>(model.faces.Extent()) + 1);
+  std::vector<std::vector<RoundingEdge>> sides(static_cast<std::size_t>(model.faces.Extent()) + 1);
   for (const EdgeRelation& edge : relations) {
     if (!edge.is_smooth || edge.face[0] == 0 || edge.face[1] == 0) continue;
     for (size_t i = 0; i < 2; ++i) {
@@ -167,20 +167,20 @@ std::vector<Blend> blends_of(const CadModel::Impl& model,
   }
   std::vector<Blend> result;
   for (int face = 1; face <= model.faces.Extent(); ++face) {
-    std::vector<Side>& own = sides[face];
+    std::vector<RoundingEdge>& own = sides[face];
     if (own.size() < 2) continue;
     const double sharpest =
-        std::max_element(own.begin(), own.end(), [](const Side& a, const Side& b) {
+        std::max_element(own.begin(), own.end(), [](const RoundingEdge& a, const RoundingEdge& b) {
           return std::abs(a.curvature) < std::abs(b.curvature);
         })->curvature;
-    std::erase_if(own, [&](const Side& side) {
+    std::erase_if(own, [&](const RoundingEdge& side) {
       return std::abs(side.curvature - sharpest) > kSameRadius * std::abs(sharpest);
     });
     Blend blend;
     blend.face = face;
     blend.radius = 1.0 / std::abs(sharpest);
     blend.is_convex = sharpest < 0.0;
-    for (const Side& side : own) {
+    for (const RoundingEdge& side : own) {
       blend.sides.push_back(side.edge);
       blend.support.push_back(side.neighbour);
       const EdgeRelation& edge = relations[side.edge - 1];

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "palmar/contact/bone/contact_test_skin.h"
 #include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/contact/contact.h"
 #include "palmar/contact/contact_test_hand.h"
@@ -12,6 +13,8 @@
 
 namespace palmar {
 namespace {
+
+using contact_test::on_bone_model;
 
 /// A fingertip of sorts: a ball of skin round a ball of bone.
 std::shared_ptr<const Hand> tip(double size) {
@@ -43,12 +46,6 @@ const std::shared_ptr<const SkinCompliance>& compliance_of_tip() {
   return compliance;
 }
 
-ContactModel on_bone() {
-  ContactModel model;
-  model.tissue = TissueModel::kBone;
-  return model;
-}
-
 /// Force on a plate above that is lowered by `depth` from first touch.
 ContactResult pressed(const PreparedHand& hand, double size, double depth,
                       const Rigid3& moved = {}) {
@@ -66,7 +63,7 @@ ContactResult pressed(const PreparedHand& hand, double size, double depth,
 }
 
 TEST(HandOnBone, StiffensFasterThanHertzAndHoldsTheContactEquations) {
-  const PreparedHand hand(usual_tip(), on_bone(), compliance_of_tip());
+  const PreparedHand hand(usual_tip(), on_bone_model(), compliance_of_tip());
   const ContactResult one = pressed(hand, 1.0, 1.0);
   const ContactResult two = pressed(hand, 1.0, 2.0);
   ASSERT_EQ(two.status, ContactStatus::kSolved) << two.message;
@@ -84,7 +81,7 @@ TEST(HandOnBone, StiffensFasterThanHertzAndHoldsTheContactEquations) {
 
 TEST(HandOnBone, TissueThatIsPressedAwayBulgesBesideTheContact) {
   // Tissue hardly changes its volume: what is pressed in comes out elsewhere.
-  const PreparedHand hand(usual_tip(), on_bone(), compliance_of_tip());
+  const PreparedHand hand(usual_tip(), on_bone_model(), compliance_of_tip());
   const ContactResult contact = pressed(hand, 1.0, 1.5);
   double pressed_in = 0.0, bulge = 0.0;  // mm3
   for (const auto& [a, b, c] : usual_tip()->skin.triangles) {
@@ -100,7 +97,7 @@ TEST(HandOnBone, TissueThatIsPressedAwayBulgesBesideTheContact) {
 }
 
 TEST(HandOnBone, RigidMotionOfSkinAndProductChangesNothing) {
-  const PreparedHand hand(usual_tip(), on_bone(), compliance_of_tip());
+  const PreparedHand hand(usual_tip(), on_bone_model(), compliance_of_tip());
   const ContactResult plain = pressed(hand, 1.0, 1.5);
   Rigid3 moved;
   moved.rotation = Quat(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()));
@@ -111,7 +108,7 @@ TEST(HandOnBone, RigidMotionOfSkinAndProductChangesNothing) {
 }
 
 TEST(HandOnBone, HandOfAFamilyScaledAsAWholeIsExact) {
-  const HandFamily family(usual_tip(), on_bone(), compliance_of_tip());
+  const HandFamily family(usual_tip(), on_bone_model(), compliance_of_tip());
   const PreparedHand own(usual_tip(), family);
   const PreparedHand larger(tip(1.2), family);
   const ContactResult small = pressed(own, 1.0, 1.5);
@@ -121,7 +118,7 @@ TEST(HandOnBone, HandOfAFamilyScaledAsAWholeIsExact) {
 }
 
 TEST(HandOnBone, RegionByRegionAndFineSkinsAreRefused) {
-  ContactModel alone = on_bone();
+  ContactModel alone = on_bone_model();
   alone.coupling = RegionCoupling::kIndependent;
   EXPECT_THROW(PreparedHand(tip(1.0), alone), UsageError);
   auto fine = std::make_shared<Hand>(*tip(1.0));
@@ -129,7 +126,7 @@ TEST(HandOnBone, RegionByRegionAndFineSkinsAreRefused) {
   fine->region.assign(fine->skin.vertices.size(), Region::kIndexDistal);
   fine->segment.assign(fine->skin.vertices.size(), Segment::kIndexDistal);
   try {
-    const PreparedHand hand(fine, on_bone());
+    const PreparedHand hand(fine, on_bone_model());
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("up to 12000"));

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/contact/bone/contact_test_layer.h"
 #include "palmar/contact/bone/half_space_tensor.h"
 #include "palmar/contact/bone/loaded_skin.h"
-#include "palmar/contact/contact_test_layer.h"
 #include "palmar/contact/response/response.h"
 #include "palmar/contact/solve/lcp.h"
 

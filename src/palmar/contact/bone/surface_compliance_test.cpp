@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/contact/bone/contact_test_layer.h"
 #include "palmar/contact/bone/mini_element.h"
-#include "palmar/contact/contact_test_layer.h"
 #include "palmar/contact/response/layered_response.h"
 #include "palmar/core/error.h"
 

@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "palmar/contact/contact_normals.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "palmar/contact/contact_test_hand.h"
-#include "palmar/contact/printed/sub_active_region.h"
+#include "palmar/contact/prepared/sub_active_region.h"
 #include "palmar/core/error.h"
 
 namespace palmar {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <string>
 
-#include "palmar/contact/contact_totals.h"
-#include "palmar/contact/printed/sub_active_region.h"
-#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/contact/prepared/contact_solver.h"
+#include "palmar/contact/prepared/contact_totals.h"
+#include "palmar/contact/prepared/sub_active_region.h"
 #include "palmar/contact/solve/lemke.h"
 
 namespace palmar {

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "palmar/contact/bone/contact_test_skin.h"
 #include "palmar/contact/bone/half_space_tensor.h"
 #include "palmar/contact/bone/loaded_skin.h"
-#include "palmar/contact/contact_test_skin.h"
 #include "palmar/contact/refine/skin_division.h"
 
 namespace palmar {

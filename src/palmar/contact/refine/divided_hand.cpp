@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/refine/divided_compliance.h"
 
 namespace palmar {

@@ -9,9 +9,9 @@
 #include <optional>
 #include <utility>
 
+#include "palmar/contact/prepared/resolution.h"
 #include "palmar/contact/refine/divided_hand.h"
 #include "palmar/contact/refine/refined_contact.h"
-#include "palmar/contact/resolution.h"
 #include "palmar/core/enum_index.h"
 
 namespace palmar {

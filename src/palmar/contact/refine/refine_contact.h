@@ -3,7 +3,7 @@
 #pragma once
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/contact/prepared/contact_solver.h"
 
 namespace palmar {
 

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "palmar/contact/bone/contact_test_skin.h"
 #include "palmar/contact/contact_test_hand.h"
-#include "palmar/contact/contact_test_skin.h"
+#include "palmar/contact/prepared/resolution.h"
 #include "palmar/contact/refine/refined_contact.h"
-#include "palmar/contact/resolution.h"
 
 namespace palmar {
 namespace {

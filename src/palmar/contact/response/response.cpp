@@ -10,13 +10,13 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// disc_response() of the unit disc from elliptic integrals.
 double unit_disc_exact(double rho) {
-  if (rho <= 1.0) return std::comp_ellint_2(rho) / (kPi * kPi);
+  if (rho <= 1.0) return std::comp_ellint_2(rho) / (pi * pi);
   const double k = 1.0 / rho;
-  return rho * (std::comp_ellint_2(k) - (1.0 - k * k) * std::comp_ellint_1(k)) / (kPi * kPi);
+  return rho * (std::comp_ellint_2(k) - (1.0 - k * k) * std::comp_ellint_1(k)) / (pi * pi);
 }
 
 /// Beyond this many radii the series in 1/rho is exact to 1e-6.
@@ -35,13 +35,13 @@ const std::array<double, kTableSize>& unit_disc_table() {
 
 }  // namespace
 
-double point_response(double r) { return 1.0 / (4.0 * kPi * std::max(r, kMinDistance)); }
+double point_response(double r) { return 1.0 / (4.0 * pi * std::max(r, kMinDistance)); }
 
 double disc_response(double r, double a) {
   const double rho = r / a;
   if (rho >= kTableEnd) {
     const double k2 = 1.0 / (rho * rho);
-    return (1.0 + k2 * (1.0 / 8.0 + k2 * (3.0 / 64.0))) / (4.0 * kPi * r);
+    return (1.0 + k2 * (1.0 / 8.0 + k2 * (3.0 / 64.0))) / (4.0 * pi * r);
   }
   const auto& table = unit_disc_table();
   const double x = rho * kSamplesPerRadius;
@@ -73,7 +73,7 @@ double swelling_height_at(const RegionTissue& tissue, double force) {
 
 double disc_overlap(double r, double a, double b) {
   const double small = std::min(a, b);
-  if (r <= std::abs(a - b)) return kPi * small * small;
+  if (r <= std::abs(a - b)) return pi * small * small;
   if (r >= a + b) return 0.0;
   const double x = (r * r + a * a - b * b) / (2.0 * r);  // chord's distance from the first centre
   const double y = r - x;

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "palmar/contact/contact_test_hand.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 

@@ -10,6 +10,7 @@
 #include "palmar/contact/response/skin_response.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/parallel.h"
+#include "palmar/core/processor.h"
 
 namespace palmar {
 namespace {
@@ -18,16 +19,6 @@ constexpr int kBlock = 64;  // columns
 
 // The same operations in the same order with and without vector instructions, so the answer doesn't
 // depend on the processor.
-#if defined(__x86_64__) && defined(__GNUC__)
-#define PALMAR_AVX2 __attribute__((target("avx2")))
-bool has_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
-}
-#else
-#define PALMAR_AVX2
-bool has_avx2() { return false; }
-#endif
 
 /// Functions of one number in single precision, by straight lines between equal steps.
 template <int kSize>

@@ -13,14 +13,14 @@
 namespace palmar {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// 4 pi a times directed_disc_response() inside the disc, k = r / a.
 double inside(double k) {
   if (k < 0.02) return 0.25 * k * k;  // the closed form would cancel; next term k^4 / 32
   const double k2 = k * k;
   const double elliptic_k = k < 1.0 ? std::comp_ellint_1(k) : 0.0;  // times 1 - k^2 = 0 at k = 1
-  return 4.0 / (3.0 * kPi * k2) *
+  return 4.0 / (3.0 * pi * k2) *
          ((2.0 - k2) * std::comp_ellint_2(k) - 2.0 * (1.0 - k2) * elliptic_k);
 }
 
@@ -30,7 +30,7 @@ double outside(double q) {
   constexpr int kSteps = 256;  // the integrand is smooth for q < 1
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    const double psi = kPi * ((i + 0.5) / kSteps - 0.5);
+    const double psi = pi * ((i + 0.5) / kSteps - 0.5);
     const double sine = q * std::sin(psi);
     const double cosine = std::cos(psi);
     sum += cosine * cosine * (1.0 - 2.0 * sine * sine) / std::sqrt(1.0 - sine * sine);
@@ -65,8 +65,8 @@ double interpolate(const std::array<double, kSteps + 2>& table, double x) {
 
 double directed_disc_response(double r, double a) {
   static const Tables tables;
-  if (r <= a) return interpolate(tables.in, r / a) / (4.0 * kPi * a);
-  return interpolate(tables.out, a / r) / (4.0 * kPi * r);
+  if (r <= a) return interpolate(tables.in, r / a) / (4.0 * pi * a);
+  return interpolate(tables.out, a / r) / (4.0 * pi * r);
 }
 
 Eigen::Matrix3d tangential_response(const Vec3& between, double a_i, double a_j) {

@@ -8,7 +8,7 @@
 
 #include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/contact/response/sparse_rows.h"
-#include "palmar/contact/self/skin_touch.h"
+#include "palmar/contact/skin_touch.h"
 
 namespace palmar {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "palmar/contact/self/skin_touch.h"
+#include "palmar/contact/skin_touch.h"
 #include "palmar/hand/hand.h"
 
 namespace palmar {

@@ -7,9 +7,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "palmar/contact/bone/contact_test_skin.h"
 #include "palmar/contact/contact.h"
 #include "palmar/contact/contact_test_hand.h"
-#include "palmar/contact/prepared_hand.h"
+#include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/self/meeting_loads.h"
 #include "palmar/contact/self/skin_meetings.h"
@@ -21,14 +22,16 @@
 namespace palmar {
 namespace {
 
-constexpr double kRadius = 9.0;  // mm
+using contact_test::on_bone_model;
+
+constexpr double kLimbRadius = 9.0;  // mm
 
 /// Two fingertips of sorts, mirror images of each other in the plane x = 0: balls of skin round
 /// balls of bone, 60 mm apart. The first half of the vertices is the index finger's.
 std::shared_ptr<const Hand> two_tips() {
   auto hand = std::make_shared<Hand>();
   hand->name = "two tips";
-  const TriangleMesh ball = make_icosphere(kRadius, 4);
+  const TriangleMesh ball = make_icosphere(kLimbRadius, 4);
   const TriangleMesh bone = make_icosphere(4.0, 3);
   const Vec3 side(30.0, 20.0, 0.0);
   const auto add = [&](const TriangleMesh& mesh, bool is_mirrored, TriangleMesh& to) {
@@ -63,21 +66,15 @@ std::shared_ptr<const Hand> two_tips() {
   return hand;
 }
 
-ContactModel on_bone() {
-  ContactModel model;
-  model.tissue = TissueModel::kBone;
-  return model;
-}
-
 const PreparedHand& prepared() {
-  static const PreparedHand hand(two_tips(), on_bone());
+  static const PreparedHand hand(two_tips(), on_bone_model());
   return hand;
 }
 
 /// Both balls moved towards each other until they cross by `overlap` [mm].
 std::vector<Vec3> approached(const Hand& hand, double overlap) {
   std::vector<Vec3> skin = hand.skin.vertices;
-  const double way = 30.0 - kRadius + 0.5 * overlap;
+  const double way = 30.0 - kLimbRadius + 0.5 * overlap;
   for (std::size_t v = 0; v < skin.size(); ++v) {
     skin[v].x() += hand.segment[v] == Segment::kIndexDistal ? way : -way;
   }
@@ -156,7 +153,7 @@ TEST(SkinOnSkin, ThoroughTwoEqualTipsPressAsEachOnAPlateHalfWay) {
     std::vector<Vec3> alone = prepared().hand().skin.vertices;
     for (std::size_t v = 0; v < alone.size(); ++v) {
       const bool is_index = prepared().hand().segment[v] == Segment::kIndexDistal;
-      alone[v].x() += is_index ? 30.0 - kRadius + 0.5 * overlap : 200.0;
+      alone[v].x() += is_index ? 30.0 - kLimbRadius + 0.5 * overlap : 200.0;
     }
     Rigid3 plate;
     plate.rotation = Quat(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitY()));  // x to -z
@@ -250,7 +247,7 @@ TEST(SkinOnSkin, SkinApartChangesNoBit) {
     std::vector<Vec3> skin = approached(prepared().hand(), overlap);
     // Both lie on the plate below them, 1.5 mm deep.
     Rigid3 up;
-    up.translation = Vec3(0.0, 0.0, kRadius - 1.5);
+    up.translation = Vec3(0.0, 0.0, kLimbRadius - 1.5);
     return solve_hand_contact(prepared(), skin, up, contact_test::HalfSpace(0.0), kOnSkin);
   };
   const ContactResult apart = on_plate(-20.0);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/core/processor.h"
+
 namespace palmar {
 namespace {
 
@@ -17,15 +19,8 @@ std::size_t padded(std::size_t n) { return (n + kPad - 1) / kPad * kPad; }
 // hand and for any other. No sum is split, so both give the same bits.
 #if defined(__x86_64__) && defined(__GNUC__)
 #define PALMAR_ALWAYS_INLINE inline __attribute__((always_inline))
-#define PALMAR_AVX2 __attribute__((target("avx2")))
-bool has_avx2() {
-  static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
-}
 #else
 #define PALMAR_ALWAYS_INLINE inline
-#define PALMAR_AVX2
-bool has_avx2() { return false; }
 #endif
 
 /// y += B x for a block of `columns` columns of `rows` (a multiple of eight) entries.

@@ -17,7 +17,7 @@ namespace palmar {
 namespace {
 
 /// Values below this share of the largest one are rounding, not infeasibility.
-constexpr double kRounding = 1e-13;
+constexpr double kRoundingShare = 1e-13;
 
 /// p and s for a guess of which variables are in contact.
 struct Complementary {
@@ -170,11 +170,11 @@ ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& o
     }
     Complementary trial = solve_for_set(problem, contact, options.is_symmetric, factor);
     if (!trial.is_finite) break;
-    const double p_rounding = kRounding * largest_magnitude(trial.force);
+    const double p_rounding = kRoundingShare * largest_magnitude(trial.force);
     infeasible.clear();
     for (int i = 0; i < static_cast<int>(m); ++i) {
       const bool ok =
-          in_contact[i] ? trial.force[i] >= -p_rounding : trial.gap[i] >= -kRounding * d_scale;
+          in_contact[i] ? trial.force[i] >= -p_rounding : trial.gap[i] >= -kRoundingShare * d_scale;
       if (!ok) infeasible.push_back(i);
     }
     if (infeasible.empty()) {

@@ -33,8 +33,8 @@ constexpr double kFacesEnd = -0.7, kPassesEnd = -0.2;
 constexpr double kThin = 4.0, kThick = 6.0;
 
 /// A sampler asks this far, so that skin has some way to go before it must be asked about again.
-constexpr double kWatchRange = 9.0;  // mm
-constexpr double kRounding = 1e-9;   // mm; of a distance and of the way gone
+constexpr double kWatchRange = 9.0;         // mm
+constexpr double kDistanceRounding = 1e-9;  // mm; of a distance and of the way gone
 constexpr double kSurely = 0.7;  // of the distance is left: the nearest surface is about the same
 
 /// The sample of a point that has come through the surface at `here`: straight back to it.
@@ -193,7 +193,7 @@ void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& 
       // Skin that looks at the product can't have passed it.
       const bool looks =
           least > kSurely * sample_[v].distance && normal[v].dot(sample_[v].normal) < 0.0;
-      if (least > wanted + kRounding && (least > kFleshDepth || looks)) continue;
+      if (least > wanted + kDistanceRounding && (least > kFleshDepth || looks)) continue;
     }
     asked_.push_back(v);
     points_.push_back(posed[v]);

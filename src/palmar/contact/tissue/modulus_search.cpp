@@ -9,7 +9,7 @@ namespace palmar {
 namespace {
 
 // Choices: what is learnt from a step, and which steps are taken.
-constexpr double kLongest = 0.7;      // of ln lambda; longer steps say little about the derivatives
+constexpr double kLongestStep = 0.7;  // of ln lambda; longer steps say little about the derivatives
 constexpr double kLeastLearnt = 0.2;  // of the step; less would be a division by next to nothing
 constexpr double kMostGain = 2.0;     // of what is asked for
 
@@ -28,7 +28,7 @@ BlockStiffening ModulusSearch::next(const BlockStiffening& from, const BlockStif
     const double share = -way.dot(learnt);
     if (asked.lpNorm<Eigen::Infinity>() > last_asked_.lpNorm<Eigen::Infinity>()) {
       gain_.setIdentity();
-    } else if (way.lpNorm<Eigen::Infinity>() < kLongest &&
+    } else if (way.lpNorm<Eigen::Infinity>() < kLongestStep &&
                share > kLeastLearnt * way.squaredNorm()) {
       gain_ += (way + learnt) * (way.transpose() * gain_) / share;
     }

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "palmar/contact/response/specimen_response.h"
+#include "palmar/contact/press/specimen_response.h"
 #include "palmar/geometry/least_squares.h"
 #include "palmar/hand/hand.h"
 

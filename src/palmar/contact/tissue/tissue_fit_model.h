@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "palmar/contact/response/specimen_response.h"
+#include "palmar/contact/press/specimen_response.h"
 #include "palmar/contact/tissue/tissue_fit.h"
 #include "palmar/geometry/least_squares.h"
 

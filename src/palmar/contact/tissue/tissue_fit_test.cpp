@@ -18,11 +18,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kRadius = 10.0;  // mm, of the sphere in every test
+constexpr double kIndenterRadius = 10.0;  // mm, of the sphere in every test
 
 /// Hertz: force at a modulus of 1 MPa, and area (VALIDATION.md, closed form 1).
-double hertz_force(double depth) { return 16.0 / 3.0 * std::sqrt(kRadius) * std::pow(depth, 1.5); }
-double hertz_area(double depth) { return std::numbers::pi * kRadius * depth; }
+double hertz_force(double depth) {
+  return 16.0 / 3.0 * std::sqrt(kIndenterRadius) * std::pow(depth, 1.5);
+}
+double hertz_area(double depth) { return std::numbers::pi * kIndenterRadius * depth; }
 
 SpecimenResponse hertz_response(const std::vector<double>& depths) {
   SpecimenResponse response;
@@ -137,7 +139,7 @@ TEST(TissueFit, RecoversHertzTruthThroughTheNumericalTest) {
   // The truth is a closed form, the model presses a lattice.
   const std::vector<double> depths = row(0.5, 0.5, 10);
   PressOptions test;
-  test.indenter = {PressIndenter::Kind::kSphere, kRadius};
+  test.indenter = {PressIndenter::Kind::kSphere, kIndenterRadius};
   test.spacing = 2.5;  // mm
   const SpecimenResponse response = specimen_response(test, depths);
   TissueFitOptions options;
@@ -265,7 +267,7 @@ std::vector<MeasuredPoint> layer_readings(double thickness, double modulus, doub
   std::vector<MeasuredPoint> points;
   for (const LayerRow& one : kLayer) {
     MeasuredPoint point;
-    point.depth = std::pow(one.chi * thickness, 2) / kRadius;
+    point.depth = std::pow(one.chi * thickness, 2) / kIndenterRadius;
     point.force = modulus * hertz_force(point.depth) * one.force * (1.0 + noise * random.next());
     point.area = hertz_area(point.depth) * one.radius * one.radius * (1.0 + noise * random.next());
     points.push_back(point);
@@ -278,7 +280,7 @@ TEST(TissueFit, FindsModulusAndThicknessOfALayerFromForceAndArea) {
   std::vector<double> depths;
   for (const MeasuredPoint& point : points) depths.push_back(point.depth);
   PressOptions test;
-  test.indenter = {PressIndenter::Kind::kSphere, kRadius};
+  test.indenter = {PressIndenter::Kind::kSphere, kIndenterRadius};
   test.spacing = 2.5;  // mm
   const SpecimenResponse response = specimen_response(test, depths, {4.5, 5.2, 6.1, 7.0, 9.0});
   TissueFitOptions options;
@@ -306,7 +308,7 @@ TEST(TissueFit, ALayerThatIsNotThereIsNotIdentifiable) {
   for (Eigen::Index i = 0; i < 8; ++i) {
     for (Eigen::Index j = 0; j < 5; ++j) {
       const double depth = depths[i];
-      const double chi = std::sqrt(kRadius * depth) / response.thickness[j];
+      const double chi = std::sqrt(kIndenterRadius * depth) / response.thickness[j];
       // First terms of the table: 1.129 and 1.041 at chi = 0.1.
       response.force(i, j) = hertz_force(depth) * (1.0 + 1.29 * chi);
       response.area(i, j) = hertz_area(depth) * std::pow(1.0 + 0.41 * chi, 2);

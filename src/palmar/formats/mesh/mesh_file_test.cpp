@@ -22,7 +22,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string read_message(const std::filesystem::path& path) {
+std::string mesh_message(const std::filesystem::path& path) {
   return message_of<InputError>([&] { read_mesh(path); });
 }
 
@@ -63,7 +63,7 @@ TEST(MeshFile, WhatCantBeReadIsNamedWithWhatCan) {
   const TestFolder folder;
   const auto message = [&](const std::string& name, std::string_view bytes) {
     write_file(folder / name, bytes);
-    return read_message(folder / name).substr(folder.path().string().size() + 1);
+    return mesh_message(folder / name).substr(folder.path().string().size() + 1);
   };
   EXPECT_EQ(message("a.step", "ISO-10303-21;\nHEADER;\n"),
             "a.step: STEP holds surfaces, not a mesh; `palmar product convert` makes one of it");
@@ -88,10 +88,10 @@ TEST(MeshFile, WhatCantBeReadIsNamedWithWhatCan) {
 
 TEST(MeshFile, MissingEmptyAndFolderAreNamed) {
   const TestFolder folder;
-  EXPECT_THAT(read_message(folder / "no.stl"), HasSubstr("no such file"));
-  EXPECT_THAT(read_message(folder.path()), HasSubstr("is a directory"));
+  EXPECT_THAT(mesh_message(folder / "no.stl"), HasSubstr("no such file"));
+  EXPECT_THAT(mesh_message(folder.path()), HasSubstr("is a directory"));
   std::ofstream(folder / "empty.obj");
-  EXPECT_THAT(read_message(folder / "empty.obj"), HasSubstr("is empty (0 bytes)"));
+  EXPECT_THAT(mesh_message(folder / "empty.obj"), HasSubstr("is empty (0 bytes)"));
 }
 
 TEST(MeshFile, OneTriangleIsReadable) {

@@ -80,7 +80,7 @@ TrianglePoint closest_on_face(const Vec3& p, const Face& f) {
   return result;
 }
 
-constexpr int kWidth = 8;
+constexpr int kSideBySide = 8;
 // Up to this size the box of a group is fitted to its corners, above to the boxes of its parts.
 constexpr int kFittedSize = 64;
 
@@ -119,11 +119,11 @@ using Point8 = std::array<Float8, 3>;
 /// Boxes, each turned along its own triangles, of eight groups side by side. A group on a smooth
 /// surface gets a flat box, so that few groups near the foot of the point must be opened; upright
 /// boxes would be as thick as the group is wide.
-struct alignas(64) Node {
-  Point8 centre;                  ///< mm
-  std::array<Point8, 3> axis;     ///< axis[i][k]: component k of unit axis i
-  Point8 half;                    ///< half length along axis i, mm
-  std::array<int, kWidth> child;  ///< node if >= 0, else leaf -1 - child
+struct alignas(64) BoxNode {
+  Point8 centre;                       ///< mm
+  std::array<Point8, 3> axis;          ///< axis[i][k]: component k of unit axis i
+  Point8 half;                         ///< half length along axis i, mm
+  std::array<int, kSideBySide> child;  ///< node if >= 0, else leaf -1 - child
 };
 
 /// Squared distances of a point to the nearest and to the farthest point of eight boxes, mm^2.
@@ -132,7 +132,7 @@ struct BoxDistances {
   Float8 farthest = {};
 };
 
-[[gnu::always_inline]] inline BoxDistances box_distances(const Node& node,
+[[gnu::always_inline]] inline BoxDistances box_distances(const BoxNode& node,
                                                          const Eigen::Vector3f& p) {
   const Point8 x = {p.x() - node.centre[0], p.y() - node.centre[1], p.z() - node.centre[2]};
   BoxDistances d;
@@ -148,7 +148,7 @@ struct BoxDistances {
 
 /// Up to eight triangles a, a + u, a + v side by side in float, to find out which of them deserve
 /// the test in double.
-struct alignas(64) Leaf {
+struct alignas(64) TriangleLeaf {
   Point8 a, u, v;                             ///< mm
   Float8 inverse_uu, inverse_vv, inverse_ww;  ///< 1 / squared length of u, v and w = v - u; 0 if 0
   Float8 vv, uv, uu;                          ///< dot products / (uu vv - uv^2)
@@ -159,7 +159,8 @@ struct alignas(64) Leaf {
 };
 
 /// Squared distances of a point to eight triangles, mm^2; 0 for needles.
-[[gnu::always_inline]] inline Float8 triangle_distances(const Leaf& f, const Eigen::Vector3f& q) {
+[[gnu::always_inline]] inline Float8 triangle_distances(const TriangleLeaf& f,
+                                                        const Eigen::Vector3f& q) {
   const Point8 p = {q.x() - f.a[0], q.y() - f.a[1], q.z() - f.a[2]};
   const Point8 w = {f.v[0] - f.u[0], f.v[1] - f.u[1], f.v[2] - f.u[2]};
   const Point8 pu = {p[0] - f.u[0], p[1] - f.u[1], p[2] - f.u[2]};
@@ -269,8 +270,8 @@ struct ClosestPointQuery::Impl {
   std::vector<Face> faces;     ///< in the order of the tree
   std::vector<int> triangle;   ///< of each face
   std::vector<int> face;       ///< of each triangle
-  std::vector<Node> nodes;
-  std::vector<Leaf> leaves;
+  std::vector<BoxNode> nodes;
+  std::vector<TriangleLeaf> leaves;
 
   explicit Impl(const TriangleMesh& mesh);
   void walk(Search& search) const;
@@ -279,16 +280,16 @@ struct ClosestPointQuery::Impl {
   __attribute__((target("avx2"))) void walk_avx2(Search& search) const;
 #endif
   [[gnu::always_inline]] inline void walk_inline(Search& search) const;
-  void fit(Node& node, int k, const Spread& spread, std::span<const Vec3> corners) const;
+  void fit(BoxNode& node, int k, const Spread& spread, std::span<const Vec3> corners) const;
   int add_leaf(int begin, int end);
-  void fit_nodes(const WideTrianglePartition<kWidth>& partition);
+  void fit_nodes(const WideTrianglePartition<kSideBySide>& partition);
   /// Asks the processor to load what the search needs next; most of its time is waiting for memory.
   void prefetch(int child) const {
     const char* start = child >= 0 ? reinterpret_cast<const char*>(&nodes[child])
                                    : reinterpret_cast<const char*>(&leaves[-1 - child]);
     for (int line = 0; line < 4; ++line) __builtin_prefetch(start + 64 * line);
   }
-  std::array<Vec3, 8> box_corners(const Node& node, int k) const;
+  std::array<Vec3, 8> box_corners(const BoxNode& node, int k) const;
 };
 
 ClosestPointQuery::Impl::Impl(const TriangleMesh& mesh) {
@@ -301,7 +302,8 @@ ClosestPointQuery::Impl::Impl(const TriangleMesh& mesh) {
   origin = box.center();
   reach = 0.5 * box.sizes().maxCoeff();
 
-  const WideTrianglePartition<kWidth> partition = partition_triangles<kWidth>(mesh, kWidth);
+  const WideTrianglePartition<kSideBySide> partition =
+      partition_triangles<kSideBySide>(mesh, kSideBySide);
   faces.reserve(mesh.triangles.size());
   face.resize(mesh.triangles.size());
   triangle = partition.order;
@@ -316,7 +318,7 @@ ClosestPointQuery::Impl::Impl(const TriangleMesh& mesh) {
 }
 
 /// Smallest box in the frame of the group, rounded outwards, that holds the corners.
-void ClosestPointQuery::Impl::fit(Node& node, int k, const Spread& spread,
+void ClosestPointQuery::Impl::fit(BoxNode& node, int k, const Spread& spread,
                                   std::span<const Vec3> corners) const {
   const Eigen::Matrix3f frame = frame_of(spread);
   const Eigen::Matrix3d exact = frame.cast<double>();
@@ -332,7 +334,7 @@ void ClosestPointQuery::Impl::fit(Node& node, int k, const Spread& spread,
   }
 }
 
-std::array<Vec3, 8> ClosestPointQuery::Impl::box_corners(const Node& node, int k) const {
+std::array<Vec3, 8> ClosestPointQuery::Impl::box_corners(const BoxNode& node, int k) const {
   std::array<Vec3, 8> corners;
   for (int c = 0; c < 8; ++c) {
     for (int j = 0; j < 3; ++j) {
@@ -348,10 +350,10 @@ std::array<Vec3, 8> ClosestPointQuery::Impl::box_corners(const Node& node, int k
 }
 
 int ClosestPointQuery::Impl::add_leaf(int begin, int end) {
-  Leaf leaf;
+  TriangleLeaf leaf;
   leaf.first = begin;
   leaf.count = end - begin;
-  for (int k = 0; k < kWidth; ++k) {
+  for (int k = 0; k < kSideBySide; ++k) {
     const Face& f = faces[std::min(begin + k, end - 1)];  // the last one fills what is left
     const Vec3 u = f.b - f.a, v = f.c - f.a, w = f.c - f.b;
     const double uu = u.squaredNorm(), vv = v.squaredNorm(), ww = w.squaredNorm(), uv = u.dot(v);
@@ -378,15 +380,15 @@ int ClosestPointQuery::Impl::add_leaf(int begin, int end) {
   return static_cast<int>(leaves.size()) - 1;
 }
 
-void ClosestPointQuery::Impl::fit_nodes(const WideTrianglePartition<kWidth>& partition) {
+void ClosestPointQuery::Impl::fit_nodes(const WideTrianglePartition<kSideBySide>& partition) {
   nodes.resize(partition.nodes.size());
-  std::vector<std::array<Spread, kWidth>> spreads(partition.nodes.size());
+  std::vector<std::array<Spread, kSideBySide>> spreads(partition.nodes.size());
   std::vector<Vec3> corners;
   // Children stand behind their parents: from the back, parts are ready before the whole.
   for (int n = static_cast<int>(nodes.size()) - 1; n >= 0; --n) {
-    const WideTrianglePartition<kWidth>::Node& parts = partition.nodes[n];
-    for (int k = 0; k < kWidth; ++k) {
-      Node& node = nodes[n];
+    const WideTrianglePartition<kSideBySide>::Node& parts = partition.nodes[n];
+    for (int k = 0; k < kSideBySide; ++k) {
+      BoxNode& node = nodes[n];
       if (parts.size(k) == 0) {
         // Farther than any limit from everywhere.
         for (int i = 0; i < 3; ++i) {
@@ -410,7 +412,7 @@ void ClosestPointQuery::Impl::fit_nodes(const WideTrianglePartition<kWidth>& par
           corners.insert(corners.end(), {faces[f].a, faces[f].b, faces[f].c});
         }
       } else {
-        for (int part = 0; part < kWidth; ++part) {
+        for (int part = 0; part < kSideBySide; ++part) {
           const std::array<Vec3, 8> box = box_corners(nodes[child], part);
           corners.insert(corners.end(), box.begin(), box.end());
         }
@@ -433,11 +435,11 @@ void ClosestPointQuery::Impl::walk_inline(Search& search) const {
     int child;
   };
   // Each level leaves at most seven siblings; depth is log8 of an int.
-  std::array<Entry, 7 * 11 + kWidth> stack;
+  std::array<Entry, 7 * 11 + kSideBySide> stack;
   int size = 0;
   stack[size++] = {0.0f, 0};
   // Triangles that may be the nearest; tested in double when no box is left.
-  std::array<Entry, 7 * 11 + kWidth> candidates;
+  std::array<Entry, 7 * 11 + kSideBySide> candidates;
   int candidate_count = 0;
   const auto test_candidates = [&] {
     for (int i = 0; i < candidate_count; ++i) {
@@ -452,23 +454,23 @@ void ClosestPointQuery::Impl::walk_inline(Search& search) const {
     const Entry entry = stack[--size];
     if (entry.squared_distance > search.limit2) continue;
     if (entry.child < 0) {
-      const Leaf& leaf = leaves[-1 - entry.child];
+      const TriangleLeaf& leaf = leaves[-1 - entry.child];
       const Float8 distance2 = triangle_distances(leaf, p);
       if (leaf.is_trusted) search.lower_limit(smallest(distance2));
-      if (candidate_count + kWidth > static_cast<int>(candidates.size())) test_candidates();
-      for (int k = 0; k < kWidth; ++k) {
+      if (candidate_count + kSideBySide > static_cast<int>(candidates.size())) test_candidates();
+      for (int k = 0; k < kSideBySide; ++k) {
         candidates[candidate_count] = {distance2[k], leaf.first + k};
         candidate_count += ((distance2[k] <= search.limit2) & (k < leaf.count)) ? 1 : 0;
       }
       continue;
     }
-    const Node& node = nodes[entry.child];
+    const BoxNode& node = nodes[entry.child];
     const BoxDistances distances = box_distances(node, p);
     search.lower_limit(smallest(distances.farthest));
     // Without branches, as which boxes are near enough can't be predicted. Only the nearest is sure
     // to be the next; it goes on top.
     const int start = size;
-    for (int k = 0; k < kWidth; ++k) {
+    for (int k = 0; k < kSideBySide; ++k) {
       stack[size] = {distances.nearest[k], node.child[k]};
       size += distances.nearest[k] <= search.limit2 ? 1 : 0;
     }

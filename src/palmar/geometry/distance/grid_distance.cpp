@@ -19,7 +19,7 @@ constexpr int kBlock = 8;           // nodes per side of what one query can rule
 
 /// Distance and gradient at a node; out of the band the gradient is zero and of the distance only
 /// the sign counts.
-struct Node {
+struct GridNode {
   float distance = 0.0f;
   Eigen::Vector3f gradient = Eigen::Vector3f::Zero();
   bool is_known() const { return gradient != Eigen::Vector3f::Zero(); }
@@ -49,7 +49,7 @@ struct GridDistance::Impl {
   double spacing = 0.0;
   Vec3 origin = Vec3::Zero();
   Eigen::Vector3i count = Eigen::Vector3i::Zero();
-  std::vector<Node> nodes;
+  std::vector<GridNode> nodes;
 
   int index(int i, int j, int k) const { return (k * count.y() + j) * count.x() + i; }
   Vec3 position(int i, int j, int k) const { return origin + spacing * Vec3(i, j, k); }
@@ -108,7 +108,7 @@ void GridDistance::Impl::fill() {
   std::vector<DistanceSample> samples(points.size());
   source->sample(points, reach, samples);
   for (std::size_t n = 0; n < points.size(); ++n) {
-    Node& node = nodes[targets[n]];
+    GridNode& node = nodes[targets[n]];
     node.distance = static_cast<float>(samples[n].distance);
     if (std::abs(samples[n].distance) < reach) node.gradient = samples[n].normal.cast<float>();
   }
@@ -131,11 +131,11 @@ GridDistance::Impl::Answer GridDistance::Impl::interpolate(const Vec3& point,
   const auto h = static_cast<float>(spacing);
   float distance = 0.0f;
   Eigen::Vector3f gradient = Eigen::Vector3f::Zero();
-  const Node* corner = &nodes[first];
+  const GridNode* corner = &nodes[first];
   const std::array<int, 3> stride = {1, count.x(), count.x() * count.y()};
   for (int c = 0; c < 8; ++c) {
     const int a = c & 1, b = (c >> 1) & 1, d = c >> 2;
-    const Node& node = corner[a * stride[0] + b * stride[1] + d * stride[2]];
+    const GridNode& node = corner[a * stride[0] + b * stride[1] + d * stride[2]];
     if (!node.is_known()) {
       sample.distance = static_cast<double>(node.distance);
       return Answer::kFar;

@@ -33,7 +33,7 @@ struct Moments {
 };
 
 /// Four groups side by side: each is one triangle or another node.
-struct alignas(16) Node {
+struct alignas(16) MomentsNode {
   Float4 x, y, z, radius2;          ///< centre, squared radius; negative if empty
   Float4 nx, ny, nz;                ///< dipole / 4 pi
   Float4 trace;                     ///< of M / 4 pi
@@ -66,12 +66,12 @@ class AngleSum {
   int turns_ = 0;
 };
 
-struct Corners {
+struct CornerPoints {
   Vec3 a, b, c;
 };
 
 /// Adds half the solid angle of the triangle; tan(Omega / 2) = imaginary / real.
-void add_solid_angle(const Corners& t, const Vec3& q, AngleSum& sum) {
+void add_solid_angle(const CornerPoints& t, const Vec3& q, AngleSum& sum) {
   const Vec3 a = t.a - q, b = t.b - q, c = t.c - q;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   const double imaginary = a.dot(b.cross(c));
@@ -80,11 +80,11 @@ void add_solid_angle(const Corners& t, const Vec3& q, AngleSum& sum) {
   if (imaginary != 0.0) sum.add(real, imaginary);
 }
 
-Moments moments_of(std::span<const int> triangles, const std::vector<Corners>& corners) {
+Moments moments_of(std::span<const int> triangles, const std::vector<CornerPoints>& corners) {
   Moments m;
   double area = 0.0;
   for (const int t : triangles) {
-    const Corners& k = corners[t];
+    const CornerPoints& k = corners[t];
     const double a = 0.5 * (k.b - k.a).cross(k.c - k.a).norm();
     m.centre += a * (k.a + k.b + k.c) / 3.0;
     area += a;
@@ -96,7 +96,7 @@ Moments moments_of(std::span<const int> triangles, const std::vector<Corners>& c
   }
   double radius2 = 0.0;
   for (const int t : triangles) {
-    const Corners& k = corners[t];
+    const CornerPoints& k = corners[t];
     const Vec3 an = 0.5 * (k.b - k.a).cross(k.c - k.a);
     m.dipole += an;
     m.quadratic += an * ((k.a + k.b + k.c) / 3.0 - m.centre).transpose();
@@ -112,8 +112,8 @@ Moments moments_of(std::span<const int> triangles, const std::vector<Corners>& c
 
 struct WindingNumber::Impl {
   Vec3 origin = Vec3::Zero();
-  std::vector<Corners> corners;  ///< relative to origin, in tree order
-  std::vector<Node> nodes;
+  std::vector<CornerPoints> corners;  ///< relative to origin, in tree order
+  std::vector<MomentsNode> nodes;
 
   void fill(const TrianglePartition& partition, int node);
   double sum(const Vec3& point, float far_factor) const;
@@ -127,7 +127,7 @@ void WindingNumber::Impl::fill(const TrianglePartition& partition, int node) {
         std::span(partition.order).subspan(parts.begin[k], parts.size(k));
     Moments m;
     if (!triangles.empty()) m = moments_of(triangles, corners);
-    Node& n = nodes[node];
+    MomentsNode& n = nodes[node];
     n.x[k] = static_cast<float>(m.centre.x());
     n.y[k] = static_cast<float>(m.centre.y());
     n.z[k] = static_cast<float>(m.centre.z());
@@ -163,7 +163,7 @@ double WindingNumber::Impl::sum(const Vec3& point, float far_factor) const {
   int size = 0;
   stack[size++] = 0;
   while (size > 0) {
-    const Node& n = nodes[stack[--size]];
+    const MomentsNode& n = nodes[stack[--size]];
     const Float4 x = n.x - qx, y = n.y - qy, z = n.z - qz;
     const Float4 r2 = x * x + y * y + z * z;
     // An empty place counts as far; seen from its own centre 1 / r^3 must stay finite, or 0 times

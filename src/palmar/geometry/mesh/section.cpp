@@ -14,7 +14,7 @@
 namespace palmar {
 namespace {
 
-using Edge = std::array<int, 2>;
+using MeshEdge = std::array<int, 2>;
 
 }  // namespace
 
@@ -33,9 +33,9 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
   // Each crossed triangle is a piece from the edge through which its corners, walked in order,
   // leave the normal's side to the edge through which they come back.
   struct Piece {
-    Edge from, to;
+    MeshEdge from, to;
   };
-  const auto edge = [](int a, int b) { return Edge{std::min(a, b), std::max(a, b)}; };
+  const auto edge = [](int a, int b) { return MeshEdge{std::min(a, b), std::max(a, b)}; };
   std::vector<Piece> piece;
   for (const Triangle& t : mesh.triangles) {
     if (is_above(t[1]) == is_above(t[0]) && is_above(t[2]) == is_above(t[0])) continue;
@@ -51,15 +51,15 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
     piece.push_back(p);
   }
   // Pieces by the edge where they start, and the edges where any ends.
-  std::vector<std::pair<Edge, std::size_t>> starting;
-  std::vector<Edge> ending;
+  std::vector<std::pair<MeshEdge, std::size_t>> starting;
+  std::vector<MeshEdge> ending;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     starting.emplace_back(piece[i].from, i);
     ending.push_back(piece[i].to);
   }
   std::sort(starting.begin(), starting.end());
   std::sort(ending.begin(), ending.end());
-  const auto corner = [&](const Edge& e) -> Vec3 {
+  const auto corner = [&](const MeshEdge& e) -> Vec3 {
     const Vec3& a = mesh.vertices[e[0]];
     const Vec3& b = mesh.vertices[e[1]];
     const double ha = height(e[0]), hb = height(e[1]);
@@ -72,7 +72,7 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
     std::size_t current = first;
     while (true) {
       is_used[current] = true;
-      const Edge& end = piece[current].to;
+      const MeshEdge& end = piece[current].to;
       if (end == piece[first].from) {
         curve.is_closed = true;
         return curve;
@@ -85,7 +85,7 @@ std::vector<SectionCurve> plane_section(const TriangleMesh& mesh, const Vec3& po
       current = next->second;
     }
   };
-  const auto ends = [&](const Edge& e) {
+  const auto ends = [&](const MeshEdge& e) {
     return std::binary_search(ending.begin(), ending.end(), e);
   };
   std::vector<SectionCurve> curves;

@@ -17,7 +17,7 @@ namespace {
 
 // A round shortens the longest edge of a triangle to 0.87 of it at most (the median of an
 // equilateral one), usually to a half: enough from 10 m down to 0.1 mm.
-constexpr int kMaxRounds = 80;
+constexpr int kMostSplits = 80;
 
 using Edge = std::pair<int, int>;
 
@@ -106,7 +106,7 @@ SplitMesh split_with_parents(const TriangleMesh& mesh, double edge_length,
   SplitMesh split{mesh, std::vector<int>(mesh.triangles.size())};
   std::iota(split.parent.begin(), split.parent.end(), 0);
   TriangleMesh& result = split.mesh;
-  for (int round = 0; round < kMaxRounds; ++round) {
+  for (int round = 0; round < kMostSplits; ++round) {
     const std::vector<Edge> marked = long_edges(result, edge_length, where);
     if (marked.empty()) break;
     const int first_middle = result.vertex_count();

@@ -20,7 +20,7 @@ using Corners = std::array<Vec3, 3>;
 
 const Corners kFloor{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
 
-TriangleMesh joined(TriangleMesh a, const TriangleMesh& b, const Vec3& shift) {
+TriangleMesh both_of(TriangleMesh a, const TriangleMesh& b, const Vec3& shift) {
   const int count = a.vertex_count();
   for (const Vec3& v : b.vertices) a.vertices.push_back(v + shift);
   for (const Triangle& t : b.triangles) {
@@ -128,7 +128,7 @@ TEST(CrossingDepth, OfTwoOverlappingSpheresIsTheThicknessOfTheLens) {
     // Off the axes, so that nothing meets edge on edge.
     const Vec3 shift = (20.0 - depth) * Vec3(1.0, 0.013, 0.007).normalized();
     const TriangleMesh ball = make_icosphere(10.0, 4);
-    const TriangleMesh both = joined(ball, ball, shift);
+    const TriangleMesh both = both_of(ball, ball, shift);
     const CrossingDepth result = crossing_depth(both);
     EXPECT_FALSE(result.pairs.empty());
     // Vertices needn't stand at the deepest place; a triangle lies up to 0.03 mm inside its ball.

@@ -14,9 +14,9 @@ namespace palmar {
 namespace {
 
 /// A place in units of half the smallest cube's edge.
-using Place = std::array<int, 3>;
+using LatticePlace = std::array<int, 3>;
 
-std::uint64_t key_of(const Place& p) {
+std::uint64_t key_of(const LatticePlace& p) {
   constexpr int kOffset = 1 << 10;  // places may lie a little below 0
   return (static_cast<std::uint64_t>(p[0] + kOffset) << 42) |
          (static_cast<std::uint64_t>(p[1] + kOffset) << 21) |
@@ -29,7 +29,7 @@ class Octree {
   Octree(const Box3& box, const LatticeOptions& options) : box_(box), options_(options) {
     cubes_.resize(options.levels);
     const int size = size_of(0);
-    Place count{};
+    LatticePlace count{};
     for (int k = 0; k < 3; ++k) {
       count[k] = std::max(1, static_cast<int>(std::ceil(box.sizes()[k] / options.edge - 1e-9)));
     }
@@ -45,16 +45,16 @@ class Octree {
 
   int levels() const { return options_.levels; }
   int size_of(int level) const { return 2 << (options_.levels - 1 - level); }
-  const std::vector<Place>& cubes(int level) const { return cubes_[level].list; }
-  bool is_leaf(int level, const Place& corner) const {
+  const std::vector<LatticePlace>& cubes(int level) const { return cubes_[level].list; }
+  bool is_leaf(int level, const LatticePlace& corner) const {
     if (level < 0 || level >= levels()) return false;
     const auto found = cubes_[level].state.find(key_of(corner));
     return found != cubes_[level].state.end() && found->second;
   }
-  Vec3 point(const Place& p) const {
+  Vec3 point(const LatticePlace& p) const {
     return box_.min() + 0.5 * options_.edge / (1 << (options_.levels - 1)) * Vec3(p[0], p[1], p[2]);
   }
-  LatticeCube cube(int level, const Place& corner) const {
+  LatticeCube cube(int level, const LatticePlace& corner) const {
     const int half = size_of(level) / 2;
     return {point({corner[0] + half, corner[1] + half, corner[2] + half}),
             options_.edge / (1 << level)};
@@ -62,16 +62,16 @@ class Octree {
 
  private:
   struct Level {
-    std::vector<Place> list;                        // in the order they came
+    std::vector<LatticePlace> list;                 // in the order they came
     std::unordered_map<std::uint64_t, char> state;  // 1: leaf, 0: split
   };
 
-  void add(int level, const Place& corner) {
+  void add(int level, const LatticePlace& corner) {
     if (cubes_[level].state.try_emplace(key_of(corner), 1).second) {
       cubes_[level].list.push_back(corner);
     }
   }
-  void split(int level, const Place& corner) {
+  void split(int level, const LatticePlace& corner) {
     cubes_[level].state[key_of(corner)] = 0;
     const int half = size_of(level + 1);
     for (int k = 0; k < 8; ++k) {
@@ -82,7 +82,7 @@ class Octree {
   void split_level(int level) {
     if (!options_.is_split) return;
     for (std::size_t k = 0; k < cubes_[level].list.size(); ++k) {
-      const Place corner = cubes_[level].list[k];
+      const LatticePlace corner = cubes_[level].list[k];
       if (is_leaf(level, corner) && options_.is_split(cube(level, corner))) split(level, corner);
     }
   }
@@ -91,10 +91,10 @@ class Octree {
     const int size = size_of(level);
     const int large = size_of(level - 2);
     for (std::size_t k = 0; k < cubes_[level].list.size(); ++k) {
-      const Place c = cubes_[level].list[k];
+      const LatticePlace c = cubes_[level].list[k];
       for (int n = 0; n < 27; ++n) {
-        Place at{};
-        const Place step{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
+        LatticePlace at{};
+        const LatticePlace step{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
         for (int a = 0; a < 3; ++a) {
           const int middle = c[a] + step[a] * size;
           at[a] = static_cast<int>(std::floor(static_cast<double>(middle) / large)) * large;
@@ -117,7 +117,7 @@ class LatticeBuilder {
   TetrahedralMesh run() {
     for (int level = 0; level < tree_.levels(); ++level) {
       const int size = tree_.size_of(level);
-      for (const Place& c : tree_.cubes(level)) {
+      for (const LatticePlace& c : tree_.cubes(level)) {
         if (!tree_.is_leaf(level, c)) continue;
         for (int k = 0; k < 8; ++k) {
           corners_.insert(
@@ -126,7 +126,7 @@ class LatticeBuilder {
       }
     }
     for (int level = 0; level < tree_.levels(); ++level) {
-      for (const Place& c : tree_.cubes(level)) {
+      for (const LatticePlace& c : tree_.cubes(level)) {
         if (!tree_.is_leaf(level, c) || !is_wanted(level, c)) continue;
         for (int axis = 0; axis < 3; ++axis) {
           add_face(level, c, axis, -1);
@@ -138,18 +138,18 @@ class LatticeBuilder {
   }
 
  private:
-  bool is_wanted(int level, const Place& c) {
+  bool is_wanted(int level, const LatticePlace& c) {
     if (!options_.is_wanted) return true;
     const auto [place, is_new] = wanted_[level].try_emplace(key_of(c), 0);
     if (is_new) place->second = options_.is_wanted(tree_.cube(level, c)) ? 1 : 0;
     return place->second != 0;
   }
-  int vertex(const Place& p) {
+  int vertex(const LatticePlace& p) {
     const auto [place, is_new] = vertex_.try_emplace(key_of(p), mesh_.vertex_count());
     if (is_new) mesh_.vertices.push_back(tree_.point(p));
     return place->second;
   }
-  int centre(int level, const Place& c) {
+  int centre(int level, const LatticePlace& c) {
     const int half = tree_.size_of(level) / 2;
     return vertex({c[0] + half, c[1] + half, c[2] + half});
   }
@@ -169,9 +169,9 @@ class LatticeBuilder {
     add(own, opposite, c, d);
   }
 
-  void add_face(int level, const Place& c, int axis, int side) {
+  void add_face(int level, const LatticePlace& c, int axis, int side) {
     const int size = tree_.size_of(level);
-    Place other = c;
+    LatticePlace other = c;
     other[axis] += side * size;
     int other_level = level;
     if (tree_.is_leaf(level, other)) {
@@ -186,9 +186,9 @@ class LatticeBuilder {
     if (!is_wanted(other_level, other)) return;
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;
-    std::array<Place, 4> corner;
+    std::array<LatticePlace, 4> corner;
     corner.fill(c);
-    for (Place& p : corner) p[axis] += side > 0 ? size : 0;
+    for (LatticePlace& p : corner) p[axis] += side > 0 ? size : 0;
     corner[1][u] += size;
     corner[2][u] += size;
     corner[2][v] += size;
@@ -203,9 +203,9 @@ class LatticeBuilder {
       return;
     }
     for (std::size_t k = 0; k < 4; ++k) {
-      const Place& p = corner[k];
-      const Place& q = corner[(k + 1) % 4];
-      const Place middle{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2};
+      const LatticePlace& p = corner[k];
+      const LatticePlace& q = corner[(k + 1) % 4];
+      const LatticePlace middle{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2};
       if (corners_.contains(key_of(middle))) {
         add_edge(own, opposite, p, middle);
         add_edge(own, opposite, middle, q);

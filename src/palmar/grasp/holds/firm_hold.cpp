@@ -9,7 +9,7 @@
 
 #include "palmar/grasp/holds/hold_limits.h"
 #include "palmar/grasp/joint_strength.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 
 namespace palmar {
 namespace {

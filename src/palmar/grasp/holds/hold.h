@@ -9,7 +9,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/grip.h"
-#include "palmar/grasp/holds/hold_value.h"
+#include "palmar/grasp/hold_value.h"
 #include "palmar/product/parts/product_parts.h"
 #include "palmar/product/product.h"
 

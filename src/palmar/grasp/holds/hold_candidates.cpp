@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "palmar/geometry/degrees.h"
-#include "palmar/grasp/grip_choice.h"
 #include "palmar/grasp/holds/hold_limits.h"
+#include "palmar/grasp/power/grip_choice.h"
 
 namespace palmar {
 namespace {
@@ -24,7 +24,7 @@ constexpr double kIndexBeyond = 0.25;    // one of four fingers lies beyond a sh
 constexpr double kBelowTrigger = 0.25;   // of the fingers' breadth: one finger; choice
 constexpr double kIndexPlaceOf = 0.375;  // of the fingers' breadth: the index finger's middle
 
-struct Place {
+struct CandidatePlace {
   double along = 0.5, edge = 0.0;
 };
 
@@ -46,10 +46,10 @@ double end_of_opening(const ProductPart& part, int toward) {
 }
 
 // Where on a part hands could be, the thumb's side to `toward`.
-std::vector<Place> places_on(const HoldScene& scene, const ProductPart& part, int toward) {
+std::vector<CandidatePlace> places_on(const HoldScene& scene, const ProductPart& part, int toward) {
   const double breadth = fingers_breadth(*scene.hand);
   const double thumb_end = toward > 0 ? 1.0 : 0.0;
-  std::vector<Place> places;
+  std::vector<CandidatePlace> places;
   if (part.is_ring) {
     for (const double along : {0.0, 0.25, 0.5, 0.75}) places.push_back({along, 0.0});
     return places;
@@ -86,9 +86,11 @@ std::vector<Place> places_on(const HoldScene& scene, const ProductPart& part, in
   const double half = 0.5 * breadth / part.length;
   const auto add_middle = [&](double along) {
     const double kept = std::clamp(along, half, 1.0 - half);
-    const bool is_new = std::none_of(places.begin(), places.end(), [&](const Place& other) {
-      return other.edge == 0.0 && std::abs(kept - other.along) * part.length < kSamePlace * breadth;
-    });
+    const bool is_new =
+        std::none_of(places.begin(), places.end(), [&](const CandidatePlace& other) {
+          return other.edge == 0.0 &&
+                 std::abs(kept - other.along) * part.length < kSamePlace * breadth;
+        });
     if (is_new) places.push_back({kept, 0.0});
   };
   add_middle(place_of(part, scene.gravity_centre).along);
@@ -142,9 +144,9 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     hold.part_name = part.name;
     for (const int toward : {1, -1}) {
       hold.toward = toward;
-      std::vector<Place> places = places_on(scene, part, toward);
+      std::vector<CandidatePlace> places = places_on(scene, part, toward);
       if (options.along) places = {{*options.along, 0.0}};
-      for (const Place& place : places) {
+      for (const CandidatePlace& place : places) {
         hold.along = place.along;
         hold.edge = place.edge;
         ++place_number;

@@ -7,7 +7,7 @@
 
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
-#include "palmar/grasp/grasp_verdict.h"
+#include "palmar/grasp/power/grasp_verdict.h"
 #include "palmar/grasp/power/site_distance.h"
 
 namespace palmar {

@@ -6,8 +6,8 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/grasp/holds/hold_site.h"
+#include "palmar/grasp/holds/power_place.h"
 #include "palmar/grasp/power/closing.h"
-#include "palmar/grasp/power/power_place.h"
 
 namespace palmar {
 

@@ -65,7 +65,7 @@ MeanSection mean_section(const ProductPart& part, double middle, double reach) {
   return mean;
 }
 
-constexpr double kOutside = 0.7;  // cosine between the palm and the way out of the other handle
+constexpr double kPalmAway = 0.7;  // cosine between the palm and the way out of the other handle
 
 // Extent of a mesh from a point along a direction, mm.
 double extent_ahead(const TriangleMesh& mesh, const Vec3& point, const Vec3& direction) {
@@ -82,7 +82,7 @@ void take_both(const ProductPart& part, const ProductPart& twin, HoldSite& at) {
   Vec3 apart = site.point - part_frame(twin, along, 0.0).translation;
   apart -= site.axis * site.axis.dot(apart);
   const double away = apart.norm();
-  if (away < 1.0 || apart.dot(at.palm) < kOutside * away) return;
+  if (away < 1.0 || apart.dot(at.palm) < kPalmAway * away) return;
   apart /= away;
   at.palm = apart;
   const auto extent = [&](const ProductPart& bar) {

@@ -18,11 +18,6 @@
 namespace palmar {
 namespace {
 
-// Kong & Lowe 2005 (Int J Industrial Ergonomics 35:495-507): handles of 19.7 % of hand length are
-// the most comfortable. How much worse others are was measured for some diameters only; the
-// log-normal spreads are our choice.
-constexpr double kBestDiameter = 0.197;  // of hand length
-constexpr double kThinSpread = 0.5, kThickSpread = 0.6;
 constexpr double kThinLoopSpread = 0.9;  // fingers through a loop hook it, however thin; choice
 // Feix, Bullock, Dollar 2014 (IEEE Trans Haptics 7:311-323): of 10 000 grasps at work 96 % were at
 // places less than 70 mm wide.

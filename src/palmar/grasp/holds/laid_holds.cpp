@@ -13,9 +13,9 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
-#include "palmar/grasp/grip_choice.h"
 #include "palmar/grasp/holds/hold_candidates.h"
 #include "palmar/grasp/holds/hold_limits.h"
+#include "palmar/grasp/power/grip_choice.h"
 #include "palmar/product/parts/part_spread.h"
 
 namespace palmar {

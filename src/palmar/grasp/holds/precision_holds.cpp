@@ -11,9 +11,9 @@
 #include <optional>
 #include <utility>
 
-#include "palmar/grasp/grip_choice.h"
 #include "palmar/grasp/holds/hold_candidates.h"
 #include "palmar/grasp/holds/hold_limits.h"
+#include "palmar/grasp/power/grip_choice.h"
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/precision/ring_targets.h"
 #include "palmar/product/parts/part_spread.h"

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kRankTolerance = 1e-6;  // of the largest singular value
 constexpr double kJoggle = 1e-7;         // of the body's size; far above rounding of long double
-constexpr double kOutside = 1e-6;        // of the body's size: nearer points are on the facet
+constexpr double kOffFacet = 1e-6;       // of the body's size: nearer points are on the facet
 constexpr double kTie = 1e-5;            // of the body's size: points of one facet
 constexpr std::size_t kMaxPoints = 65000;
 
@@ -463,7 +463,7 @@ class Measuring {
         best = hull_.facet(f).normal;
       }
       result.distance_lower = std::max(0.0, lower - 2.0 * std::sqrt(D) * kJoggle * size_);
-      if (reach <= lower + kOutside * size_) {
+      if (reach <= lower + kOffFacet * size_) {
         result.is_distance_exact = true;
         break;
       }
@@ -494,7 +494,7 @@ class Measuring {
         if (!hull_.facet(asked).is_alive) continue;
         typename GrowingHull<D>::Facet& facet = hull_.facet(asked);
         if (facet.reach < 0.0) support_(facet.normal, facet.reach);
-        if (facet.reach > facet.offset + kOutside * size_) {
+        if (facet.reach > facet.offset + kOffFacet * size_) {
           widest.emplace(facet.reach - facet.offset, asked);
         }
       }
@@ -518,7 +518,7 @@ class Measuring {
       const double volume = hull_.volume_of(facet);
       result.volume += volume;
       double ratio = 1.0;
-      if (facet.reach > facet.offset + kOutside * size_) {
+      if (facet.reach > facet.offset + kOffFacet * size_) {
         const double inner = facet.normal.dot(hull_.centre());
         ratio = std::pow((facet.reach - inner) / (facet.offset - inner), D);
         result.is_volume_exact = false;

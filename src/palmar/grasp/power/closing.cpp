@@ -38,10 +38,6 @@ constexpr double kIdleGap = 1.0;  // mm; a finger farther than that from the pro
 constexpr double kIdleMore = 5.0 * kDegree;  // that it bends beyond its neighbour
 constexpr double kRoomStep = 3.0 * kDegree;  // by which a finger goes out of the way of a product
 constexpr int kRoomRounds = 20;
-constexpr int kLongestAdvance = 60;  // steps
-
-constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
-                                            Finger::kLittle};
 
 }  // namespace
 

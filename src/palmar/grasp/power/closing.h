@@ -9,10 +9,10 @@
 #include "palmar/geometry/distance/distance_field.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/grasp/grasp.h"
+#include "palmar/grasp/power/finger_cones.h"
+#include "palmar/grasp/power/posable_skin.h"
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/grasp/power/thumb_closing.h"
-#include "palmar/grasp/precision/posable_skin.h"
-#include "palmar/grasp/rest/finger_cones.h"
 
 namespace palmar {
 

@@ -14,9 +14,6 @@
 namespace palmar {
 namespace {
 
-constexpr double kBestDiameter = 0.197;  // share of hand length; Kong & Lowe 2005
-constexpr double kThinSpread = 0.5;      // log-normal spread on the thin side
-constexpr double kThickSpread = 0.6;   // ... on the thick side: hands open further than they close
 constexpr double kLargestTaper = 0.6;  // radius per length; a steeper cone slips out
 constexpr double kLargestLean = 0.6;   // sideways step of the centre line per length (31 deg)
 constexpr double kRoundEnough = 0.5;   // thickness / width from which a handle counts as round

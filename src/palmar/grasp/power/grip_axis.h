@@ -9,6 +9,12 @@
 
 namespace palmar {
 
+// Kong & Lowe 2005 (Int J Industrial Ergonomics 35:495-507): handles of 19.7 % of hand length are
+// the most comfortable. How much worse others are was measured for some diameters only; the
+// log-normal spreads are our choice: hands open further than they close.
+inline constexpr double kBestDiameter = 0.197;  // of hand length
+inline constexpr double kThinSpread = 0.5, kThickSpread = 0.6;
+
 /// A place where a power grip could take a product. Product frame, mm.
 struct GripSite {
   Vec3 point = Vec3::Zero();  ///< centre of the section in the middle of the gripped length

@@ -43,14 +43,14 @@ constexpr double kSpan = 0.55;          // hand lengths between its edges that a
 constexpr double kFlatCredit = 2500.0;  // mm^2 for its face in the palm
 constexpr double kThumbRoom = 60.0;     // mm of product beside the grip's middle for the thumb
 constexpr double kEquallyGood = 0.01;   // share of the score within which holds are the same
-constexpr int kTurns = 8;
+constexpr int kTurnsTried = 8;
 // Steps by which a kept pose may be improved for another hand.
 constexpr double kNearProximal = 3.0;  // mm
 constexpr double kNearTilt = 3.0 * kDegree;
-constexpr double kThumbShare = 0.5;   // of what the thumb holds, again, for opposing the fingers
-constexpr double kPromising = 0.6;    // share of the best rank from which a hold is improved
-constexpr std::size_t kImproved = 3;  // holds that are looked at more finely
-constexpr std::size_t kKept = 4;      // holds that are given back
+constexpr double kThumbShare = 0.5;    // of what the thumb holds, again, for opposing the fingers
+constexpr double kPromising = 0.6;     // share of the best rank from which a hold is improved
+constexpr std::size_t kImproved = 3;   // holds that are looked at more finely
+constexpr std::size_t kHoldsKept = 4;  // holds that are given back
 constexpr double kOtherAngle = 30.0 * kDegree;  // beyond which a way of holding is another one
 constexpr double kOtherPlace = 20.0;            // mm; the same
 
@@ -272,10 +272,10 @@ PosesFound find_poses(const HandCloser& closer, const std::vector<const Distance
       const Trial trial = trial_at(s, style);
       Posture start = closer.start_posture(style);
       const std::size_t first = tried.size();
-      for (int k = 0; k < (search.turn ? 1 : kTurns); ++k) {
+      for (int k = 0; k < (search.turn ? 1 : kTurnsTried); ++k) {
         progress.throw_if_cancelled();
         HandlePose pose = trial.usual;
-        pose.turn = search.turn ? *search.turn : 2.0 * std::numbers::pi * k / kTurns;
+        pose.turn = search.turn ? *search.turn : 2.0 * std::numbers::pi * k / kTurnsTried;
         ClosedPose hold = trial.run(s, style, pose, start, k == 0 ? 2 : 1);
         finish(hold);
         if (k == 0) start = start_like(closer, hold);
@@ -368,7 +368,7 @@ PosesFound find_poses(const HandCloser& closer, const std::vector<const Distance
         std::all_of(found.holds.begin(), found.holds.end(), [&](const ClosedPose& other) {
           return differ(hand, hold.placement.product_from_hand, other.placement.product_from_hand);
         });
-    if (is_new && found.holds.size() < kKept) found.holds.push_back(std::move(hold));
+    if (is_new && found.holds.size() < kHoldsKept) found.holds.push_back(std::move(hold));
   }
   return found;
 }

@@ -10,7 +10,6 @@ namespace palmar {
 namespace {
 
 constexpr double kOtherSide = -0.3;  // cosine between normals of the two sides of a wall
-constexpr int kLongestAdvance = 60;  // steps
 
 }  // namespace
 

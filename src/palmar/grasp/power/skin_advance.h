@@ -8,14 +8,19 @@
 #include "palmar/geometry/distance/distance_field.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/grasp/grasp.h"
+#include "palmar/grasp/power/finger_cones.h"
+#include "palmar/grasp/power/posable_skin.h"
 #include "palmar/grasp/power/site_distance.h"
-#include "palmar/grasp/precision/posable_skin.h"
-#include "palmar/grasp/rest/finger_cones.h"
 
 namespace palmar {
 
 constexpr double kSkinRange = kSiteBand;  ///< mm; farther skin needn't know how far
 constexpr double kNeighbourGive = 1.5;    ///< mm; skin of two fingers pressed together
+constexpr int kLongestAdvance = 60;       ///< steps
+
+/// All but the thumb.
+inline constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
+                                                   Finger::kLittle};
 
 /// How deep skin may go into the product, mm.
 struct DepthLimits {

@@ -22,14 +22,14 @@ constexpr std::array<Dof, 4> kThumbDofs = {Dof::kThumbCmcFlexion, Dof::kThumbCmc
 
 // What residuals() weighs; a residual of 1 is 1 mm between the pad and where it is meant to be. The
 // weights are our choice.
-constexpr double kPress = 1.5;        // mm that the pad is meant to be in the surface
-constexpr double kBaseWeight = 0.3;   // of the proximal phalanx against the pad, in square
-constexpr double kFarPad = 3.0;       // mm; of farther skin the square root counts
-constexpr double kOppose = 0.15;      // per mm along the grip axis from the index and middle finger
-constexpr double kFarAlong = 15.0;    // mm; the same
-constexpr double kRound = 2.0;        // of the pad where the surface faces the wrong way: twice
-constexpr double kEnd = 4.0;          // of the pad on an end face, or on the inside of a vessel
-constexpr double kInsideRange = 0.3;  // of the normal towards the axis: the inside of a vessel
+constexpr double kPress = 1.5;       // mm that the pad is meant to be in the surface
+constexpr double kBaseWeight = 0.3;  // of the proximal phalanx against the pad, in square
+constexpr double kFarPad = 3.0;      // mm; of farther skin the square root counts
+constexpr double kOppose = 0.15;     // per mm along the grip axis from the index and middle finger
+constexpr double kFarAlong = 15.0;   // mm; the same
+constexpr double kPadTurnedAway = 2.0;  // of the pad where the surface faces the wrong way: twice
+constexpr double kPadOnEnd = 4.0;       // of the pad on an end face, or on the inside of a vessel
+constexpr double kInsideRange = 0.3;    // of the normal towards the axis: the inside of a vessel
 // Per mm; 6 mm^2 of skin that is as deep beyond what is allowed count like the pad as a whole.
 constexpr double kWallArea = 6.0;    // mm^2
 constexpr double kWallMargin = 0.7;  // mm before a limit depth from which skin counts as too deep
@@ -37,10 +37,10 @@ constexpr double kWallMargin = 0.7;  // mm before a limit depth from which skin 
 constexpr double kEaseMp = 20.0 * kDegree, kEaseIp = 35.0 * kDegree;
 constexpr double kThumbAlike = 15.0 * kDegree;  // that MP and IP differ in bending from there
 constexpr double kStrain = 3.0;
-constexpr double kTouched = 2.0;     // mm; skin of fingers that far off the product counts no more
-constexpr double kHalfPad = 5.0;     // mm
-constexpr double kWorth = 2000.0;    // mm^2 of contact that a thumb without residuals is worth
-constexpr double kHalfWorth = 15.0;  // sum of squares with which it is worth half of that
+constexpr double kCountedReach = 2.0;  // mm; skin of fingers farther off the product counts no more
+constexpr double kHalfPad = 5.0;       // mm
+constexpr double kWorth = 2000.0;      // mm^2 of contact that a thumb without residuals is worth
+constexpr double kHalfWorth = 15.0;    // sum of squares with which it is worth half of that
 
 // The search.
 constexpr std::array<double, 4> kFlexionShares = {0.1, 0.4, 0.7, 1.0};
@@ -51,7 +51,7 @@ constexpr std::array<std::pair<double, double>, 3> kBends = {{{10.0 * kDegree, 2
 constexpr std::size_t kSettled = 3;   // starts of either kind that are followed
 constexpr double kDifference = 0.02;  // rad, of the derivatives
 constexpr int kMostIterations = 60;
-constexpr double kAtLimit = 1.0;  // mm; skin that near to its limit depth is there
+constexpr double kNearLimit = 1.0;  // mm; skin that near to its limit depth is there
 
 /// Surely not inside: outside a ball around the cone.
 bool is_clear_of(const Obstacle& finger, const Vec3& point) {
@@ -166,9 +166,9 @@ Eigen::VectorXd ThumbCloser::residuals(const HeldProduct& product, const DepthLi
   }
   const Eigen::Index rest = 3 * count;
   r[rest] = kOppose * softened(along, kFarAlong);
-  r[rest + 1] = kRound * (1.0 - facing);
-  r[rest + 2] = kEnd * end;
-  r[rest + 3] = kEnd * inside;
+  r[rest + 1] = kPadTurnedAway * (1.0 - facing);
+  r[rest + 2] = kPadOnEnd * end;
+  r[rest + 3] = kPadOnEnd * inside;
   for (std::size_t i = 0; i < kThumbDofs.size(); ++i) {
     const JointDof& dof = hand_->skeleton.dof(kThumbDofs[i]);
     const double ease = i == 2 ? kEaseMp : i == 3 ? kEaseIp : 0.5 * (dof.lower + dof.upper);
@@ -208,7 +208,8 @@ ThumbCloser::Opposed ThumbCloser::opposed(const HeldProduct& product, const Post
     const SkinLook look = look_at_skin(group, product, posture);
     for (std::size_t k = 0; k < look.sample.size(); ++k) {
       if (!is_palmar(group.region[k])) continue;
-      const double share = group.area[k] * smooth_step(1.0 - look.sample[k].distance / kTouched);
+      const double share =
+          group.area[k] * smooth_step(1.0 - look.sample[k].distance / kCountedReach);
       pressed -= share * (result.hand_from_product * look.sample[k].normal);
       touching += share;
     }
@@ -308,7 +309,7 @@ Posture ThumbCloser::closed(const HeldProduct& product, const DepthLimits& limit
   const std::array<Segment, 2> segments = {Segment::kThumbProximal, Segment::kThumbDistal};
   std::array<bool, 2> is_at_limit{};
   for (std::size_t k = 0; k < look.sample.size(); ++k) {
-    if (look.sample[k].distance > kAtLimit - limits.finger) continue;
+    if (look.sample[k].distance > kNearLimit - limits.finger) continue;
     is_at_limit[skin.segment[k] == Segment::kThumbDistal ? 1 : 0] = true;
   }
   for (std::size_t level = 0; level < 2; ++level) {

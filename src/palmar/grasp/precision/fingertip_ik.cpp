@@ -23,8 +23,8 @@ constexpr int kUnknowns = kPlacement + kDofCount - kFirstDof;
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
 using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
-constexpr double kBalanceSpread = 0.3;  // rad; thumb against the others
-constexpr double kEnd = 5.0 * kDegree;  // last part of a range, which hands avoid
+constexpr double kBalanceSpread = 0.3;       // rad; thumb against the others
+constexpr double kRangeEnd = 5.0 * kDegree;  // last part of a range, which hands avoid
 constexpr double kEndSpread = 5.0 * kDegree;
 constexpr double kClashSpread = 0.7;  // mm
 constexpr double kTouchGive = 1.5;    // mm beyond the depth; a pad is no ball
@@ -51,12 +51,6 @@ Finger finger_of_dof(Dof dof) {
                              (static_cast<int>(dof) - static_cast<int>(Dof::kIndexMcpFlexion)) / 4);
 }
 
-double foot(const Vec3& a, const Vec3& b, const Vec3& point) {
-  const Vec3 along = b - a;
-  const double length2 = along.squaredNorm();
-  return length2 > 0.0 ? std::clamp(along.dot(point - a) / length2, 0.0, 1.0) : 0.0;
-}
-
 /// Two cones that come near each other: nearest points of their lines and the overlap.
 struct Crossing {
   Vec3 p = Vec3::Zero(), q = Vec3::Zero();
@@ -66,8 +60,8 @@ struct Crossing {
 Crossing crossing_of(const RoundCone& p, const RoundCone& q) {
   double s = 0.5, t = 0.5;
   for (int round = 0; round < 4; ++round) {
-    t = foot(q.a, q.b, p.a + s * (p.b - p.a));
-    s = foot(p.a, p.b, q.a + t * (q.b - q.a));
+    t = nearest_share(q.a, q.b, p.a + s * (p.b - p.a));
+    s = nearest_share(p.a, p.b, q.a + t * (q.b - q.a));
   }
   Crossing result{p.a + s * (p.b - p.a), q.a + t * (q.b - q.a), 0.0};
   result.overlap = (1.0 - s) * p.radius_a + s * p.radius_b + (1.0 - t) * q.radius_a +
@@ -306,11 +300,11 @@ void FingertipSystem::add_posture(const State& state, const Stage& stage) {
   for (int d = kFirstDof; d < kDofCount; ++d) {
     const auto dof = static_cast<Dof>(d);
     const int c = column_of(dof);
-    if (is_abduction(dof) || upper_[c] - lower_[c] < 4.0 * kEnd) continue;
+    if (is_abduction(dof) || upper_[c] - lower_[c] < 4.0 * kRangeEnd) continue;
     const double q = state.posture[dof];
-    const double beyond = q > upper_[c] - kEnd   ? q - (upper_[c] - kEnd)
-                          : q < lower_[c] + kEnd ? q - (lower_[c] + kEnd)
-                                                 : 0.0;
+    const double beyond = q > upper_[c] - kRangeEnd   ? q - (upper_[c] - kRangeEnd)
+                          : q < lower_[c] + kRangeEnd ? q - (lower_[c] + kRangeEnd)
+                                                      : 0.0;
     if (beyond == 0.0) continue;
     Row row = Row::Zero();
     row[c] = factor / kEndSpread;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "palmar/geometry/distance/distance_field.h"
+#include "palmar/grasp/power/finger_cones.h"
 #include "palmar/grasp/precision/fingertip_point.h"
-#include "palmar/grasp/rest/finger_cones.h"
 
 namespace palmar {
 

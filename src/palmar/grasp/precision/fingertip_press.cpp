@@ -17,8 +17,8 @@ namespace {
 constexpr double kPulpReach = 11.0;  // mm round a fingertip point that can touch
 constexpr double kRange = 10.0;      // mm; farther skin needn't know how far
 constexpr int kRounds = 8;
-constexpr double kTolerance = 0.05;  // mm
-constexpr double kMissed = 0.3;      // mm; a goal missed by more isn't pressed on
+constexpr double kDepthTolerance = 0.05;  // mm
+constexpr double kMissed = 0.3;           // mm; a goal missed by more isn't pressed on
 constexpr int kIterations = 30;
 constexpr double kFarSide = 0.5;  // cosine of skin's and product's normal; such skin came through
 
@@ -112,7 +112,7 @@ FingertipSolution FingertipPress::press(FingertipProblem& problem, double depth)
       worst = std::max(worst, std::abs(lack));
       problem.goals[k].depth = std::clamp(problem.goals[k].depth + lack, -8.0, 2.0 * depth + 4.0);
     }
-    if (worst < kTolerance) break;
+    if (worst < kDepthTolerance) break;
   }
   return best;
 }

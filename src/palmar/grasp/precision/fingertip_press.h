@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "palmar/grasp/power/posable_skin.h"
 #include "palmar/grasp/precision/fingertip_ik.h"
-#include "palmar/grasp/precision/posable_skin.h"
 
 namespace palmar {
 

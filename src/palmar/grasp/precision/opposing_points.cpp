@@ -19,7 +19,6 @@ namespace {
 constexpr int kPoints = 300;
 constexpr double kCone = 35.0 * kDegree;  // normals against the line through both points
 constexpr double kEdge = 25.0 * kDegree;  // mean normal against the triangle's
-constexpr double kPadOffset = 3.0;        // mm off the surface, where its distance is smooth
 constexpr double kFingerRoom = 7.0;       // mm off the surface that has to be free for a finger
 constexpr double kThinnest = 0.2;         // mm
 constexpr double kAway = 50.0;            // mm; unit of the cost of being off centre

@@ -10,6 +10,8 @@
 
 namespace palmar {
 
+inline constexpr double kPadOffset = 3.0;  // mm off the surface, where its distance is smooth
+
 /// Two points of a product that fingers could press from opposite sides. Product frame, mm.
 struct OpposingPair {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();

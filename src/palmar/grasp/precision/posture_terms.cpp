@@ -17,9 +17,6 @@ constexpr double kMcpSpread = 0.35;       // rad, between neighbours
 constexpr double kPipSpread = 0.5;        // rad, between neighbours
 constexpr double kCoupling = 2.0 / 3.0;   // DIP per PIP
 
-constexpr std::array<Finger, 4> kFingers = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
-                                            Finger::kLittle};
-
 double spread_of(Dof dof) {
   if (is_abduction(dof)) return kAbductionSpread;
   return dof <= Dof::kThumbIpFlexion ? kThumbSpread : kFlexionSpread;

@@ -13,6 +13,7 @@
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/grasp/precision/cost_order.h"
 #include "palmar/grasp/precision/fingertip_press.h"
+#include "palmar/grasp/precision/opposing_points.h"
 #include "palmar/grasp/precision/precision_search.h"
 #include "palmar/grasp/precision/ring_targets.h"
 
@@ -21,7 +22,6 @@ namespace {
 
 constexpr double kReached = 1.0;         // mm; what counts as reached
 constexpr double kOffSurface = 2.0;      // mm; targets may be that far from the surface
-constexpr double kPadOffset = 3.0;       // mm off the surface, where its distance is smooth
 constexpr double kLeans = 3.0;           // mm; a pen nearer than that leans on the web
 constexpr std::size_t kPressed = 5;      // holds that are pressed and looked at by all their skin
 constexpr double kSkinUnit = 2.0;        // mm; cost of skin deeper than the fingertips

@@ -14,10 +14,10 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/grasp/power/posable_skin.h"
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/grasp/precision/fingertip_ik.h"
 #include "palmar/grasp/precision/opposing_points.h"
-#include "palmar/grasp/precision/posable_skin.h"
 
 namespace palmar {
 namespace {

@@ -19,7 +19,7 @@ constexpr double kRingsApart = 1.6;                    // mean sizes between two
 constexpr double kRingFinger = 0.085;    // hand lengths: thickness at the DIP (Greiner 1991)
 constexpr double kFingerSpacing = 0.24;  // hand breadths from finger to finger; choice
 constexpr double kLongestRay = 70.0;     // mm
-constexpr double kOutside = 45.0;        // mm beside the rings, from where the shank is looked for
+constexpr double kBesideRings = 45.0;    // mm beside the rings, from where the shank is looked for
 constexpr double kFacing = 0.5;          // cosine; a pad lies on what faces it within 60 degrees
 
 // First place of the surface along a ray from the air, by steps of the distance to it.
@@ -101,7 +101,7 @@ std::vector<FingertipTarget> ring_targets(const Hand& hand, const Product& produ
   const auto at_middle = first_wall(surface, rings.fingers.centre + first * rings.toward, apart);
   if (!at_middle) return {};
   const Vec3 before = at_middle->closest + spacing * rings.toward;
-  const auto at_index = first_wall(surface, before - kOutside * apart, apart);
+  const auto at_index = first_wall(surface, before - kBesideRings * apart, apart);
   if (at_index && at_index->normal.dot(-apart) > kFacing) {
     targets.push_back({Finger::kIndex, at_index->closest});
   }

@@ -11,7 +11,7 @@
 #include "palmar/contact/friction/friction.h"
 #include "palmar/core/progress.h"
 #include "palmar/grasp/grasp.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 #include "palmar/product/product.h"
 

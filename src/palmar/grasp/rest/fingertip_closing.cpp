@@ -14,7 +14,7 @@ namespace palmar {
 namespace {
 
 constexpr double kDamping = 2.0;         // mm
-constexpr double kCoupling = 10.0;       // mm
+constexpr double kDepthCoupling = 10.0;  // mm
 constexpr double kDipOfPip = 2.0 / 3.0;  // Rijkpema & Girard 1991
 constexpr double kAtEndOfRange = 1e-6;   // rad
 constexpr double kLeastNormal = 0.5;     // of a unit vector; a fingertip without one has no way
@@ -54,8 +54,8 @@ Posture FingertipClosing::rate(const Posture& posture, const Rigid3& product_fro
         if (finger == Finger::kThumb || moving[i].dof != flexion_of(finger, 1)) continue;
         if (moving[i + 1].dof != flexion_of(finger, 2)) continue;
         Eigen::VectorXd row = Eigen::VectorXd::Zero(m);
-        row[i] = -kDipOfPip * kCoupling;
-        row[i + 1] = kCoupling;
+        row[i] = -kDipOfPip * kDepthCoupling;
+        row[i + 1] = kDepthCoupling;
         system += row * row.transpose();
       }
       const Eigen::VectorXd q = system.ldlt().solve(Eigen::VectorXd(-jacobian.transpose() * n));

@@ -12,7 +12,6 @@ namespace palmar {
 namespace {
 
 constexpr double kByWrist = 1.02;  // of the share of fingers alone; more is the wrist's
-constexpr double kNoWay = 1e-6;    // rad
 /// Force that a muscle gains per stretch over its fibres' length, over its force: short-range
 /// stiffness (Cui, Perreault, Maas & Sandercock 2008, J Biomech 41:1945-1952).
 constexpr double kShortRange = 23.4;

@@ -12,13 +12,13 @@ namespace palmar {
 namespace {
 
 constexpr int kLanes = 4;  // directions that are tried side by side
-constexpr int kRings = 5, kTurns = 12, kStarts = kRings * kTurns + 1;
+constexpr int kRings = 5, kRingDirections = 12, kFirstDirections = kRings * kRingDirections + 1;
 constexpr int kMostSteps = 100;
 
 /// Start k: a half sphere of directions in rings, the pole last.
 Vec3 start_direction(int k) {
-  const double rise = std::acos(-1.0) / 2.0 * (k / kTurns) / kRings;
-  const double angle = 2.0 * std::acos(-1.0) * (k % kTurns) / kTurns;
+  const double rise = std::acos(-1.0) / 2.0 * (k / kRingDirections) / kRings;
+  const double angle = 2.0 * std::acos(-1.0) * (k % kRingDirections) / kRingDirections;
   return {std::cos(rise) * std::cos(angle), std::cos(rise) * std::sin(angle), std::sin(rise)};
 }
 
@@ -72,15 +72,15 @@ Squeeze grip_force(const std::vector<Vec3>& forces) {
     Vec3 across;
     int steps = 0;
   };
-  std::array<Climb, kStarts> climb;
-  for (int k = 0; k < kStarts; ++k) {
+  std::array<Climb, kFirstDirections> climb;
+  for (int k = 0; k < kFirstDirections; ++k) {
     climb[k].across = start_direction(k);
   }
   std::array<int, kLanes> at;  // start that a lane climbs from; -1: idle
   Lanes across = {}, sum;
   int next = 0, busy = 0;
   const auto take = [&](int lane) {
-    const bool is_left = next < kStarts;
+    const bool is_left = next < kFirstDirections;
     at[lane] = is_left ? next : -1;
     if (!is_left) return;
     for (int c = 0; c < 3; ++c) across[c][lane] = climb[next].across[c];

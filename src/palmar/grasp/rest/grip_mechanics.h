@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/contact/prepared/contact_solver.h"
 #include "palmar/grasp/rest/grip_force.h"
-#include "palmar/hand/posture/posture.h"
+#include "palmar/hand/posture.h"
 #include "palmar/hand/tendons/digit_pose.h"
 #include "palmar/product/product.h"
 
@@ -24,6 +24,7 @@ inline constexpr int kGripCoordinates = kGripJoints + 6;
 using GripVector = Eigen::Matrix<double, kGripCoordinates, 1>;
 using GripMatrix = Eigen::Matrix<double, kGripCoordinates, kGripCoordinates>;
 
+inline constexpr double kNoWay = 1e-6;           ///< rad; less is none
 inline constexpr double kForcesAccuracy = 5e-4;  ///< relative; of what is reported. Our choice
 
 struct GripState {

@@ -12,7 +12,6 @@ constexpr double kPlacePrice = 0.001;  // of the product's way
 // A wrist that can't hold fells the grip: it goes before everything.
 constexpr double kWristPrice = 100.0;
 constexpr double kMostGivingWay = 0.05;  // rad in one step
-constexpr double kNoWay = 1e-6;          // rad
 constexpr int kHalvings = 3;
 constexpr int kSweeps = 20;              // over at most nine angles; more changed no step count
 constexpr double kWayBeyondReach = 1.1;  // of what all muscles together could add, to ask for all

@@ -6,7 +6,7 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/core/progress.h"
-#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/grasp/rest/balance.h"
 #include "palmar/product/product.h"
 

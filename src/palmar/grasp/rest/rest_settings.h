@@ -6,7 +6,7 @@
 
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/balance.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 
 namespace palmar {
 

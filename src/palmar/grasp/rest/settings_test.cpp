@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/product/primitives.h"

@@ -21,7 +21,7 @@ constexpr double kBalanced = 0.01;  // residual over grip force; what counts as 
 constexpr double kJointAim = kNegligibleMoment;  // residual moment over the strongest muscle moment
 constexpr double kJointSaid = 0.05;              // the same; more is reported
 constexpr double kLevelAim = 0.005;              // of the grip force asked for
-constexpr int kMostSteps = 120;
+constexpr int kMostSettlingSteps = 120;
 constexpr int kUsualSteps = 60;   // not there by then, the search goes on only while it gets nearer
 constexpr int kVainSteps = 25;    // without getting nearer: it goes round in circles
 constexpr int kLastSteps = 5;     // the same, where the nearest state so far counts as balanced
@@ -228,10 +228,10 @@ Balance Settling::run(const Progress& progress) {
       break;
     }
     if (now.sum() < best.misfit.sum()) best = {state_, now, effort_.activations(), moved_, i};
-    progress.update(std::min(1.0, static_cast<double>(i) / kMostSteps),
+    progress.update(std::min(1.0, static_cast<double>(i) / kMostSettlingSteps),
                     "letting the grasp come to rest");
     accuracy = std::clamp(kForcesShare * now.sum(), kForcesAccuracy, kRoughForces);
-    gives_up = i >= kMostSteps || (i >= kUsualSteps && i - best.step >= kVainSteps) ||
+    gives_up = i >= kMostSettlingSteps || (i >= kUsualSteps && i - best.step >= kVainSteps) ||
                (best.misfit.is_near() && i - best.step >= kLastSteps);
     if (!gives_up) {
       const double missing = (target_ / grip - 1.0) * mechanics_.grip().sum_of_normals;

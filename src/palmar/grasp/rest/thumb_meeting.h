@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "palmar/grasp/rest/finger_cones.h"
+#include "palmar/grasp/power/finger_cones.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
 
 namespace palmar {

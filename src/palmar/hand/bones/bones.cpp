@@ -21,7 +21,7 @@ namespace {
 constexpr double kJointGap = 1.2;            // mm, between the ends of two bones of a ray
 constexpr double kTypicalWristToMcp = 92.5;  // mm; see bones.h
 // Buryanov & Kotiuk 2010, Table I (66 adults), I to V: metacarpals, soft tissue beyond the tip, mm.
-constexpr std::array<double, kFingerCount> kMetacarpal{46.22, 68.12, 64.60, 58.00, 53.69};
+constexpr std::array<double, kFingerCount> kMetacarpalLength{46.22, 68.12, 64.60, 58.00, 53.69};
 constexpr std::array<double, kFingerCount> kTipTissue{5.67, 3.84, 3.95, 3.95, 3.73};
 
 // A bone being placed: its mesh and, per vertex, the point of its axis it is shrunk towards.
@@ -169,7 +169,7 @@ Vec3 BoneMaker::metacarpal_base(Finger finger, double head_radius) const {
   // dorsal, each at its measured distance from its head.
   const Vec3& wrist = skeleton_.joint(JointId::kWrist).centre;
   const Vec3 head = mcp(finger);
-  const double length = kMetacarpal[index_of(finger)] * scale_ - head_radius;
+  const double length = kMetacarpalLength[index_of(finger)] * scale_ - head_radius;
   Vec3 base(wrist.x() + 0.6 * (head.x() - wrist.x()), 0.0,
             wrist.z() + 0.5 * (head.z() - wrist.z()));
   const double aside = (head - base).x(), deep = (head - base).z();

@@ -30,6 +30,11 @@ struct HandDimension {
   auto operator<=>(const HandDimension&) const = default;
 };
 
+inline constexpr HandDimension kHandLengthDimension{DimensionKind::kHandLength};
+inline constexpr HandDimension kCircumferenceDimension{DimensionKind::kHandCircumference};
+inline constexpr HandDimension kHandWidthDimension{DimensionKind::kHandWidth};
+inline constexpr HandDimension kPalmLengthDimension{DimensionKind::kSegmentLength, Segment::kPalm};
+
 /// All 47, in the order of files and tables.
 const std::vector<HandDimension>& all_hand_dimensions();
 

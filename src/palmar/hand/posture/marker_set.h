@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "palmar/hand/hand_points.h"
+#include "palmar/hand/skin/hand_points.h"
 
 namespace palmar {
 

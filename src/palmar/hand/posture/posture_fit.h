@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "palmar/geometry/rigid3.h"
-#include "palmar/hand/hand_points.h"
+#include "palmar/hand/skin/hand_points.h"
 
 namespace palmar {
 

@@ -21,7 +21,7 @@ namespace palmar::registration {
 namespace {
 
 constexpr double kNormalsAgree = 0.2;  // cosine; 78 degrees: fingers lie side by side
-constexpr double kStep = 1e-4;         // rad; of the numeric Jacobian
+constexpr double kSkinStep = 1e-4;     // rad; of the numeric Jacobian
 constexpr double kPriorSd = 2.0;       // rad; decides only what the mesh doesn't
 constexpr double kOneOf = 25.0;        // so many neighbouring points show as much as one
 constexpr double kLargestSd = 0.35;    // rad; as in PostureFitOptions
@@ -366,11 +366,11 @@ class Stage {
       const auto dof = static_cast<Dof>(d);
       Posture ahead = pose.posture;
       // Away from the nearer end of the range: skinning may have a kink at the reference angle.
-      ahead[dof] += kStep;
+      ahead[dof] += kSkinStep;
       const std::vector<Vec3> there = points.pose(ahead);
       for (std::size_t k = 0; k < pairs.size(); ++k) {
         const Vec3 velocity = pose.mesh_from_hand.rotation *
-                              (pose.scale / kStep * (there[pairs[k].skin] - at[pairs[k].skin]));
+                              (pose.scale / kSkinStep * (there[pairs[k].skin] - at[pairs[k].skin]));
         rows(static_cast<Eigen::Index>(k), first + d) = root[k] * pairs[k].normal.dot(velocity);
       }
     }

@@ -8,7 +8,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/rigid3.h"
-#include "palmar/hand/hand_points.h"
+#include "palmar/hand/skin/hand_points.h"
 
 // Parts of fit_posture_to_mesh(), see posture_from_mesh.h.
 namespace palmar::registration {

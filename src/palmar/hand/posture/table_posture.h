@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 
-#include "palmar/hand/posture/posture.h"
+#include "palmar/hand/posture.h"
 
 namespace palmar {
 

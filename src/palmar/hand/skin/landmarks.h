@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "palmar/geometry/distance/ray_query.h"
-#include "palmar/hand/hand_points.h"
+#include "palmar/hand/skin/hand_points.h"
 
 namespace palmar {
 

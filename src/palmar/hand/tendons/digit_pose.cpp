@@ -12,10 +12,6 @@ Twist hinge(const JointDof& dof, const Rigid3& proximal) {
   return {axis, -axis.cross(proximal * dof.centre)};
 }
 
-Rigid3 turned(const JointDof& dof, const Posture& posture) {
-  return Rigid3::about_axis(dof.axis, dof.centre, posture[dof.dof] - dof.reference);
-}
-
 Twist rate_of_cmc(const Skeleton& skeleton, const Posture& posture, Dof dof) {
   Posture plus = posture, minus = posture;
   plus[dof] += kStep;
@@ -56,7 +52,7 @@ PosedDigit pose_digit(const Skeleton& skeleton, Finger finger, const Posture& po
     for (auto dof = joint.dofs.rbegin(); dof != joint.dofs.rend(); ++dof) {
       digit.dof[k] = dof->dof;
       digit.twist[k] = hinge(*dof, displacement);
-      displacement = displacement * turned(*dof, posture);
+      displacement = displacement * axis_displacement(*dof, posture);
       digit.moves[k++] = ++body;
       digit.body[body] = displacement;
     }

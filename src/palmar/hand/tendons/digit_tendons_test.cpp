@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "palmar/core/error.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
 namespace palmar {

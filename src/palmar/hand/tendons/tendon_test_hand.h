@@ -10,7 +10,6 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/hand/hand.h"
-#include "palmar/hand/template_hand.h"
 #include "palmar/hand/tendons/digit_pose.h"
 #include "palmar/hand/tendons/digit_tendons.h"
 

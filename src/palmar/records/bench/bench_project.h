@@ -10,7 +10,7 @@
 #include "palmar/geometry/length_unit.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/grasp/grip.h"
-#include "palmar/hand/posture/posture.h"
+#include "palmar/hand/posture.h"
 
 namespace palmar {
 

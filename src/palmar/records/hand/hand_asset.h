@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
 
 namespace palmar {
 

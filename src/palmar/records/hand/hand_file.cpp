@@ -56,9 +56,9 @@ PlainJson write_mesh(Glb& glb, const TriangleMesh& mesh) {
 }
 
 /// Reads what the functions above wrote, with checks.
-class Reader {
+class GlbReader {
  public:
-  Reader(const Glb& glb, std::string path) : glb_(glb), path_(std::move(path)) {}
+  GlbReader(const Glb& glb, std::string path) : glb_(glb), path_(std::move(path)) {}
 
   [[noreturn]] void fail(const std::string& why) const {
     throw InputError(path_ + ": broken Palmar hand: " + why);
@@ -187,7 +187,7 @@ PlainJson write_exact(Glb& glb, const Hand& hand) {
   return json;
 }
 
-Hand read_exact(const Reader& reader, const PlainJson& json) {
+Hand read_exact(const GlbReader& reader, const PlainJson& json) {
   Hand hand;
   hand.name = json.at("name").get<std::string>();
   const auto side = json.at("side").get<std::string>();
@@ -245,7 +245,7 @@ PlainJson creases_to_json(const DrawnCreases& creases) {
   return json;
 }
 
-DrawnCreases creases_from_json(const Reader& reader, const PlainJson& json) {
+DrawnCreases creases_from_json(const GlbReader& reader, const PlainJson& json) {
   DrawnCreases creases;
   const auto vector = [&](const PlainJson& numbers) {
     const Vec3 v(numbers.at(0).get<double>(), numbers.at(1).get<double>(),
@@ -291,7 +291,7 @@ auto read_extras(const Glb& glb, const std::string& path, const Read& read) {
                      "; this program reads up to version " + std::to_string(kHandFileVersion) +
                      (version > kHandFileVersion ? " (a newer Palmar wrote it)" : ""));
   }
-  const Reader reader(glb, path);
+  const GlbReader reader(glb, path);
   try {
     return read(reader, extras->at("palmar_hand"));
   } catch (const PlainJson::exception& e) {
@@ -311,7 +311,7 @@ void write_hand(const std::string& path, const Hand& hand, const DrawnCreases& c
 }
 
 DrawnCreases read_drawn_creases(const std::string& path) {
-  return read_extras(read_glb(path), path, [](const Reader& reader, const PlainJson& json) {
+  return read_extras(read_glb(path), path, [](const GlbReader& reader, const PlainJson& json) {
     const auto drawn = json.find("drawn_creases");
     return drawn == json.end() ? DrawnCreases() : creases_from_json(reader, *drawn);
   });

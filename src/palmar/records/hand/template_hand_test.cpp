@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The template hand from the real asset. Stands in io because reading the asset does.
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/template/template_hand.h"
+#include "palmar/hand/mirror.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,9 +18,9 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/repair/self_intersection.h"
-#include "palmar/hand/hand_frame.h"
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/skinning.h"
+#include "palmar/hand/template/hand_frame.h"
 #include "palmar/records/hand/hand_asset.h"
 
 namespace palmar {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "palmar/grasp/holds/hold_value.h"
+#include "palmar/grasp/hold_value.h"
 
 namespace palmar {
 

@@ -50,7 +50,7 @@ std::string rows(int count, int columns = kDigitDofCount) {
   return text;
 }
 
-std::string written(const std::string& text) {
+std::string written_postures(const std::string& text) {
   const std::string path = own_file("natural_postures.csv");
   write_file(path, text);
   return path;
@@ -58,7 +58,7 @@ std::string written(const std::string& text) {
 
 std::string coordination_message(const std::string& text) {
   try {
-    read_coordination(written(text), bare_skeleton());
+    read_coordination(written_postures(text), bare_skeleton());
   } catch (const InputError& error) {
     return error.what();
   }
@@ -66,7 +66,7 @@ std::string coordination_message(const std::string& text) {
 }
 
 TEST(CoordinationFile, GivesMeanAndComponentsOfItsRows) {
-  const std::string path = written(header() + rows(400));
+  const std::string path = written_postures(header() + rows(400));
   const CoordinationBasis basis = read_coordination(path, bare_skeleton());
   EXPECT_EQ(basis.postures, 400);
   EXPECT_EQ(basis.source, path);

@@ -104,17 +104,18 @@ class Builder {
   MarkerSet set_;
 };
 
-const std::vector<std::string> kColumns = {"label", "landmark", "vertex", "part",
-                                           "x_mm",  "y_mm",     "z_mm",   "height_mm"};
+const std::vector<std::string> kMarkerColumns = {"label", "landmark", "vertex", "part",
+                                                 "x_mm",  "y_mm",     "z_mm",   "height_mm"};
 
 MarkerSet from_csv(const CsvFile& csv, const Hand& hand) {
   for (const std::string& name : csv.header) {
-    if (name == "comment" || std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end()) {
+    if (name == "comment" ||
+        std::find(kMarkerColumns.begin(), kMarkerColumns.end(), name) != kMarkerColumns.end()) {
       continue;
     }
     csv.fail(csv.header_line,
              "column " + in_quotes(name) + " is not known; " +
-                 did_you_mean(name, kColumns,
+                 did_you_mean(name, kMarkerColumns,
                               "label, landmark, vertex, part, x_mm, y_mm, z_mm and height_mm are"));
   }
   if (csv.column("label") < 0) csv.fail(csv.header_line, "column label is missing");

@@ -16,7 +16,7 @@ using PlainJson = nlohmann::json;
 
 constexpr double kRoundingOfFiles = 0.01;  // of a unit length: numbers in files are rounded
 
-double finite(const PlainJson& json) {
+double finite_number(const PlainJson& json) {
   if (!json.is_number() || !std::isfinite(json.get<double>())) {
     throw InputError(in_quotes(json.dump()) + " is where a number is needed");
   }
@@ -40,7 +40,7 @@ Rigid3 from_matrix(const PlainJson& json) {
       throw InputError("\"matrix_rows_mm\" needs 4 rows of 4 numbers");
     }
     for (std::size_t c = 0; c < 4; ++c) {
-      m(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = finite(rows[r][c]);
+      m(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) = finite_number(rows[r][c]);
     }
   }
   const Eigen::Matrix3d turn = m.topLeftCorner<3, 3>();
@@ -66,13 +66,14 @@ Rigid3 placement_from_json(const PlainJson& json) {
   }
   const PlainJson& q = list_of(json, "quaternion_wxyz", 4);
   const PlainJson& t = list_of(json, "translation_mm", 3);
-  const Quat turn(finite(q[0]), finite(q[1]), finite(q[2]), finite(q[3]));
+  const Quat turn(finite_number(q[0]), finite_number(q[1]), finite_number(q[2]),
+                  finite_number(q[3]));
   if (!(std::abs(turn.norm() - 1.0) < kRoundingOfFiles)) {
     throw InputError("\"quaternion_wxyz\" has length " + shortest(turn.norm()) + "; 1 is needed");
   }
   // A unit quaternion stays as it is to the last bit.
   return {std::abs(turn.norm() - 1.0) < 1e-14 ? turn : turn.normalized(),
-          Vec3(finite(t[0]), finite(t[1]), finite(t[2]))};
+          Vec3(finite_number(t[0]), finite_number(t[1]), finite_number(t[2]))};
 }
 
 nlohmann::ordered_json placement_with_matrix(const Rigid3& product_from_hand) {

@@ -9,7 +9,11 @@
 
 namespace palmar {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 MadeHandle make_handle(const HandleShape& shape, const std::string& object,
                        const std::optional<CadSource>& source, double chordal_error,

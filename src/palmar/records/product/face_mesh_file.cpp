@@ -86,7 +86,7 @@ class Taker {
   std::string what_;
 };
 
-void append_text(std::string& bytes, const std::string& text) {
+void append_short_text(std::string& bytes, const std::string& text) {
   const std::string_view kept = std::string_view(text).substr(0, kLongestText);
   append_value(bytes, static_cast<std::uint32_t>(kept.size()));
   bytes += kept;
@@ -122,8 +122,8 @@ Taker open_checked(std::string_view bytes, std::string_view magic, const std::st
 
 void append_face(std::string& bytes, const ProductFace& face) {
   append_value(bytes, static_cast<std::int32_t>(face.number));
-  append_text(bytes, face.name);
-  append_text(bytes, face.part);
+  append_short_text(bytes, face.name);
+  append_short_text(bytes, face.part);
   append_value(bytes, static_cast<std::uint8_t>(face.kind));
   append_value(bytes, face.radius);
   append_value(bytes, static_cast<std::uint8_t>(face.is_concave));

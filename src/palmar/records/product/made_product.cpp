@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 #include "palmar/product/parametric_kinds.h"
 #include "palmar/product/primitives.h"
 #include "palmar/product/scaled_product.h"

@@ -5,8 +5,8 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 #include "palmar/formats/mesh/mesh_file.h"
-#include "palmar/product/make_product.h"
-#include "palmar/product/unit_guard.h"
+#include "palmar/product/intake/make_product.h"
+#include "palmar/product/intake/unit_guard.h"
 #include "palmar/records/product/cad_format.h"
 #include "palmar/records/product/made_product.h"
 

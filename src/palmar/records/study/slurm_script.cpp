@@ -20,7 +20,7 @@ namespace {
 constexpr int kMostRestarts = 5;  // of a task that was killed
 
 /// One word for bash, whatever is in it.
-std::string quoted(const std::string& text) {
+std::string single_quoted(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
     if (c == '\'') {
@@ -91,7 +91,8 @@ std::string slurm_script(const SlurmArray& array) {
       "queue once more, to continue where the store stopped.\nif [ \"$code\" = 137 ] && [ "
       "\"${{SLURM_RESTART_COUNT:-0}}\" -lt {5} ]; then\n  scontrol requeue "
       "\"${{SLURM_ARRAY_JOB_ID}}_$shard\" && sleep 60\nfi\nexit \"$code\"\n",
-      quoted(folder), quoted(array.program.string()), quoted(array.file.string()),
+      single_quoted(folder), single_quoted(array.program.string()),
+      single_quoted(array.file.string()),
       array.seed == 0 ? "" : fmt::format(" --seed {}", array.seed), array.shards, kMostRestarts);
   return text;
 }

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/rigid3.h"
 #include "palmar/geometry/types.h"
-#include "palmar/hand/posture/posture.h"
+#include "palmar/hand/posture.h"
 #include "palmar/study/study_record.h"
 
 namespace palmar {

@@ -61,7 +61,7 @@ struct StudyRequest {
 StudyRequest read_study_file(const std::string& path);
 
 /// What was left out is filled in: the profile "none", the power grip that suits the shape, one
-/// setting, in each the usual grip force (grasp/rest/task_force.h). Throws UsageError or
+/// setting, in each the usual grip force (grasp/task_force.h). Throws UsageError or
 /// InputError.
 struct LoadedStudy {
   StudyPlan plan;

@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/setting_names.h"
 #include "palmar/formats/text_scan.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/population/built_in_populations.h"
 #include "palmar/population/sex_names.h"

@@ -30,7 +30,7 @@ Enum word_from(const Json& json, const std::array<Enum, kCount>& known) {
 }
 
 Json vector_json(const std::optional<Vec3>& v) { return v ? Json{v->x(), v->y(), v->z()} : Json(); }
-std::optional<Vec3> vector_from(const Json& json) {
+std::optional<Vec3> optional_vector_from(const Json& json) {
   if (json.is_null()) return std::nullopt;
   return Vec3(json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>());
 }
@@ -203,8 +203,8 @@ HoldRequest holding_from(const Json& json) {
   if (!json.at("part").is_null()) holding.part = json_whole<int>(json.at("part"));
   holding.part_name = json.at("part_name");
   holding.along = optional_from(json.at("along"));
-  holding.toward = vector_from(json.at("toward"));
-  holding.up = vector_from(json.at("up"));
+  holding.toward = optional_vector_from(json.at("toward"));
+  holding.up = optional_vector_from(json.at("up"));
   if (json.at("is_hand_over").get<bool>()) holding.purpose = HoldPurpose::kHandOver;
   return holding;
 }
@@ -232,8 +232,8 @@ StudyProduct product_from(const Json& json) {
   product.file = json.at("file");
   product.content_hash = json.at("content_sha256");
   product.unit = json.at("unit");
-  product.at = vector_from(json.at("at_mm"));
-  product.axis = vector_from(json.at("axis"));
+  product.at = optional_vector_from(json.at("at_mm"));
+  product.axis = optional_vector_from(json.at("axis"));
   product.mass = json.at("mass_kg");
   product.posture_of = json.at("posture_of");
   if (json.contains("holding")) product.holding = holding_from(json.at("holding"));

@@ -7,7 +7,7 @@
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/report/chart/figure.h"
 #include "palmar/report/chart/figure_number.h"
-#include "palmar/report/page/html_text.h"
+#include "palmar/report/words/html_text.h"
 
 namespace palmar {
 

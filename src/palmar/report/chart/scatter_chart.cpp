@@ -18,8 +18,8 @@ using Eigen::Vector2d;
 
 constexpr double kScatterWidth = 420.0;  // points, as all lengths here
 constexpr double kScatterLeft = 54.0;
-constexpr double kRight = 16.0;
-constexpr double kTop = 34.0;
+constexpr double kScatterRight = 16.0;
+constexpr double kScatterTop = 34.0;
 constexpr double kPlotHeight = 250.0;
 constexpr double kBelow = 40.0;  // ticks and label of x
 constexpr double kLine = 12.0;   // of text
@@ -32,8 +32,8 @@ Rgb darker(Rgb c) {
 struct Plot {
   Axis x, y;
   Vector2d at(double px, double py) const {
-    return {kScatterLeft + (kScatterWidth - kScatterLeft - kRight) * x.share(px),
-            kTop + kPlotHeight * (1.0 - y.share(py))};
+    return {kScatterLeft + (kScatterWidth - kScatterLeft - kScatterRight) * x.share(px),
+            kScatterTop + kPlotHeight * (1.0 - y.share(py))};
   }
 };
 
@@ -61,22 +61,24 @@ void draw_axes(Figure& figure, const Plot& plot, const ScatterChart& chart) {
   const Lettering tick{.size = 9.0, .colour = kFaintColour};
   for (std::size_t i = 0; i < plot.x.ticks.size(); ++i) {
     const Vector2d p = plot.at(plot.x.ticks[i], plot.y.low);
-    figure.line(p.x(), kTop, p.x(), p.y(), {kGridColour, 0.5});
+    figure.line(p.x(), kScatterTop, p.x(), p.y(), {kGridColour, 0.5});
     figure.text(p.x(), p.y() + 13.0, plot.x.texts[i],
                 {.size = tick.size, .align = Align::kCentre, .colour = tick.colour});
   }
   for (std::size_t i = 0; i < plot.y.ticks.size(); ++i) {
     const Vector2d p = plot.at(plot.x.low, plot.y.ticks[i]);
-    figure.line(p.x(), p.y(), kScatterWidth - kRight, p.y(), {kGridColour, 0.5});
+    figure.line(p.x(), p.y(), kScatterWidth - kScatterRight, p.y(), {kGridColour, 0.5});
     figure.text(p.x() - 6.0, p.y() + 3.2, plot.y.texts[i],
                 {.size = tick.size, .align = Align::kRight, .colour = tick.colour});
   }
-  const double bottom = kTop + kPlotHeight;
-  figure.polyline({{kScatterLeft, kTop}, {kScatterLeft, bottom}, {kScatterWidth - kRight, bottom}},
+  const double bottom = kScatterTop + kPlotHeight;
+  figure.polyline({{kScatterLeft, kScatterTop},
+                   {kScatterLeft, bottom},
+                   {kScatterWidth - kScatterRight, bottom}},
                   {kFaintColour, 0.8});
-  figure.text(0.5 * (kScatterLeft + kScatterWidth - kRight), bottom + 30.0, chart.x_label,
+  figure.text(0.5 * (kScatterLeft + kScatterWidth - kScatterRight), bottom + 30.0, chart.x_label,
               {.size = 10.0, .align = Align::kCentre});
-  figure.text(14.0, kTop + 0.5 * kPlotHeight, chart.y_label,
+  figure.text(14.0, kScatterTop + 0.5 * kPlotHeight, chart.y_label,
               {.size = 10.0, .align = Align::kCentre, .turn = 90.0});
 }
 
@@ -139,7 +141,7 @@ Figure scatter_chart(const ScatterChart& chart) {
   const bool has_legend = chart.series.size() > 1;
   const double below = kBelow + kLine * static_cast<double>(chart.notes.size()) + 6.0 +
                        (has_legend ? kLine + 2.0 : 0.0);
-  Figure figure(kScatterWidth, kTop + kPlotHeight + below, chart.title);
+  Figure figure(kScatterWidth, kScatterTop + kPlotHeight + below, chart.title);
   figure.rect(0.0, 0.0, figure.width(), figure.height(), Fill{kWhite});
   figure.text(kScatterLeft, 18.0, chart.title, {.size = 12.0, .is_bold = true});
   std::vector<double> xs, ys;
@@ -151,7 +153,7 @@ Figure scatter_chart(const ScatterChart& chart) {
     }
   }
   if (xs.empty()) {
-    figure.text(kScatterLeft, kTop + 20.0, "No values.", {.colour = kFaintColour});
+    figure.text(kScatterLeft, kScatterTop + 20.0, "No values.", {.colour = kFaintColour});
     return figure;
   }
   const auto [x_low, x_high] = std::minmax_element(xs.begin(), xs.end());
@@ -168,7 +170,7 @@ Figure scatter_chart(const ScatterChart& chart) {
   draw_axes(figure, plot, chart);
   draw_points(figure, plot, chart.series);
   for (const ScatterSeries& series : chart.series) draw_bands(figure, plot, series);
-  double y = kTop + kPlotHeight + kBelow + 6.0;
+  double y = kScatterTop + kPlotHeight + kBelow + 6.0;
   if (has_legend) {
     double x = kScatterLeft;
     for (const ScatterSeries& series : chart.series) {

@@ -23,7 +23,7 @@ constexpr double kFoot = 40.0;  // scale
 constexpr double kTallest = 420.0;
 constexpr double kSmallLetters = 9.0;
 constexpr int kFreePerLine = 8;
-constexpr Rgb kNothing{238, 238, 234};
+constexpr Rgb kNoPressureColour{238, 238, 234};
 constexpr Rgb kMeasuredMore{33, 84, 160}, kSimulatedMore{178, 44, 34}, kEqual{248, 248, 246};
 
 /// A cell's place in units of cells, y up.
@@ -150,7 +150,7 @@ Rgb mixed(const Rgb& from, const Rgb& to, double share) {
 }
 
 Rgb load_colour(double share) {
-  return share > 0.0 ? map_colour(Colormap::kEmber, std::min(share, 1.0)) : kNothing;
+  return share > 0.0 ? map_colour(Colormap::kEmber, std::min(share, 1.0)) : kNoPressureColour;
 }
 
 Rgb difference_colour(double share) {

@@ -13,8 +13,8 @@
 namespace palmar {
 namespace {
 
-constexpr double kWidth = 560.0;  // points, as all below
-constexpr double kLeft = 62.0;
+constexpr double kRowsWidth = 560.0;  // points, as all below
+constexpr double kRowsLeft = 62.0;
 constexpr double kTextSize = 12.0;
 constexpr double kSmallSize = 11.0;
 constexpr double kHistogram = 150.0;  // height of the bars' panel
@@ -241,14 +241,14 @@ Figure distribution_figure(const DistributionChart& chart) {
   const double side = 8.0 + kBracket * static_cast<double>(chart.brackets.size());
   const double rows_top = 30.0 + kHistogram + 8.0;
   const double bottom = rows_top + kRow * rows;
-  Figure figure(kWidth + std::max(0.0, side - 100.0), bottom + 60.0, chart.title);
+  Figure figure(kRowsWidth + std::max(0.0, side - 100.0), bottom + 60.0, chart.title);
   title(figure, chart.title);
   const std::optional<Interval> range = range_of(chart.samples);
   if (!range) {
-    figure.text(kLeft, 60.0, "No hand has a value.", {.size = kTextSize});
+    figure.text(kRowsLeft, 60.0, "No hand has a value.", {.size = kTextSize});
     return figure;
   }
-  const Scale x{round_axis(range->low, range->high), kLeft, figure.width() - 14.0 - side};
+  const Scale x{round_axis(range->low, range->high), kRowsLeft, figure.width() - 14.0 - side};
   histogram(figure, chart, x, 30.0);
   for (const double tick : x.axis.ticks) {
     figure.line(x(tick), rows_top, x(tick), bottom, {.colour = kGridColour, .width = 0.8});
@@ -261,7 +261,7 @@ Figure distribution_figure(const DistributionChart& chart) {
     bracket(figure, chart.brackets[b], x.to + 14.0 + kBracket * static_cast<double>(b), rows_top);
   }
   x_axis(figure, x, bottom, chart.x_label);
-  figure.text(kLeft, bottom + 52.0,
+  figure.text(kRowsLeft, bottom + 52.0,
               dot_words(every) +
                   " Box: quartiles, bar: median, diamond: mean, whiskers: 5th and 95th percentile.",
               {.size = 9.5, .colour = kFaintColour});
@@ -272,9 +272,9 @@ Figure share_figure(const std::string& heading, const std::string& x_label,
                     const std::vector<ShareBar>& bars) {
   constexpr double kBarRow = 34.0;
   const double bottom = 32.0 + kBarRow * static_cast<double>(bars.size());
-  Figure figure(kWidth, bottom + 42.0, heading);
+  Figure figure(kRowsWidth, bottom + 42.0, heading);
   title(figure, heading);
-  Scale x{round_axis(0.0, 100.0, 5), 14.0, kWidth - 110.0};
+  Scale x{round_axis(0.0, 100.0, 5), 14.0, kRowsWidth - 110.0};
   for (const double tick : x.axis.ticks) {
     figure.line(x(tick), 28.0, x(tick), bottom, {.colour = kGridColour, .width = 0.8});
   }
@@ -301,7 +301,7 @@ Figure trend_figure(const TrendChart& chart) {
   constexpr double kPanel = 250.0;
   const double bottom = 30.0 + kPanel;
   const auto legend = static_cast<double>(chart.samples.size() + 1) / 2;
-  Figure figure(kWidth, bottom + 44.0 + 15.0 * std::floor(legend) + 4.0, chart.title);
+  Figure figure(kRowsWidth, bottom + 44.0 + 15.0 * std::floor(legend) + 4.0, chart.title);
   title(figure, chart.title);
   std::vector<ChartSample> ys, xs;
   for (const TrendSample& one : chart.samples) {
@@ -315,10 +315,10 @@ Figure trend_figure(const TrendChart& chart) {
   const std::size_t every = thinning(xs);
   const auto x_range = range_of(xs), y_range = range_of(ys);
   if (!x_range || !y_range) {
-    figure.text(kLeft, 60.0, "No hand has a value.", {.size = kTextSize});
+    figure.text(kRowsLeft, 60.0, "No hand has a value.", {.size = kTextSize});
     return figure;
   }
-  const Scale x{round_axis(x_range->low, x_range->high, 5), kLeft, kWidth - 16.0};
+  const Scale x{round_axis(x_range->low, x_range->high, 5), kRowsLeft, kRowsWidth - 16.0};
   const Scale y{round_axis(y_range->low, y_range->high), bottom, 30.0};
   y_axis(figure, y, x.from, x.to, chart.y_label);
   for (const TrendSample& one : chart.samples) {
@@ -341,12 +341,13 @@ Figure trend_figure(const TrendChart& chart) {
   }
   x_axis(figure, x, bottom, chart.x_label);
   for (std::size_t s = 0; s < chart.samples.size(); ++s) {
-    const double left = kLeft + (s % 2 == 0 ? 0.0 : 0.5 * (kWidth - kLeft));
+    const double left = kRowsLeft + (s % 2 == 0 ? 0.0 : 0.5 * (kRowsWidth - kRowsLeft));
     const double at = bottom + 50.0 + 15.0 * static_cast<double>(s / 2);
     const Lettering look{.size = kSmallSize};
     figure.rect(left, at - 8.0, 9.0, 9.0, Fill{chart.samples[s].sample.colour});
-    figure.text(left + 13.0, at,
-                shortened(chart.samples[s].sample.name, look, 0.5 * (kWidth - kLeft) - 18.0), look);
+    figure.text(
+        left + 13.0, at,
+        shortened(chart.samples[s].sample.name, look, 0.5 * (kRowsWidth - kRowsLeft) - 18.0), look);
   }
   return figure;
 }

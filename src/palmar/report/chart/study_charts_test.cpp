@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "palmar/report/study/study_words.h"
+#include "palmar/report/words/study_words.h"
 
 namespace palmar {
 namespace {

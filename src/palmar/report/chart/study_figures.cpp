@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "palmar/report/chart/study_charts.h"
-#include "palmar/report/page/plain_words.h"
-#include "palmar/report/study/study_words.h"
+#include "palmar/report/words/plain_words.h"
+#include "palmar/report/words/study_words.h"
 
 namespace palmar {
 namespace {

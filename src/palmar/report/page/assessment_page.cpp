@@ -10,11 +10,11 @@
 #include "palmar/report/chart/sensor_chart.h"
 #include "palmar/report/page/desk_json.h"
 #include "palmar/report/page/friction_words.h"
-#include "palmar/report/page/html_text.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/page/scene_data.h"
 #include "palmar/report/picture/colormap.h"
 #include "palmar/report/picture/holds_picture.h"
-#include "palmar/report/picture/scene_data.h"
+#include "palmar/report/words/html_text.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

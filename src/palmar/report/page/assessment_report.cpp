@@ -10,7 +10,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/glb_fields.h"
 #include "palmar/formats/mesh/vtk.h"
-#include "palmar/records/assessment_json.h"
+#include "palmar/records/assessment/assessment_json.h"
 #include "palmar/records/csv.h"
 #include "palmar/report/page/assessment_page.h"
 #include "palmar/report/page/file_names.h"

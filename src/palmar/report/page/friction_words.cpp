@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "palmar/geometry/degrees.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 

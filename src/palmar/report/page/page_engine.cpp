@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "palmar/report/page/html_text.h"
-#include "palmar/report/page/page_parts.h"
+#include "palmar/report/words/html_text.h"
+#include "palmar/report/words/page_parts.h"
 
 namespace palmar {
 namespace {

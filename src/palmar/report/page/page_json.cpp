@@ -9,10 +9,10 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/grasp/grip.h"
 #include "palmar/grasp/pressure_thresholds.h"
-#include "palmar/report/page/html_text.h"
-#include "palmar/report/page/page_parts.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/colormap.h"
+#include "palmar/report/words/html_text.h"
+#include "palmar/report/words/page_parts.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

@@ -16,10 +16,10 @@
 #include "palmar/grasp/pressure_thresholds.h"
 #include "palmar/report/chart/bar_chart.h"
 #include "palmar/report/page/assessment_report.h"
-#include "palmar/report/page/html_text.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/picture/assessment_pictures.h"
 #include "palmar/report/picture/stroke_text.h"
+#include "palmar/report/words/html_text.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "palmar/report/words/plain_words.h"
+
 namespace palmar {
 
 namespace {
@@ -58,6 +60,16 @@ DisplayMesh display_mesh(const TriangleMesh& mesh, const std::vector<double>& va
     cell *= 1.25;
   }
   return result;
+}
+
+std::string json_triple(const Vec3& point) {
+  return "[" + exact_number(point.x()) + "," + exact_number(point.y()) + "," +
+         exact_number(point.z()) + "]";
+}
+
+std::string json_triple(Rgb colour) {
+  return "[" + std::to_string(colour.r) + "," + std::to_string(colour.g) + "," +
+         std::to_string(colour.b) + "]";
 }
 
 }  // namespace palmar

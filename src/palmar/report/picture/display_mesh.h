@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "palmar/geometry/types.h"
+#include "palmar/report/picture/image.h"
 
 namespace palmar {
 
@@ -20,5 +22,9 @@ struct DisplayMesh {
 /// that is small enough comes back as it is. For display only: not for computing.
 DisplayMesh display_mesh(const TriangleMesh& mesh, const std::vector<double>& value,
                          int most_triangles);
+
+/// A point or a colour as the viewers' JSON has it: "[1,2.5,3]", each number in full.
+std::string json_triple(const Vec3& point);
+std::string json_triple(Rgb colour);
 
 }  // namespace palmar

@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/mesh/vtk.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

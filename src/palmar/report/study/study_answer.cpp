@@ -7,10 +7,10 @@
 
 #include "palmar/core/text.h"
 #include "palmar/grasp/indices/grasp_index.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/study/study_options.h"
-#include "palmar/report/study/study_words.h"
 #include "palmar/report/words/phrases.h"
+#include "palmar/report/words/plain_words.h"
+#include "palmar/report/words/study_words.h"
 #include "palmar/report/words/texts.h"
 #include "palmar/report/words/verdict_words.h"
 #include "palmar/study/statistics/study_statistics.h"

@@ -4,8 +4,8 @@
 
 #include "palmar/geometry/degrees.h"
 #include "palmar/report/chart/study_figures.h"
-#include "palmar/report/page/plain_words.h"
-#include "palmar/report/study/study_words.h"
+#include "palmar/report/words/plain_words.h"
+#include "palmar/report/words/study_words.h"
 #include "palmar/study/statistics/study_holds.h"
 
 namespace palmar {

@@ -8,10 +8,10 @@
 #include "palmar/records/json_values.h"
 #include "palmar/report/chart/study_charts.h"
 #include "palmar/report/page/desk_json.h"
-#include "palmar/report/page/html_text.h"
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/study/face_words.h"
-#include "palmar/report/study/study_words.h"
+#include "palmar/report/words/html_text.h"
+#include "palmar/report/words/plain_words.h"
+#include "palmar/report/words/study_words.h"
 #include "palmar/study/statistics/study_holds.h"
 
 namespace palmar {

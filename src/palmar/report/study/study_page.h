@@ -8,8 +8,8 @@
 #include "palmar/report/chart/study_figures.h"
 #include "palmar/report/page/page_json.h"
 #include "palmar/report/page/report_extras.h"
-#include "palmar/report/picture/study_scene.h"
 #include "palmar/report/study/study_answer.h"
+#include "palmar/report/study/study_scene.h"
 #include "palmar/study/statistics/face_statistics.h"
 #include "palmar/study/statistics/study_analysis.h"
 

@@ -12,17 +12,17 @@
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/report/chart/study_figures.h"
 #include "palmar/report/page/file_names.h"
-#include "palmar/report/picture/study_pictures.h"
 #include "palmar/report/study/face_words.h"
 #include "palmar/report/study/study_answer.h"
 #include "palmar/report/study/study_csv.h"
 #include "palmar/report/study/study_page.h"
-#include "palmar/report/study/study_words.h"
+#include "palmar/report/study/study_pictures.h"
+#include "palmar/report/words/study_words.h"
 
 namespace palmar {
 namespace {
 
-constexpr int kEmbeddedWidth = 640;  // pixels; the page shows pictures about 540 wide
+constexpr int kStudyPictureWidth = 640;  // pixels; the page shows pictures about 540 wide
 
 std::size_t picture_place(int i) { return static_cast<std::size_t>(i); }
 
@@ -88,9 +88,9 @@ std::vector<std::vector<EncodedPicture>> write_pictures(
           .name = picture.name,
           .title = picture.title,
           .alt = picture.alt,
-          .png = encode_png(
-              narrowed(picture.image, options.extras.slides ? picture.image.width : kEmbeddedWidth),
-              PngEffort::kSmall),
+          .png = encode_png(narrowed(picture.image, options.extras.slides ? picture.image.width
+                                                                          : kStudyPictureWidth),
+                            PngEffort::kSmall),
           .thumbnail = ""};
     });
     for (std::size_t k = 0; k < pictures.size(); ++k) {

@@ -9,7 +9,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/report/chart/study_figures.h"
 #include "palmar/report/page/report_extras.h"
-#include "palmar/report/picture/study_scene.h"
+#include "palmar/report/study/study_scene.h"
 #include "palmar/study/statistics/study_comparison.h"
 
 namespace palmar {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "palmar/report/page/plain_words.h"
 #include "palmar/report/study/study_page.h"
-#include "palmar/report/study/study_words.h"
+#include "palmar/report/words/plain_words.h"
+#include "palmar/report/words/study_words.h"
 
 namespace palmar {
 namespace {

@@ -6,8 +6,8 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "palmar/report/page/page_parts.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/page_parts.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

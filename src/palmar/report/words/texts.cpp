@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "palmar/report/page/page_parts.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/page_parts.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 

@@ -12,8 +12,8 @@
 
 #include "palmar/core/error.h"
 #include "palmar/hand/anatomy.h"
-#include "palmar/report/page/page_parts.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/page_parts.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

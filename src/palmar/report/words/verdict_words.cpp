@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palmar/contact/resolution.h"
+#include "palmar/contact/prepared/resolution.h"
 #include "palmar/core/text.h"
-#include "palmar/grasp/rest/task_force.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/report/words/phrases.h"
+#include "palmar/report/words/plain_words.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
 namespace palmar {

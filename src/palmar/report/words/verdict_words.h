@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "palmar/records/verdict_text.h"
+#include "palmar/records/assessment/verdict_text.h"
 #include "palmar/report/words/texts.h"
 #include "palmar/study/assessment/verdict.h"
 

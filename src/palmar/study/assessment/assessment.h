@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "palmar/contact/contact.h"
-#include "palmar/contact/footprint.h"
+#include "palmar/contact/footprint/footprint.h"
 #include "palmar/contact/friction/friction.h"
 #include "palmar/core/progress.h"
-#include "palmar/grasp/find_grasp.h"
+#include "palmar/grasp/find/find_grasp.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/rest/balance.h"
 #include "palmar/product/product.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "palmar/contact/footprint.h"
+#include "palmar/contact/footprint/footprint.h"
 #include "palmar/product/product.h"
 
 namespace palmar {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "palmar/grasp/joint_strength.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
 namespace palmar {

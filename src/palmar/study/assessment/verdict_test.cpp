@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 
 namespace palmar {
 namespace {

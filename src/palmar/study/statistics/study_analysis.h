@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "palmar/study/assessment/exclusion.h"
-#include "palmar/study/product_sizes.h"
 #include "palmar/study/statistics/accommodation.h"
+#include "palmar/study/statistics/exclusion.h"
+#include "palmar/study/statistics/product_sizes.h"
 #include "palmar/study/statistics/study_comparison.h"
 #include "palmar/study/statistics/study_results.h"
 #include "palmar/study/statistics/study_statistics.h"

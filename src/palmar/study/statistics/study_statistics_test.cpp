@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "palmar/core/error.h"
-#include "palmar/study/product_sizes.h"
 #include "palmar/study/statistics/accommodation.h"
+#include "palmar/study/statistics/product_sizes.h"
 #include "palmar/study/statistics/study_test_results.h"
 
 namespace palmar {

@@ -9,10 +9,10 @@
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/joint_strength.h"
-#include "palmar/grasp/rest/task_force.h"
+#include "palmar/grasp/task_force.h"
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/study/assessment/held_torque.h"
-#include "palmar/workflow/grasp.h"
+#include "palmar/workflow/grasp/grasp.h"
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 

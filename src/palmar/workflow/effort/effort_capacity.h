@@ -7,7 +7,7 @@
 
 #include "palmar/core/progress.h"
 #include "palmar/grasp/rest/rest_settings.h"
-#include "palmar/workflow/effort.h"
+#include "palmar/workflow/effort/effort.h"
 
 namespace palmar {
 

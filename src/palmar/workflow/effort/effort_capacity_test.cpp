@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using workflow_test::coarse_hand;
 using workflow_test::handle;
 
-CapacityRequest capacity_request_for(const Product& product) {
+CapacityRequest capacity_request(const Product& product) {
   CapacityRequest request;
   request.product = product;
   request.hand.value = coarse_hand();
@@ -24,7 +24,7 @@ CapacityRequest capacity_request_for(const Product& product) {
 
 TEST(CapacityOfGrip, FrictionCarriesNoMoreThanItsShareOfTheNormalForces) {
   constexpr double kRadius = 22.0;  // mm
-  const Capacity capacity = capacity_of_grip(capacity_request_for(handle(2.0 * kRadius)));
+  const Capacity capacity = capacity_of_grip(capacity_request(handle(2.0 * kRadius)));
   ASSERT_GT(capacity.grip_force, 50.0) << capacity.message;
   EXPECT_LE(capacity.activation, 1.0);
   // All normal forces are at most pi times the grip force round a bar (a uniform pressure has
@@ -38,7 +38,7 @@ TEST(CapacityOfGrip, FrictionCarriesNoMoreThanItsShareOfTheNormalForces) {
 }
 
 TEST(CapacityOfGrip, WeakerPeopleReachLessForceAndSlipperyProductsLessTorque) {
-  CapacityRequest request = capacity_request_for(handle(44.0));
+  CapacityRequest request = capacity_request(handle(44.0));
   request.strength = 400.0;
   const Capacity strong = capacity_of_grip(request);
   request.strength = 100.0;
@@ -53,7 +53,7 @@ TEST(CapacityOfGrip, WeakerPeopleReachLessForceAndSlipperyProductsLessTorque) {
 TEST(CapacityOfGrip, TorqueIsAboutTheAxisAskedFor) {
   // Turning a bar end over end takes friction at the ends of the hand's breadth, not at the bar's
   // radius: another torque, of the same grip force.
-  CapacityRequest request = capacity_request_for(handle(30.0));
+  CapacityRequest request = capacity_request(handle(30.0));
   const Capacity about_bar = capacity_of_grip(request);
   request.torque_axis = about_bar.axis.unitOrthogonal();
   const Capacity across = capacity_of_grip(request);
@@ -65,7 +65,7 @@ TEST(CapacityOfGrip, TorqueIsAboutTheAxisAskedFor) {
 }
 
 TEST(CapacityOfGrip, SaysWhatItCannotTake) {
-  CapacityRequest request = capacity_request_for(handle(44.0));
+  CapacityRequest request = capacity_request(handle(44.0));
   request.strength = 5.0;
   try {
     capacity_of_grip(request);
@@ -73,7 +73,7 @@ TEST(CapacityOfGrip, SaysWhatItCannotTake) {
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("setting \"strength\" is 5 N; 10 to 2000 N is allowed"));
   }
-  request = capacity_request_for(handle(44.0));
+  request = capacity_request(handle(44.0));
   request.grasp.grip = Grip::kFixedHook;
   try {
     capacity_of_grip(request);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "palmar/effort/fingertip_force.h"
-#include "palmar/hand/posture/posture.h"
+#include "palmar/hand/posture.h"
 #include "palmar/hand/tendons/digit_tendons.h"
 #include "palmar/workflow/hand/load_hand.h"
 

@@ -11,9 +11,9 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/study/assessment/assessment.h"
-#include "palmar/workflow/contact_with_band.h"
+#include "palmar/workflow/grasp/contact_with_band.h"
 #include "palmar/workflow/hand/load_hand.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 #include "palmar/workflow/product/product_choice.h"
 
 namespace palmar {

@@ -9,7 +9,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/grasp/holds/hold.h"
 #include "palmar/workflow/hand/load_hand.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 #include "palmar/workflow/product/product_choice.h"
 
 namespace palmar {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "palmar/grasp/precision/reach.h"
-#include "palmar/workflow/grasp.h"
+#include "palmar/workflow/grasp/grasp.h"
 
 namespace palmar {
 

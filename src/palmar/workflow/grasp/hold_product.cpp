@@ -3,8 +3,8 @@
 #include "palmar/workflow/grasp/hold_product.h"
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/grasp_place.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/grasp/find/grasp_place.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/workflow/hand/load_hand.h"
 
 namespace palmar {

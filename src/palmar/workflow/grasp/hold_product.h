@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "palmar/core/progress.h"
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/hand/hand.h"
 #include "palmar/product/product.h"
 

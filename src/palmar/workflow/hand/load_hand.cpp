@@ -9,7 +9,7 @@
 #include "palmar/core/program_folder.h"
 #include "palmar/core/text.h"
 #include "palmar/hand/instance/hand_instance.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/population/built_in_populations.h"
 #include "palmar/population/hand_sample.h"
 #include "palmar/records/hand/hand_file.h"

@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "palmar/hand/template_hand.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/records/hand/compliance_file.h"
 
 namespace palmar {

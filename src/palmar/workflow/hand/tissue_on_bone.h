@@ -8,7 +8,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/study/study_plan.h"
 #include "palmar/workflow/hand/load_hand.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

@@ -9,7 +9,7 @@
 #include "palmar/core/progress_part.h"
 #include "palmar/grasp/given_grasp.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/workflow/contact_with_band.h"
+#include "palmar/workflow/grasp/contact_with_band.h"
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 #include "palmar/workflow/product/product_choice.h"

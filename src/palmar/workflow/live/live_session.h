@@ -8,7 +8,7 @@
 
 #include "palmar/contact/contact.h"
 #include "palmar/core/progress.h"
-#include "palmar/grasp/grasp_place.h"
+#include "palmar/grasp/find/grasp_place.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/study/assessment/assessment.h"

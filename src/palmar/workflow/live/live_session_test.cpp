@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/rest/grip_force.h"
-#include "palmar/records/assessment_json.h"
+#include "palmar/records/assessment/assessment_json.h"
 #include "palmar/workflow/assess.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "palmar/contact/contact_totals.h"
-#include "palmar/contact/pressed_skin.h"
-#include "palmar/contact/solve/contact_solver.h"
+#include "palmar/contact/prepared/contact_solver.h"
+#include "palmar/contact/prepared/contact_totals.h"
+#include "palmar/contact/prepared/pressed_skin.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/distance/grid_distance.h"
 #include "palmar/geometry/mesh/mesh_measures.h"

@@ -7,7 +7,7 @@
 
 #include "palmar/population/hand_sample.h"
 #include "palmar/population/population.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

@@ -12,7 +12,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/report/chart/correlation_chart.h"
 #include "palmar/report/chart/scatter_chart.h"
-#include "palmar/report/page/plain_words.h"
+#include "palmar/report/words/plain_words.h"
 
 namespace palmar {
 namespace {

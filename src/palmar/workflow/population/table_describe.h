@@ -5,7 +5,7 @@
 #include <string>
 
 #include "palmar/records/table_results.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 #include "palmar/workflow/population/table_choice.h"
 
 namespace palmar {

@@ -8,7 +8,7 @@
 
 #include "palmar/population/population.h"
 #include "palmar/records/table_results.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 #include "palmar/workflow/population/table_choice.h"
 
 namespace palmar {

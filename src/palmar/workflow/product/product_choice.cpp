@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "palmar/core/error.h"
-#include "palmar/product/check.h"
+#include "palmar/product/intake/check.h"
 #include "palmar/records/product/made_product.h"
 
 namespace palmar {

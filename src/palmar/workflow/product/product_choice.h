@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "palmar/core/progress.h"
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/product/product.h"
 #include "palmar/records/product/product_file.h"
 

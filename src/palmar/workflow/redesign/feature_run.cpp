@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "palmar/core/error.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 #include "palmar/product/parametric_kinds.h"
 
 namespace palmar {

@@ -15,7 +15,7 @@
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/power/grip_axis.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 #include "palmar/records/product/cad_format.h"
 #include "palmar/records/product/cad_worker.h"
 #include "palmar/records/product/face_mesh_file.h"

@@ -12,7 +12,7 @@
 #include "palmar/core/language.h"
 #include "palmar/geometry/length_unit.h"
 #include "palmar/geometry/types.h"
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/grasp/grip.h"
 
 namespace palmar {

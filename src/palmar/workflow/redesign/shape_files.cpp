@@ -9,7 +9,7 @@
 
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/mesh_file.h"
-#include "palmar/product/make_product.h"
+#include "palmar/product/intake/make_product.h"
 #include "palmar/records/handle_file.h"
 #include "palmar/records/handle_json.h"
 #include "palmar/records/product/cad_handle.h"
@@ -17,7 +17,11 @@
 
 namespace palmar {
 namespace fs = std::filesystem;
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 Deviation kept_deviation(const HandleShape& shape, const TriangleMesh& solid,
                          const Product& product) {

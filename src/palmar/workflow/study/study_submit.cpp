@@ -6,7 +6,7 @@
 
 #include "palmar/formats/file.h"
 #include "palmar/records/study/study_file.h"
-#include "palmar/workflow/study.h"
+#include "palmar/workflow/study/study.h"
 
 namespace palmar {
 namespace {

@@ -10,7 +10,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/records/study/slurm_script.h"
 #include "palmar/study/study_plan.h"
-#include "palmar/workflow/note.h"
+#include "palmar/workflow/note/note.h"
 
 namespace palmar {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "palmar/grasp/grasp_settings.h"
+#include "palmar/grasp/find/grasp_settings.h"
 
 namespace palmar {
 

@@ -10,9 +10,9 @@
 
 #include "hands/capture/mri/bones/bone_pairing.h"
 #include "palmar/core/text.h"
+#include "palmar/hand/mirror.h"
 #include "palmar/hand/posture/posture_from_mesh.h"
 #include "palmar/hand/skin/skinning.h"
-#include "palmar/hand/template_hand.h"
 
 namespace palmar {
 namespace {

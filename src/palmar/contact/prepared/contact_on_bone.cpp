@@ -1,0 +1,311 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// What ContactSolver does where the tissue lies on bone (block_energy.h).
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "palmar/contact/prepared/contact_solver.h"
+#include "palmar/contact/prepared/contact_totals.h"
+#include "palmar/core/enum_index.h"
+
+namespace palmar {
+namespace {
+
+constexpr int kMostRounds = 60;
+constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modulus, for results
+// Accuracy of the solutions on the way, per relative change of the moduli: the last one's; in the
+// end; and at most, from nothing or from another posture.
+constexpr double kPerChange = 0.01, kPerSteadiness = 0.05, kRough = 1e-3;
+// Forces less exact than this look for skin that bulges into the product only at first: it is some
+// vertex in a thousand, and forces that count find it.
+constexpr double kExactForces = 1e-3;
+// Change of the moduli at which it is looked for skin that has come to touch skin.
+constexpr double kRoughStiffening = 0.05;
+
+}  // namespace
+
+/// Turns back to the reference posture, by the frames of normal and first edge at a vertex.
+Eigen::Matrix3d ContactSolver::Impl::to_reference(const SkinOnProduct& skin, int v) const {
+  const SkinGeometry& reference = prepared->skin;
+  const auto frame = [](const Vec3& normal, const Vec3& edge) {
+    Eigen::Matrix3d axes;
+    axes.col(0) = normal;
+    axes.col(1) = (edge - edge.dot(normal) * normal).normalized();
+    axes.col(2) = normal.cross(axes.col(1));
+    return axes;
+  };
+  const int next = reference.neighbours(v).front();
+  const Eigen::Matrix3d before =
+      frame(reference.normal[v], reference.position[next] - reference.position[v]);
+  const Eigen::Matrix3d posed = frame(skin.normal[v], (*undeformed_)[next] - (*undeformed_)[v]);
+  return before * posed.transpose();
+}
+
+/// The directions in which the product presses the skin, turned back with it.
+std::vector<Vec3> ContactSolver::Impl::reference_directions(
+    const SkinOnProduct& skin, const std::vector<int>& vertices) const {
+  std::vector<Vec3> result;
+  result.reserve(vertices.size());
+  for (const int v : vertices) {
+    result.emplace_back(to_reference(skin, v) * skin.sample[v].normal);
+  }
+  return result;
+}
+
+double ContactSolver::Impl::bone_root_modulus(TissueLevel level, const BlockRoots& roots,
+                                              int v) const {
+  return options.shear_modulus ? std::sqrt(*options.shear_modulus)
+                               : root_modulus(prepared->bone, level, roots, v);
+}
+
+void ContactSolver::Impl::set_bone_moduli(const BlockRoots& roots, SkinLoad& load) const {
+  load.root_modulus.resize(load.vertex.size());
+  load.shear_modulus.resize(load.vertex.size());
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    load.root_modulus[k] = bone_root_modulus(load.level, roots, load.vertex[k]);
+    load.shear_modulus[k] = load.root_modulus[k] * load.root_modulus[k];
+  }
+}
+
+std::vector<double> ContactSolver::Impl::skin_roots(TissueLevel level,
+                                                    const BlockRoots& roots) const {
+  std::vector<double> result(prepared->skin.position.size());
+  for (std::size_t v = 0; v < result.size(); ++v) {
+    result[v] = bone_root_modulus(level, roots, static_cast<int>(v));
+  }
+  return result;
+}
+
+/// With q = p / sqrt(G) the problem of given moduli reads C q + sqrt(G) d >= 0. The moduli follow
+/// from the work of the forces (block_energy.h): a fixed point (modulus_search.h), found in few
+/// rounds because the skin's displacements, and with them the energies at the modulus G0, hardly
+/// depend on the moduli. Rounds are solved no more exactly than the moduli are known. With
+/// `may_extend` skin that bulges into the product joins the problem on the way.
+bool ContactSolver::Impl::solve_on_bone(const SkinOnProduct& skin, SkinLoad& load, bool may_extend,
+                                        ContactResult& result) {
+  std::vector<double> b, displacement;
+  std::vector<double> was_root(prepared->skin.position.size(), 0.0);
+  if (load.force.size() != load.vertex.size()) load.force.assign(load.vertex.size(), 0.0);
+  const double steady = forces_only_ ? forces_accuracy_ : kSteadyStiffening;
+  const double finest = kPerSteadiness * steady;
+  double accuracy = std::max(kRough, finest);
+  bool is_new = true;
+  bool is_last = false;
+  // No skin bulged into the product when looked at last.
+  bool is_whole = !may_extend || (forces_only_ && steady > kExactForces && !was_in_contact.empty());
+  search_.begin();
+  for (int round = 0; round < kMostRounds; ++round) {
+    const BlockRoots roots(stiffening_);
+    set_bone_moduli(roots, load);
+    if (is_new) {
+      load.direction = reference_directions(skin, load.vertex);
+      loaded_->set(load.vertex, load.direction);
+      b.resize(load.vertex.size());
+      displacement.resize(b.size());
+      if (!on_self_->is_empty()) on_self_->join(load.vertex, load.direction);
+    }
+    if (is_new || !options.coatings.empty() || !on_self_->is_empty()) {
+      if (on_self_->is_empty()) {
+        system.assemble(loaded_->responses(), load.vertex);
+      } else {
+        system.assemble(on_self_->responses(loaded_->responses(), skin_roots(load.level, roots)),
+                        on_self_->rows(load.vertex));
+      }
+      set_coating(skin, load);
+      if (!coating_.diagonal.empty()) {
+        std::vector<double> diagonal = coating_.diagonal;
+        diagonal.resize(static_cast<std::size_t>(system.size()), 0.0);
+        system.add(diagonal, coating_.entries);
+      }
+    }
+    is_new = false;
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const int v = load.vertex[k];
+      const double root = load.root_modulus[k];
+      b[k] = root * skin.sample[v].distance;
+      // Tissue of another modulus, moved alike, has forces in proportion.
+      load.force[k] *= was_root[v] > 0.0 ? root / (was_root[v] * was_root[v]) : 1.0 / root;
+    }
+    if (!on_self_->is_empty()) on_self_->append(b, load.in_contact, load.force);
+    const ContactSystem::Outcome outcome =
+        system.solve(b, load.in_contact, load.force, load.gap,
+                     is_last ? ContactSystem::kBestAccuracy : accuracy);
+    if (!on_self_->is_empty()) on_self_->take_off(b, load.in_contact, load.force, load.gap);
+    result.iterations += outcome.pivots;
+    result.fallbacks += outcome.fallbacks;
+    if (!outcome.is_solved) return false;
+    double complementarity = on_self_->complementarity();
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const int v = load.vertex[k];
+      was_root[v] = load.root_modulus[k];
+      load.force[k] *= was_root[v];
+      load.gap[k] /= was_root[v];
+      complementarity = std::max(complementarity, std::abs(load.gap[k] * load.force[k]));
+      displacement[k] = load.gap[k] - skin.sample[v].distance;
+      if (!options.coatings.empty() && load.force[k] > 0.0) {
+        displacement[k] -= coating_displacement(skin, load, static_cast<std::size_t>(v));
+      }
+    }
+    double change = 0.0;
+    if (!options.shear_modulus && !is_last) {
+      const BlockStiffening next = next_stiffening(load, displacement);
+      for (std::size_t r = 0; r < next.size(); ++r) {
+        change = std::max(change, std::abs(next[r] / stiffening_[r] - 1.0));
+      }
+      stiffening_ = search_.next(stiffening_, next);
+    }
+    const bool is_steady = change < steady && accuracy <= finest;
+    accuracy = std::clamp(kPerChange * change, finest, std::max(kRough, finest));
+    if (may_extend && !is_last && change < kRoughStiffening && on_self_->may_grow() &&
+        on_self_->extend(load.vertex, load.direction, load.force, skin_roots(load.level, roots))) {
+      is_new = true;
+    }
+    const bool touches_more = is_new;
+    if (!is_whole && is_steady && !is_last) {
+      const std::vector<int> more = pressed_in_on_bone(skin, load, roots);
+      is_whole = more.empty();
+      if (!is_whole) {
+        extend(more, load);
+        is_new = true;
+      }
+    }
+    // Forces alone need no solution more exact than the moduli.
+    const bool is_done = is_steady && is_whole && !touches_more;
+    if (is_last || (is_done && forces_only_)) {
+      result.complementarity_error = std::max(result.complementarity_error, complementarity);
+      return true;
+    }
+    is_last = is_done;
+    if (round == kMostRounds - 2 && !is_last) {
+      ++result.fallbacks.stiffening_limits;
+      append_note(result.message, "the stiffening of the tissue is not steady after " +
+                                      std::to_string(kMostRounds) + " rounds");
+      is_last = true;
+    }
+  }
+  return true;
+}
+
+BlockStiffening ContactSolver::Impl::next_stiffening(
+    const SkinLoad& load, const std::vector<double>& displacement) const {
+  if (on_self_->is_empty()) {
+    return stiffening_of(prepared->bone, load.level, stiffening_, load.vertex, load.force,
+                         displacement);
+  }
+  std::vector<int> vertex = load.vertex;
+  std::vector<double> force = load.force;
+  std::vector<double> way = displacement;
+  on_self_->add_work(load.force, vertex, force, way);
+  return stiffening_of(prepared->bone, load.level, stiffening_, vertex, force, way);
+}
+
+/// Takes more vertices into a load, in contact.
+void ContactSolver::Impl::extend(const std::vector<int>& more, SkinLoad& load) const {
+  SkinLoad larger;
+  larger.level = load.level;
+  std::size_t k = 0;
+  std::size_t m = 0;
+  while (k < load.vertex.size() || m < more.size()) {
+    const bool is_old = m == more.size() || (k < load.vertex.size() && load.vertex[k] < more[m]);
+    larger.vertex.push_back(is_old ? load.vertex[k] : more[m]);
+    larger.force.push_back(is_old ? load.force[k] : 0.0);
+    larger.in_contact.push_back(is_old ? load.in_contact[k] : 1);
+    ++(is_old ? k : m);
+  }
+  larger.gap.assign(larger.vertex.size(), 0.0);
+  larger.depth.assign(larger.vertex.size(), 0.0);
+  load = std::move(larger);
+}
+
+std::vector<int> ContactSolver::Impl::pressed_in_on_bone(const SkinOnProduct& skin,
+                                                         const SkinLoad& load,
+                                                         const BlockRoots& roots) const {
+  std::vector<char> is_known(skin.sample.size(), 0);
+  for (const int v : load.vertex) is_known[v] = 1;
+  std::vector<int> near;
+  for (const int v : skin.near) {
+    const double d = skin.sample[v].distance;
+    if (!is_known[v] && d >= 0.0 && d < kBulgeRange) near.push_back(v);
+  }
+  std::vector<double> share(load.force);
+  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[k];
+  const std::vector<Vec3> direction = reference_directions(skin, near);
+  const std::vector<double> moved = loaded_->displacement(share, near, direction);
+  std::vector<Vec3> by_skin;
+  if (!on_self_->is_empty()) by_skin = on_self_->reference_displacement(near);
+  std::vector<int> result;
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const auto v = static_cast<std::size_t>(near[k]);
+    double gap = skin.sample[v].distance + moved[k] / bone_root_modulus(load.level, roots, near[k]);
+    if (!by_skin.empty()) gap += by_skin[k].dot(direction[k]);
+    if (!options.coatings.empty()) gap += coating_displacement(skin, load, v);
+    if (gap < 0.0) result.push_back(near[k]);
+  }
+  return result;
+}
+
+/// The skin around the contact as the solution has it, along its own normals.
+void ContactSolver::Impl::displace_on_bone(const SkinOnProduct& skin, const SkinLoad& load,
+                                           SkinDisplacement& u) const {
+  std::vector<char> is_known(skin.sample.size(), 0);
+  for (const int v : load.vertex) is_known[v] = 1;
+  std::vector<int> around;
+  std::vector<Vec3> inwards;
+  const BlockRoots roots(stiffening_);
+  for (std::size_t v = 0; v < is_known.size(); ++v) {
+    if (is_known[v] || !u.is_active[v]) continue;
+    around.push_back(static_cast<int>(v));
+    inwards.emplace_back(-prepared->skin.normal[v]);
+  }
+  std::vector<double> share(load.force);
+  for (std::size_t k = 0; k < share.size(); ++k) share[k] /= load.root_modulus[k];
+  const std::vector<double> moved = loaded_->displacement(share, around, inwards);
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    const int v = around[k];
+    u.elastic[v] = moved[k] / bone_root_modulus(load.level, roots, v);
+    u.with_bulge[v] = std::max(u.elastic[v], -skin.sample[v].distance);
+  }
+}
+
+/// With the forces q = p / sqrt(G): A q = -sqrt(G) d and F = sum sqrt(G_i) q_i. With y of
+/// A_FF y = sqrt(G), dF / d ln G_i = 1/2 (p_i - y_i sqrt(G_i) d_i), the stiffening held.
+std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_modulus_on_bone(
+    const SkinOnProduct& skin, const SkinLoad& load) {
+  const std::vector<double>& root = load.root_modulus;
+  std::vector<double> right = root;  // of skin on skin, which adds nothing to F, zero
+  right.resize(static_cast<std::size_t>(system.size()), 0.0);
+  const auto y = system.solve_on(on_self_->with_contact(load.in_contact), right);
+  if (!y) return std::nullopt;
+  std::array<double, kRegionCount> result{};
+  if (!on_self_->is_empty()) {
+    std::vector<double> q(load.force);
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] /= root[k];
+    on_self_->add_slopes(q, *y, prepared->hand->region, result);
+  }
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    const int v = load.vertex[k];
+    result[index_of(prepared->hand->region[v])] +=
+        0.5 * (load.force[k] - (*y)[k] * root[k] * skin.sample[v].distance);
+  }
+  // A cover's own compliance stands in A times the roots of both moduli.
+  const auto region_of = [&](std::size_t k) {
+    return index_of(prepared->hand->region[load.vertex[k]]);
+  };
+  for (std::size_t k = 0; k < coating_.diagonal.size(); ++k) {
+    result[region_of(k)] -= (*y)[k] * coating_.diagonal[k] * load.force[k] / root[k];
+  }
+  for (const ContactSystem::Entry& entry : coating_.entries) {
+    const auto i = static_cast<std::size_t>(entry.row);
+    const auto j = static_cast<std::size_t>(entry.column);
+    const double both =
+        0.5 * entry.value * ((*y)[i] * load.force[j] / root[j] + (*y)[j] * load.force[i] / root[i]);
+    result[region_of(i)] -= both;
+    result[region_of(j)] -= both;
+  }
+  return result;
+}
+
+}  // namespace palmar
