@@ -109,6 +109,8 @@ set(palmar_once "")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(palmar_computes $<$<CONFIG:Release>:-O3>)
   set(palmar_once $<$<CONFIG:Release>:-O1>)
+else()
+  set(palmar_once $<$<CONFIG:Release>:-O0>)
 endif()
 
 if(PALMAR_PRECOMPILE)

@@ -160,11 +160,11 @@ class LatticeBuilder {
   }
   // vertex() makes vertices, and compilers differ in the order in which they evaluate arguments: it is
   // said here, so that all number them alike.
-  void add_corners(const Place& p, const Place& q, const Place& r, int apex) {
+  void add_corners(const LatticePlace& p, const LatticePlace& q, const LatticePlace& r, int apex) {
     const int c = vertex(r), b = vertex(q), a = vertex(p);
     add(a, b, c, apex);
   }
-  void add_edge(int own, int opposite, const Place& p, const Place& q) {
+  void add_edge(int own, int opposite, const LatticePlace& p, const LatticePlace& q) {
     const int d = vertex(q), c = vertex(p);
     add(own, opposite, c, d);
   }
