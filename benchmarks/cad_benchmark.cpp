@@ -41,7 +41,8 @@ std::filesystem::path plate() {
     cut.SetTools(drills);
     cut.Build();
     const auto file = std::filesystem::temp_directory_path() / "palmar_cad_benchmark.step";
-    write_step(file, make_cad_model(TopExp_Explorer(cut.Shape(), TopAbs_SOLID).Current(), "plate"));
+    cad::write_step(
+        file, cad::make_cad_model(TopExp_Explorer(cut.Shape(), TopAbs_SOLID).Current(), "plate"));
     return file;
   }();
   return path;
@@ -50,8 +51,8 @@ std::filesystem::path plate() {
 void ReadAndTessellate(benchmark::State& state) {
   const auto path = plate();
   for (auto _ : state) {
-    const CadFile file = read_step(path);
-    const Tessellation mesh = tessellate(file.model);
+    const cad::CadFile file = cad::read_step(path);
+    const cad::Tessellation mesh = cad::tessellate(file.model);
     state.counters["faces"] = file.model.face_count();
     state.counters["triangles"] = mesh.mesh.triangle_count();
   }

@@ -35,36 +35,36 @@ namespace {
 
 using namespace palmar;
 
-std::shared_ptr<const Hand> template_hand;
+std::shared_ptr<const hand::Hand> template_hand;
 
 /// The grasp with its contact; made once.
 struct Case {
-  PreparedHand hand{template_hand};
-  Product product;
-  Rigid3 product_from_hand;
+  contact::PreparedHand hand{template_hand};
+  product::Product product;
+  geometry::Rigid3 product_from_hand;
   std::vector<Vec3> posed;  // hand frame
   std::vector<Vec3> at;     // product frame
-  ContactResult contact;
-  SkinOnProduct skin;
-  SkinLoad load;              // as solved
+  contact::ContactResult contact;
+  contact::SkinOnProduct skin;
+  contact::SkinLoad load;     // as solved
   std::vector<double> right;  // G d, MPa mm
   std::vector<int> loaded;
 
   Case() {
-    product.mesh = make_cylinder(
+    product.mesh = geometry::make_cylinder(
         {.radius = 24.0, .length = 150.0, .segments = 96, .rings = 20, .is_capped = true});
-    product.distance = std::make_shared<MeshDistance>(product.mesh);
-    const Grasp grasp = close_power_grasp(*template_hand, product);
+    product.distance = std::make_shared<geometry::MeshDistance>(product.mesh);
+    const grasp::Grasp grasp = grasp::close_power_grasp(*template_hand, product);
     product_from_hand = grasp.product_from_hand;
-    posed = pose_skin(*template_hand, grasp.posture);
+    posed = hand::pose_skin(*template_hand, grasp.posture);
     for (const Vec3& x : posed) at.push_back(product_from_hand * x);
-    contact = solve_hand_contact(hand, posed, product_from_hand, *product.distance);
-    skin = find_skin_on_product(*template_hand, at, *product.distance, std::nullopt);
+    contact = contact::solve_hand_contact(hand, posed, product_from_hand, *product.distance);
+    skin = contact::find_skin_on_product(*template_hand, at, *product.distance, std::nullopt);
     // The modulus of each region's deepest vertex stands for all of it: good enough for times.
     load.vertex = skin.collision;
     for (const int v : load.vertex) {
       double modulus = 0.05;  // MPa
-      for (const RegionContact& part : contact.regions) {
+      for (const contact::RegionContact& part : contact.regions) {
         if (part.region == template_hand->region[v]) modulus = part.shear_modulus;
       }
       const double force = contact.force[v];
@@ -84,15 +84,16 @@ const Case& grasp_case() {
 }
 
 void prepare(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(PreparedHand(template_hand));
+  for (auto _ : state) benchmark::DoNotOptimize(contact::PreparedHand(template_hand));
 }
 BENCHMARK(prepare)->Unit(benchmark::kMillisecond);
 
 void whole_grasp(benchmark::State& state) {
   const Case& c = grasp_case();
-  ContactResult contact;
+  contact::ContactResult contact;
   for (auto _ : state) {
-    contact = solve_hand_contact(c.hand, c.posed, c.product_from_hand, *c.product.distance);
+    contact =
+        contact::solve_hand_contact(c.hand, c.posed, c.product_from_hand, *c.product.distance);
   }
   state.counters["force_n"] = contact.total.force;
   state.counters["area_mm2"] = contact.total.area;
@@ -104,7 +105,7 @@ void step_sampling(benchmark::State& state) {
   const Case& c = grasp_case();
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        find_skin_on_product(*template_hand, c.at, *c.product.distance, std::nullopt));
+        contact::find_skin_on_product(*template_hand, c.at, *c.product.distance, std::nullopt));
   }
   state.counters["near"] = static_cast<double>(c.skin.near.size());
 }
@@ -112,7 +113,7 @@ BENCHMARK(step_sampling)->Unit(benchmark::kMillisecond);
 
 void step_assembling(benchmark::State& state) {
   const Case& c = grasp_case();
-  ContactSystem system(c.hand.impl().blocks);
+  contact::ContactSystem system(c.hand.impl().blocks);
   for (auto _ : state) system.assemble(c.hand.impl().response, c.load.vertex, nullptr);
   state.counters["unknowns"] = system.size();
   state.counters["entries"] = static_cast<double>(system.entry_count());
@@ -123,9 +124,9 @@ BENCHMARK(step_assembling)->Unit(benchmark::kMillisecond);
 /// the answer (1).
 void step_solving(benchmark::State& state) {
   const Case& c = grasp_case();
-  ContactSystem system(c.hand.impl().blocks);
+  contact::ContactSystem system(c.hand.impl().blocks);
   system.assemble(c.hand.impl().response, c.load.vertex, nullptr);
-  ContactSystem::Outcome outcome;
+  contact::ContactSystem::Outcome outcome;
   for (auto _ : state) {
     std::vector<char> in_contact = c.load.in_contact;
     std::vector<double> force, gap;
@@ -143,20 +144,21 @@ BENCHMARK(step_solving)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 void step_displacement(benchmark::State& state) {
   const Case& c = grasp_case();
   for (auto _ : state) {
-    const std::vector<LoadedPart> parts = loaded_parts(c.hand.impl(), c.load);
-    benchmark::DoNotOptimize(skin_displacement(c.hand.impl(), c.skin, c.load, parts, true));
+    const std::vector<contact::LoadedPart> parts = contact::loaded_parts(c.hand.impl(), c.load);
+    benchmark::DoNotOptimize(
+        contact::skin_displacement(c.hand.impl(), c.skin, c.load, parts, true));
   }
 }
 BENCHMARK(step_displacement)->Unit(benchmark::kMillisecond);
 
 void step_deforming(benchmark::State& state) {
   const Case& c = grasp_case();
-  const SkinDisplacement u =
-      skin_displacement(c.hand.impl(), c.skin, c.load, loaded_parts(c.hand.impl(), c.load), true);
-  ContactResult contact = c.contact;
+  const contact::SkinDisplacement u = contact::skin_displacement(
+      c.hand.impl(), c.skin, c.load, contact::loaded_parts(c.hand.impl(), c.load), true);
+  contact::ContactResult contact = c.contact;
   for (auto _ : state) {
     contact.displacement = u.with_bulge;
-    deform_skin(c.hand.impl().skin, c.skin, *c.product.distance, u.is_active, {}, contact);
+    contact::deform_skin(c.hand.impl().skin, c.skin, *c.product.distance, u.is_active, {}, contact);
   }
 }
 BENCHMARK(step_deforming)->Unit(benchmark::kMillisecond);
@@ -169,12 +171,13 @@ void step_totals(benchmark::State& state) {
   for (std::size_t k = 0; k < c.load.vertex.size(); ++k) {
     modulus[static_cast<std::size_t>(c.load.vertex[k])] = c.load.shear_modulus[k];
   }
-  ContactResult contact = c.contact;
+  contact::ContactResult contact = c.contact;
   for (auto _ : state) {
     contact.regions.clear();
     contact.total = {};
-    const SkinGeometry pressed = pressed_skin(c.hand.impl(), c.skin, c.at);
-    add_totals(c.hand.impl(), c.skin, pressed, gap, modulus, {}, {}, kUsualCellArea, contact);
+    const contact::SkinGeometry pressed = contact::pressed_skin(c.hand.impl(), c.skin, c.at);
+    contact::add_totals(c.hand.impl(), c.skin, pressed, gap, modulus, {}, {},
+                        contact::kUsualCellArea, contact);
   }
 }
 BENCHMARK(step_totals)->Unit(benchmark::kMillisecond);
@@ -184,7 +187,7 @@ BENCHMARK(step_totals)->Unit(benchmark::kMillisecond);
 void bound(benchmark::State& state) {
   const Case& c = grasp_case();
   const Eigen::MatrixXd exact =
-      dense_response(c.hand.impl().response, c.loaded, template_hand->region, true);
+      contact::dense_response(c.hand.impl().response, c.loaded, template_hand->region, true);
   Eigen::MatrixXf matrix = exact.cast<float>();
   matrix.diagonal() *= 2.0F;  // so that it can be factorised whatever its far entries are
   for (auto _ : state) {
@@ -213,10 +216,10 @@ void closing_motion(benchmark::State& state) {
       x += kStep * (kSteps - k) * from_axis.normalized();
     }
   }
-  ContactResult contact;
+  contact::ContactResult contact;
   std::vector<double> force;
   for (auto _ : state) {
-    ContactSolver solver(c.hand);
+    contact::ContactSolver solver(c.hand);
     force.clear();
     for (const std::vector<Vec3>& skin : motion) {
       solver.solve(skin, {}, *c.product.distance, contact);
@@ -253,7 +256,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   set_thread_count(1);
-  template_hand = std::make_shared<const Hand>(build_template(read_hand_asset(argv[1])));
+  template_hand =
+      std::make_shared<const hand::Hand>(hand::build_template(records::read_hand_asset(argv[1])));
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

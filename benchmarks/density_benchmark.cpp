@@ -70,24 +70,24 @@ double peak_memory() {
   return 0.0;
 }
 
-Row measure(const HandAsset& asset, double edge_length, const Grasp& grasp,
-            const DistanceField& product) {
-  TemplateOptions options;
+Row measure(const hand::HandAsset& asset, double edge_length, const grasp::Grasp& grasp,
+            const geometry::DistanceField& product) {
+  hand::TemplateOptions options;
   options.edge_length = edge_length;
-  const auto hand = std::make_shared<const Hand>(build_template(asset, options));
-  const std::vector<Vec3> posed = pose_skin(*hand, grasp.posture);
+  const auto hand = std::make_shared<const hand::Hand>(hand::build_template(asset, options));
+  const std::vector<Vec3> posed = hand::pose_skin(*hand, grasp.posture);
   Row row;
   row.edge_length = edge_length;
   row.vertices = hand->skin.vertex_count();
   forget_peak_memory();
-  std::unique_ptr<PreparedHand> prepared;
-  row.prepare = seconds(1, [&] { prepared = std::make_unique<PreparedHand>(hand); });
-  ContactResult contact;
+  std::unique_ptr<contact::PreparedHand> prepared;
+  row.prepare = seconds(1, [&] { prepared = std::make_unique<contact::PreparedHand>(hand); });
+  contact::ContactResult contact;
   const int runs = row.vertices > 20000 ? 3 : 8;
   row.contact = seconds(runs, [&] {
-    contact = solve_hand_contact(*prepared, posed, grasp.product_from_hand, product);
+    contact = contact::solve_hand_contact(*prepared, posed, grasp.product_from_hand, product);
   });
-  ContactSolver solver(*prepared);
+  contact::ContactSolver solver(*prepared);
   solver.solve(posed, grasp.product_from_hand, product, contact);
   row.motion =
       seconds(runs, [&] { solver.solve(posed, grasp.product_from_hand, product, contact); });
@@ -115,12 +115,12 @@ int main(int argc, char** argv) {
   std::vector<double> edges = {4.5, 3.2, 2.3, 1.6, 1.1};
   if (argc > 2) edges.clear();
   for (int i = 2; i < argc; ++i) edges.push_back(std::stod(argv[i]));
-  const HandAsset asset = read_hand_asset(argv[1]);
-  Product product;
-  product.mesh = make_cylinder(
+  const hand::HandAsset asset = records::read_hand_asset(argv[1]);
+  product::Product product;
+  product.mesh = geometry::make_cylinder(
       {.radius = 24.0, .length = 150.0, .segments = 96, .rings = 20, .is_capped = true});
-  product.distance = std::make_shared<MeshDistance>(product.mesh);
-  const Grasp grasp = close_power_grasp(build_template(asset), product);
+  product.distance = std::make_shared<geometry::MeshDistance>(product.mesh);
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand::build_template(asset), product);
 
   std::printf(
       "edge_mm vertices loaded force_n prepare_s contact_ms motion_ms peak_mb "

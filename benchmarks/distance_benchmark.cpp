@@ -25,12 +25,12 @@ constexpr double kRange = 15.0;  // mm
 
 /// A closed handle of about 50 x 60 x 150 mm with waves along it; `rings` bands of 4/3 `rings`
 /// segments.
-TriangleMesh bumpy_handle(int rings, bool is_open) {
-  TriangleMesh mesh = make_cylinder({.radius = 24.0,
-                                     .length = 150.0,
-                                     .segments = 4 * rings / 3,
-                                     .rings = rings,
-                                     .is_capped = !is_open});
+geometry::TriangleMesh bumpy_handle(int rings, bool is_open) {
+  geometry::TriangleMesh mesh = geometry::make_cylinder({.radius = 24.0,
+                                                         .length = 150.0,
+                                                         .segments = 4 * rings / 3,
+                                                         .rings = rings,
+                                                         .is_capped = !is_open});
   for (Vec3& x : mesh.vertices) {
     const double wave = 1.0 + 0.12 * std::sin(x.z() / 75.0 * 3.0 * std::numbers::pi) +
                         0.05 * std::cos(4.0 * std::atan2(x.y(), x.x()));
@@ -40,7 +40,7 @@ TriangleMesh bumpy_handle(int rings, bool is_open) {
   return mesh;
 }
 
-std::vector<Vec3> points_near(const TriangleMesh& mesh, int count) {
+std::vector<Vec3> points_near(const geometry::TriangleMesh& mesh, int count) {
   std::mt19937 generator(1);
   const auto uniform = [&] { return static_cast<double>(generator()) / 4294967296.0; };
   std::vector<Vec3> points;
@@ -57,10 +57,11 @@ std::vector<Vec3> points_near(const TriangleMesh& mesh, int count) {
 /// Argument 0: rings of the handle; 250 give 200 000 triangles. Argument 1: 1 if open.
 void signed_distance(benchmark::State& state) {
   set_thread_count(1);
-  const TriangleMesh mesh = bumpy_handle(static_cast<int>(state.range(0)), state.range(1) == 1);
-  const MeshDistance field(mesh);
+  const geometry::TriangleMesh mesh =
+      bumpy_handle(static_cast<int>(state.range(0)), state.range(1) == 1);
+  const geometry::MeshDistance field(mesh);
   const auto points = points_near(mesh, 10000);
-  std::vector<DistanceSample> samples(points.size());
+  std::vector<geometry::DistanceSample> samples(points.size());
   for (auto _ : state) {
     field.sample(points, kRange, samples);
     benchmark::DoNotOptimize(samples.data());
@@ -75,8 +76,8 @@ BENCHMARK(signed_distance)
     ->Unit(benchmark::kMillisecond);
 
 void closest_point(benchmark::State& state) {
-  const TriangleMesh mesh = bumpy_handle(250, false);
-  const ClosestPointQuery query(mesh);
+  const geometry::TriangleMesh mesh = bumpy_handle(250, false);
+  const geometry::ClosestPointQuery query(mesh);
   const auto points = points_near(mesh, 10000);
   for (auto _ : state) {
     for (const Vec3& p : points) benchmark::DoNotOptimize(query.closest(p, kRange));
@@ -85,8 +86,8 @@ void closest_point(benchmark::State& state) {
 BENCHMARK(closest_point)->Unit(benchmark::kMillisecond);
 
 void winding_number(benchmark::State& state) {
-  const TriangleMesh mesh = bumpy_handle(250, false);
-  const WindingNumber winding(mesh);
+  const geometry::TriangleMesh mesh = bumpy_handle(250, false);
+  const geometry::WindingNumber winding(mesh);
   const auto points = points_near(mesh, 10000);
   for (auto _ : state) {
     for (const Vec3& p : points) benchmark::DoNotOptimize(winding.at(p));
@@ -96,25 +97,25 @@ BENCHMARK(winding_number)->Unit(benchmark::kMillisecond);
 
 void build_mesh_distance(benchmark::State& state) {
   set_thread_count(1);
-  const TriangleMesh mesh = bumpy_handle(250, false);
-  for (auto _ : state) benchmark::DoNotOptimize(MeshDistance(mesh).is_closed());
+  const geometry::TriangleMesh mesh = bumpy_handle(250, false);
+  for (auto _ : state) benchmark::DoNotOptimize(geometry::MeshDistance(mesh).is_closed());
 }
 BENCHMARK(build_mesh_distance)->Unit(benchmark::kMillisecond);
 
 void build_grid(benchmark::State& state) {
   set_thread_count(1);
-  const auto field =
-      std::make_shared<const MeshDistance>(bumpy_handle(static_cast<int>(state.range(0)), false));
-  for (auto _ : state) benchmark::DoNotOptimize(GridDistance(field).spacing());
+  const auto field = std::make_shared<const geometry::MeshDistance>(
+      bumpy_handle(static_cast<int>(state.range(0)), false));
+  for (auto _ : state) benchmark::DoNotOptimize(geometry::GridDistance(field).spacing());
 }
 BENCHMARK(build_grid)->Arg(62)->Arg(250)->Unit(benchmark::kMillisecond);
 
 void grid_distance(benchmark::State& state) {
   set_thread_count(1);
-  const TriangleMesh mesh = bumpy_handle(62, false);
-  const GridDistance grid(std::make_shared<const MeshDistance>(mesh));
+  const geometry::TriangleMesh mesh = bumpy_handle(62, false);
+  const geometry::GridDistance grid(std::make_shared<const geometry::MeshDistance>(mesh));
   const auto points = points_near(mesh, 10000);
-  std::vector<DistanceSample> samples(points.size());
+  std::vector<geometry::DistanceSample> samples(points.size());
   for (auto _ : state) {
     grid.sample(points, 12.0, samples);
     benchmark::DoNotOptimize(samples.data());

@@ -22,18 +22,18 @@ int main(int argc, char** argv) {
     return 2;
   }
   palmar::set_thread_count(1);
-  const auto hand = std::make_shared<const palmar::Hand>(
-      palmar::build_template(palmar::read_hand_asset(argv[1])));
-  const palmar::PreparedHand prepared(hand);
-  palmar::CylinderProductOptions shape;
+  const auto hand = std::make_shared<const palmar::hand::Hand>(
+      palmar::hand::build_template(palmar::records::read_hand_asset(argv[1])));
+  const palmar::contact::PreparedHand prepared(hand);
+  palmar::product::CylinderProductOptions shape;
   shape.diameter = 50.0;
-  const palmar::Product product = palmar::make_cylinder_product(shape);
-  const palmar::Assessment held = palmar::assess(prepared, product);
+  const palmar::product::Product product = palmar::product::make_cylinder_product(shape);
+  const palmar::study::Assessment held = palmar::study::assess(prepared, product);
   benchmark::RegisterBenchmark("effort of a hand <= 5 ms", [&](benchmark::State& state) {
     for (auto _ : state) {
-      benchmark::DoNotOptimize(palmar::assess_effort(*hand, held.grasp.posture, held.contact,
-                                                     held.grasp.product_from_hand,
-                                                     *product.distance));
+      benchmark::DoNotOptimize(
+          palmar::effort::assess_effort(*hand, held.grasp.posture, held.contact,
+                                        held.grasp.product_from_hand, *product.distance));
     }
   })->Unit(benchmark::kMillisecond);
   benchmark::RunSpecifiedBenchmarks();

@@ -24,37 +24,37 @@
 
 namespace {
 
-palmar::Product cylinder(double diameter) {
-  palmar::CylinderProductOptions options;
+palmar::product::Product cylinder(double diameter) {
+  palmar::product::CylinderProductOptions options;
   options.diameter = diameter;
-  return palmar::make_cylinder_product(options);
+  return palmar::product::make_cylinder_product(options);
 }
 
 void find_sites(benchmark::State& state) {
-  const palmar::Product product = cylinder(static_cast<double>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(palmar::find_grip_sites(product.mesh));
+  const palmar::product::Product product = cylinder(static_cast<double>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(palmar::grasp::find_grip_sites(product.mesh));
   state.counters["triangles"] = product.mesh.triangle_count();
 }
 
 /// What a coming to rest took; the status as a label.
-void balance(benchmark::State& state, const palmar::PreparedHand& hand) {
-  const palmar::Product product = cylinder(static_cast<double>(state.range(0)));
-  const palmar::Grasp closed = palmar::find_grasp(hand.hand(), product);
-  palmar::Balance found;
+void balance(benchmark::State& state, const palmar::contact::PreparedHand& hand) {
+  const palmar::product::Product product = cylinder(static_cast<double>(state.range(0)));
+  const palmar::grasp::Grasp closed = palmar::grasp::find_grasp(hand.hand(), product);
+  palmar::grasp::Balance found;
   for (auto _ : state) {
-    palmar::Grasp grasp = closed;
-    found = palmar::balance_grasp(hand, product, grasp);
+    palmar::grasp::Grasp grasp = closed;
+    found = palmar::grasp::balance_grasp(hand, product, grasp);
   }
-  state.SetLabel(std::string(palmar::name_of(found.status)));
+  state.SetLabel(std::string(name_of(found.status)));
   state.counters["iterations"] = found.iterations;
 }
 
 /// assess() as the command runs it, without its report; ms of each part beside the whole.
-void assess_all(benchmark::State& state, const palmar::PreparedHand& hand) {
-  const palmar::Product product = cylinder(static_cast<double>(state.range(0)));
-  palmar::AssessTimes sum;
+void assess_all(benchmark::State& state, const palmar::contact::PreparedHand& hand) {
+  const palmar::product::Product product = cylinder(static_cast<double>(state.range(0)));
+  palmar::study::AssessTimes sum;
   for (auto _ : state) {
-    const palmar::AssessTimes times = palmar::assess(hand, product).times;
+    const palmar::study::AssessTimes times = palmar::study::assess(hand, product).times;
     sum.grasp += times.grasp;
     sum.balance += times.balance;
     sum.contact += times.contact;
@@ -67,12 +67,13 @@ void assess_all(benchmark::State& state, const palmar::PreparedHand& hand) {
   state.counters["indices"] = per_run * sum.indices;
 }
 
-void search(benchmark::State& state, const palmar::Hand& hand, const palmar::Product& product) {
-  palmar::PowerGraspOptions options;
+void search(benchmark::State& state, const palmar::hand::Hand& hand,
+            const palmar::product::Product& product) {
+  palmar::grasp::PowerGraspOptions options;
   options.candidates = static_cast<int>(state.range(0));
-  palmar::Grasp grasp;
-  for (auto _ : state) grasp = palmar::close_power_grasp(hand, product, options);
-  state.SetLabel(palmar::name_of(grasp.status));
+  palmar::grasp::Grasp grasp;
+  for (auto _ : state) grasp = palmar::grasp::close_power_grasp(hand, product, options);
+  state.SetLabel(name_of(grasp.status));
   state.counters["tried"] = grasp.candidates;
 }
 
@@ -86,37 +87,38 @@ int main(int argc, char** argv) {
     return 2;
   }
   palmar::set_thread_count(1);
-  const auto shared = std::make_shared<const palmar::Hand>(
-      palmar::build_template(palmar::read_hand_asset(argv[1])));
-  const palmar::Hand& hand = *shared;
-  const palmar::PreparedHand prepared(shared);
+  const auto shared = std::make_shared<const palmar::hand::Hand>(
+      palmar::hand::build_template(palmar::records::read_hand_asset(argv[1])));
+  const palmar::hand::Hand& hand = *shared;
+  const palmar::contact::PreparedHand prepared(shared);
   benchmark::RegisterBenchmark("find_sites", find_sites)->Arg(35)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark(
       "power_grasp",
       [&hand](benchmark::State& state) {
-        const palmar::Product product = cylinder(static_cast<double>(state.range(0)));
+        const palmar::product::Product product = cylinder(static_cast<double>(state.range(0)));
         for (auto _ : state) {
-          benchmark::DoNotOptimize(palmar::close_power_grasp(hand, product));
+          benchmark::DoNotOptimize(palmar::grasp::close_power_grasp(hand, product));
         }
       })
       ->Arg(35)
       ->Arg(60)
       ->Arg(100)
       ->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark(
-      "power grasp with contact <= 0.25 s",
-      [&prepared](benchmark::State& state) {
-        const palmar::Product product = cylinder(static_cast<double>(state.range(0)));
-        palmar::AssessOptions options;
-        options.balance.is_on = false;
-        double seconds = 0.0;
-        for (auto _ : state) {
-          const palmar::Assessment result = palmar::assess(prepared, product, options);
-          seconds += result.times.grasp + result.times.contact;
-        }
-        state.counters["share of the goal"] =
-            seconds / static_cast<double>(state.iterations()) / 0.25;
-      })
+  benchmark::RegisterBenchmark("power grasp with contact <= 0.25 s",
+                               [&prepared](benchmark::State& state) {
+                                 const palmar::product::Product product =
+                                     cylinder(static_cast<double>(state.range(0)));
+                                 palmar::study::AssessOptions options;
+                                 options.balance.is_on = false;
+                                 double seconds = 0.0;
+                                 for (auto _ : state) {
+                                   const palmar::study::Assessment result =
+                                       palmar::study::assess(prepared, product, options);
+                                   seconds += result.times.grasp + result.times.contact;
+                                 }
+                                 state.counters["share of the goal"] =
+                                     seconds / static_cast<double>(state.iterations()) / 0.25;
+                               })
       ->Arg(35)
       ->Arg(60)
       ->Arg(100)
@@ -134,8 +136,9 @@ int main(int argc, char** argv) {
       ->Arg(48)
       ->Arg(60)
       ->Unit(benchmark::kMillisecond);
-  const palmar::Product product =
-      argc == 3 ? palmar::load_product(argv[2], {.unit = palmar::LengthUnit::kMillimetre})
+  const palmar::product::Product product =
+      argc == 3 ? palmar::records::load_product(argv[2],
+                                                {.unit = palmar::geometry::LengthUnit::kMillimetre})
                 : cylinder(48.0);
   benchmark::RegisterBenchmark("placement search <= 5 s",
                                [&](benchmark::State& state) { search(state, hand, product); })

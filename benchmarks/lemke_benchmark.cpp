@@ -34,26 +34,26 @@ using namespace palmar;
 
 struct Block {
   std::string region;
-  ContactProblem problem;
+  contact::ContactProblem problem;
 };
 
 /// The contact problems of a solved grasp. Sub-active regions as Xie 2014 poses them (A3, A4): the
 /// penetrating skin of a region with its neighbourhood; or the penetrating skin alone, which is
 /// what solve_hand_contact() solves.
-std::vector<Block> blocks_of(const PreparedHand& prepared, const ContactResult& contact,
-                             bool with_neighbourhood) {
-  const PreparedHand::Impl& impl = prepared.impl();
+std::vector<Block> blocks_of(const contact::PreparedHand& prepared,
+                             const contact::ContactResult& contact, bool with_neighbourhood) {
+  const contact::PreparedHand::Impl& impl = prepared.impl();
   std::vector<int> penetrating;
   for (std::size_t v = 0; v < contact.distance.size(); ++v) {
     if (contact.distance[v] < 0.0) penetrating.push_back(static_cast<int>(v));
   }
   std::vector<Block> blocks;
-  for (const RegionContact& part : contact.regions) {
-    if (part.region == Region::kDorsum) continue;
+  for (const contact::RegionContact& part : contact.regions) {
+    if (part.region == hand::Region::kDorsum) continue;
     std::vector<int> columns;
     std::vector<double> distance;
     const double reach = with_neighbourhood ? impl.tissue(part.region).neighbourhood : 0.0;
-    for (const GrownVertex& g : grow(impl.skin, penetrating, reach)) {
+    for (const contact::GrownVertex& g : contact::grow(impl.skin, penetrating, reach)) {
       if (impl.hand->region[g.vertex] != part.region) continue;
       columns.push_back(g.vertex);
       distance.push_back(contact.distance[g.vertex]);
@@ -61,7 +61,8 @@ std::vector<Block> blocks_of(const PreparedHand& prepared, const ContactResult& 
     Block& block = blocks.emplace_back();
     block.region = std::string(name_of(part.region));
     block.problem.response =
-        dense_response(impl.response, columns, impl.hand->region, false) / part.shear_modulus;
+        contact::dense_response(impl.response, columns, impl.hand->region, false) /
+        part.shear_modulus;
     block.problem.distance = Eigen::Map<const Eigen::VectorXd>(
         distance.data(), static_cast<Eigen::Index>(distance.size()));
   }
@@ -87,10 +88,10 @@ void compare(const std::vector<Block>& blocks) {
   double ours_all = 0.0;
   double lemke_all = 0.0;
   for (const Block& block : blocks) {
-    const ContactSolution ours = solve_contact(block.problem);
-    const ContactSolution lemke = solve_contact_lemke(block.problem);
-    const double ours_ms = milliseconds(40, [&] { solve_contact(block.problem); });
-    const double lemke_ms = milliseconds(15, [&] { solve_contact_lemke(block.problem); });
+    const contact::ContactSolution ours = contact::solve_contact(block.problem);
+    const contact::ContactSolution lemke = contact::solve_contact_lemke(block.problem);
+    const double ours_ms = milliseconds(40, [&] { contact::solve_contact(block.problem); });
+    const double lemke_ms = milliseconds(15, [&] { contact::solve_contact_lemke(block.problem); });
     ours_all += ours_ms;
     lemke_all += lemke_ms;
     std::cout << std::left << std::setw(18) << block.region << std::right << std::setw(8)
@@ -106,8 +107,9 @@ void compare(const std::vector<Block>& blocks) {
 }
 
 /// The penetrating skin of the whole hand as one problem, as regions together pose it.
-void compare_whole_hand(const PreparedHand& prepared, const ContactResult& contact) {
-  const PreparedHand::Impl& impl = prepared.impl();
+void compare_whole_hand(const contact::PreparedHand& prepared,
+                        const contact::ContactResult& contact) {
+  const contact::PreparedHand::Impl& impl = prepared.impl();
   std::vector<int> vertices;
   std::vector<double> b;
   std::vector<char> start;
@@ -115,7 +117,7 @@ void compare_whole_hand(const PreparedHand& prepared, const ContactResult& conta
     if (contact.distance[v] >= 0.0) continue;
     double modulus = 0.05;  // MPa
     double deepest = 4.0;   // mm
-    for (const RegionContact& part : contact.regions) {
+    for (const contact::RegionContact& part : contact.regions) {
       if (part.region != impl.hand->region[v]) continue;
       modulus = part.shear_modulus;
       deepest = part.max_penetration;
@@ -124,21 +126,21 @@ void compare_whole_hand(const PreparedHand& prepared, const ContactResult& conta
     b.push_back(modulus * contact.distance[v]);
     start.push_back(contact.distance[v] < -0.5 * deepest);
   }
-  ContactProblem problem;
-  problem.response = dense_response(impl.response, vertices, impl.hand->region, true);
+  contact::ContactProblem problem;
+  problem.response = contact::dense_response(impl.response, vertices, impl.hand->region, true);
   problem.distance =
       Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size()));
   std::vector<double> force, gap;
   const double ours_ms = milliseconds(10, [&] {
-    ContactSystem system(impl.blocks);
+    contact::ContactSystem system(impl.blocks);
     system.assemble(impl.response, vertices, nullptr);
     std::vector<char> in_contact = start;
     force.clear();
     system.solve(b, in_contact, force, gap);
   });
-  const ContactSolution lemke = solve_contact_lemke(problem);
+  const contact::ContactSolution lemke = contact::solve_contact_lemke(problem);
   const std::clock_t before = std::clock();
-  solve_contact_lemke(problem);
+  contact::solve_contact_lemke(problem);
   const double lemke_ms =
       1e3 * static_cast<double>(std::clock() - before) / static_cast<double>(CLOCKS_PER_SEC);
   double difference = 0.0;
@@ -161,22 +163,24 @@ int main(int argc, char** argv) {
     return 2;
   }
   set_thread_count(1);
-  const auto hand = std::make_shared<const Hand>(build_template(read_hand_asset(argv[1])));
-  const PreparedHand prepared(hand, {.coupling = RegionCoupling::kIndependent});
-  Product product;
-  product.mesh = make_cylinder(
+  const auto hand =
+      std::make_shared<const hand::Hand>(hand::build_template(records::read_hand_asset(argv[1])));
+  const contact::PreparedHand prepared(hand, {.coupling = contact::RegionCoupling::kIndependent});
+  product::Product product;
+  product.mesh = geometry::make_cylinder(
       {.radius = 24.0, .length = 150.0, .segments = 96, .rings = 20, .is_capped = true});
-  product.distance = std::make_shared<MeshDistance>(product.mesh);
-  const Grasp grasp = close_power_grasp(*hand, product);
-  const ContactResult contact = solve_hand_contact(prepared, pose_skin(*hand, grasp.posture),
-                                                   grasp.product_from_hand, *product.distance);
+  product.distance = std::make_shared<geometry::MeshDistance>(product.mesh);
+  const grasp::Grasp grasp = grasp::close_power_grasp(*hand, product);
+  const contact::ContactResult contact = contact::solve_hand_contact(
+      prepared, hand::pose_skin(*hand, grasp.posture), grasp.product_from_hand, *product.distance);
 
   std::cout << "Sub-active regions with their neighbourhood:\n";
   compare(blocks_of(prepared, contact, true));
   std::cout << "Penetrating skin alone:\n";
   compare(blocks_of(prepared, contact, false));
-  const PreparedHand coupled(hand);
-  compare_whole_hand(coupled, solve_hand_contact(coupled, pose_skin(*hand, grasp.posture),
+  const contact::PreparedHand coupled(hand);
+  compare_whole_hand(coupled,
+                     contact::solve_hand_contact(coupled, hand::pose_skin(*hand, grasp.posture),
                                                  grasp.product_from_hand, *product.distance));
   return 0;
 }

@@ -28,10 +28,10 @@ constexpr int kSteps = 100;
 constexpr double kGripForce = 120.0;  // N, that of a firm grip
 
 /// Diameter 40 mm, length 130 mm, axis along z.
-palmar::TriangleMesh fine_cylinder(int triangles) {
+palmar::geometry::TriangleMesh fine_cylinder(int triangles) {
   const int around = static_cast<int>(std::lround(std::sqrt(0.6 * triangles)));
   const int along = triangles / 2 / around;
-  palmar::TriangleMesh mesh;
+  palmar::geometry::TriangleMesh mesh;
   for (int j = 0; j <= along; ++j) {
     for (int i = 0; i < around; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / around;
@@ -55,8 +55,8 @@ palmar::TriangleMesh fine_cylinder(int triangles) {
   return mesh;
 }
 
-palmar::LivePose step(const palmar::LivePose& start, int k) {
-  palmar::LivePose pose = start;
+palmar::workflow::LivePose step(const palmar::workflow::LivePose& start, int k) {
+  palmar::workflow::LivePose pose = start;
   const palmar::Vec3 way(1.5 * std::sin(0.06 * k), 0.0, 1.2 * std::sin(0.11 * k));
   const double turn = 3.0 * std::sin(0.05 * k) * std::numbers::pi / 180.0;
   pose.product_from_hand.translation += way;
@@ -70,10 +70,10 @@ struct Times {
 };
 
 template <typename Act>
-Times measure(const palmar::LivePose& start, const Act& act) {
+Times measure(const palmar::workflow::LivePose& start, const Act& act) {
   std::vector<double> all;
   for (int k = -10; k < kSteps; ++k) {
-    const palmar::LivePose pose = step(start, k + 10);
+    const palmar::workflow::LivePose pose = step(start, k + 10);
     const auto begin = std::chrono::steady_clock::now();
     act(pose);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
@@ -90,15 +90,15 @@ void print(const char* name, const Times& times) {
 }  // namespace
 
 int main() {
-  const auto product = std::make_shared<palmar::Product>(
-      palmar::make_product("cylinder", fine_cylinder(50000), {}, {}));
-  palmar::LiveHand hand = palmar::prepare_live_hand({});
-  palmar::LiveSession session(hand, product);
-  palmar::LiveTask task;
+  const auto product = std::make_shared<palmar::product::Product>(
+      palmar::product::make_product("cylinder", fine_cylinder(50000), {}, {}));
+  palmar::workflow::LiveHand hand = palmar::workflow::prepare_live_hand({});
+  palmar::workflow::LiveSession session(hand, product);
+  palmar::workflow::LiveTask task;
   task.rest.grip_force = kGripForce;
-  const palmar::AssessmentSet set = session.take_hold(1, task);
-  const palmar::Grasp& grasp = set.assessments.front().assessment.grasp;
-  const palmar::LivePose start{grasp.posture, grasp.product_from_hand};
+  const palmar::study::AssessmentSet set = session.take_hold(1, task);
+  const palmar::grasp::Grasp& grasp = set.assessments.front().assessment.grasp;
+  const palmar::workflow::LivePose start{grasp.posture, grasp.product_from_hand};
   std::printf("%zu vertices of skin, %d triangles, %.1f N\n", hand.hand->skin.vertices.size(),
               product->mesh.triangle_count(),
               set.assessments.front().assessment.contact.total.force);
@@ -109,18 +109,20 @@ int main() {
       std::chrono::steady_clock::now() - begin;
   std::printf("prepared in %.0f ms\n", prepared.count());
   double force = 0.0, reference_force = 0.0;
-  const Times moving = measure(
-      start, [&](const palmar::LivePose& pose) { force += session.move(pose).total.force; });
-  palmar::ContactSolver solver(*hand.prepared, {});
-  palmar::ContactResult contact;
-  const Times reference = measure(start, [&](const palmar::LivePose& pose) {
-    solver.solve(palmar::pose_skin(*hand.hand, pose.posture), pose.product_from_hand,
+  const Times moving = measure(start, [&](const palmar::workflow::LivePose& pose) {
+    force += session.move(pose).total.force;
+  });
+  palmar::contact::ContactSolver solver(*hand.prepared, {});
+  palmar::contact::ContactResult contact;
+  const Times reference = measure(start, [&](const palmar::workflow::LivePose& pose) {
+    solver.solve(palmar::hand::pose_skin(*hand.hand, pose.posture), pose.product_from_hand,
                  *product->distance, contact);
     reference_force += contact.total.force;
   });
-  palmar::MovingFootprint footprint(palmar::surface_for_moving(product->mesh, 120000));
+  palmar::contact::MovingFootprint footprint(
+      palmar::contact::surface_for_moving(product->mesh, 120000));
   std::size_t pressed = 0;
-  const Times on_product = measure(start, [&](const palmar::LivePose&) {
+  const Times on_product = measure(start, [&](const palmar::workflow::LivePose&) {
     pressed += footprint.under(*hand.hand, contact).vertex.size();
   });
   print("LiveSession::move", moving);

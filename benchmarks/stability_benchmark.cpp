@@ -32,17 +32,17 @@ namespace {
 double now() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Held {
-  palmar::Product product;
-  palmar::Assessment assessment;
+  palmar::product::Product product;
+  palmar::study::Assessment assessment;
   palmar::Vec3 centre;
 };
 
-Held hold_cylinder(const palmar::PreparedHand& hand, double diameter) {
-  palmar::CylinderProductOptions options;
+Held hold_cylinder(const palmar::contact::PreparedHand& hand, double diameter) {
+  palmar::product::CylinderProductOptions options;
   options.diameter = diameter;
-  Held held{palmar::make_cylinder_product(options), {}, {}};
-  held.assessment = palmar::assess(hand, held.product);
-  held.centre = palmar::centre_of_volume(held.product.mesh);
+  Held held{palmar::product::make_cylinder_product(options), {}, {}};
+  held.assessment = palmar::study::assess(hand, held.product);
+  held.centre = palmar::geometry::centre_of_volume(held.product.mesh);
   return held;
 }
 
@@ -52,7 +52,7 @@ struct WholeHull {
   int facets = 0;
 };
 
-WholeHull whole_hull(const palmar::PointGroups<6>& groups) {
+WholeHull whole_hull(const palmar::grasp::PointGroups<6>& groups) {
   std::vector<double> points;
   for (const auto& group : groups.group) {
     for (const auto& w : group) points.insert(points.end(), w.data(), w.data() + 6);
@@ -81,20 +81,20 @@ WholeHull whole_hull(const palmar::PointGroups<6>& groups) {
 #endif
 
 /// Prints both hulls; whether they agree.
-bool compare_hulls(const Held& held, const palmar::Hand& hand, int contacts) {
-  palmar::ReductionOptions reduction;
+bool compare_hulls(const Held& held, const palmar::hand::Hand& hand, int contacts) {
+  palmar::grasp::ReductionOptions reduction;
   reduction.max_contacts = contacts;
-  const auto reduced = palmar::reduce_contact(hand, held.assessment.contact, reduction);
-  const double scale = palmar::torque_scale_of(reduced, held.centre);
-  const auto groups = palmar::primitive_wrenches(reduced, held.centre, scale, {});
-  palmar::BodyOptions options;
+  const auto reduced = palmar::grasp::reduce_contact(hand, held.assessment.contact, reduction);
+  const double scale = palmar::grasp::torque_scale_of(reduced, held.centre);
+  const auto groups = palmar::grasp::primitive_wrenches(reduced, held.centre, scale, {});
+  palmar::grasp::BodyOptions options;
   options.max_volume_facets = 1'000'000;
   options.with_volume = false;
   const double start = now();
-  const auto distance = palmar::measure(groups, options);
+  const auto distance = palmar::grasp::measure(groups, options);
   const double middle = now();
   options.with_volume = true;
-  const auto ours = palmar::measure(groups, options);
+  const auto ours = palmar::grasp::measure(groups, options);
   const double end = now();
   std::printf("%2zu contacts: epsilon %.9f in %.1f ms; with volume %.9g (%d facets) in %.1f ms\n",
               reduced.size(), distance.distance, middle - start, ours.volume, ours.facets,
@@ -119,9 +119,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   palmar::set_thread_count(1);
-  const auto hand = std::make_shared<const palmar::Hand>(
-      palmar::build_template(palmar::read_hand_asset(argv[1])));
-  const palmar::PreparedHand prepared(hand);
+  const auto hand = std::make_shared<const palmar::hand::Hand>(
+      palmar::hand::build_template(palmar::records::read_hand_asset(argv[1])));
+  const palmar::contact::PreparedHand prepared(hand);
   bool agrees = true;
   for (const double diameter : {35.0, 51.0, 70.0}) {
     const auto held = std::make_shared<const Held>(hold_cylinder(prepared, diameter));
@@ -132,11 +132,11 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark(
         ("stability <= 50 ms/" + std::to_string(static_cast<int>(diameter))).c_str(),
         [held, hand](benchmark::State& state) {
-          palmar::StabilityOptions options;
-          options.load = palmar::ProductLoad{.weight = 10.0};
+          palmar::grasp::StabilityOptions options;
+          options.load = palmar::contact::ProductLoad{.weight = 10.0};
           for (auto _ : state) {
-            benchmark::DoNotOptimize(
-                palmar::assess_stability(*hand, held->assessment.contact, held->centre, options));
+            benchmark::DoNotOptimize(palmar::grasp::assess_stability(
+                *hand, held->assessment.contact, held->centre, options));
           }
         })
         ->Unit(benchmark::kMillisecond);

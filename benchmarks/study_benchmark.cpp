@@ -52,18 +52,19 @@ double processor_seconds() {
 }
 
 /// As a study sets them (study_task.cpp).
-AssessOptions study_options() {
-  AssessOptions options;
+study::AssessOptions study_options() {
+  study::AssessOptions options;
   options.footprint = false;
   options.balance.aim = 0.005;
   return options;
 }
 
 /// A study's share after the grasp is at rest: contact, indices and the map on the product.
-void judge_grasp(const PreparedHand& prepared, const Product& product, const Grasp& grasp,
-                 const Balance& balance) {
-  const Assessment found = evaluate(prepared, product, grasp, study_options(), {}, balance);
-  map_to_product(prepared.hand(), found.contact, product.mesh, 1000.0);
+void judge_grasp(const contact::PreparedHand& prepared, const product::Product& product,
+                 const grasp::Grasp& grasp, const grasp::Balance& balance) {
+  const study::Assessment found =
+      study::evaluate(prepared, product, grasp, study_options(), {}, balance);
+  contact::map_to_product(prepared.hand(), found.contact, product.mesh, 1000.0);
 }
 
 double median(std::vector<double> values) {
@@ -81,29 +82,30 @@ void row(const std::string& what, double ours, const char* unit,
   std::fflush(stdout);
 }
 
-Product prism(double fillet) {
-  PrismProductOptions options;
+product::Product prism(double fillet) {
+  product::PrismProductOptions options;
   options.width = options.depth = 35.0;
   options.fillet_radius = fillet;
-  return make_prism_product(options);
+  return product::make_prism_product(options);
 }
 
-Product cylinder(double diameter) {
-  CylinderProductOptions options;
+product::Product cylinder(double diameter) {
+  product::CylinderProductOptions options;
   options.diameter = diameter;
-  return make_cylinder_product(options);
+  return product::make_cylinder_product(options);
 }
 
 /// Hand k of 30: length and circumference on two rings about the mean, up to two standard
 /// deviations (Xie 2014: 184 +- 10.4 mm, 193 +- 14.0 mm).
-std::shared_ptr<const Hand> hand_number(int k, const Hand& base, const HandDimensions& mean) {
+std::shared_ptr<const hand::Hand> hand_number(int k, const hand::Hand& base,
+                                              const hand::HandDimensions& mean) {
   const double angle = 2.4 * k, radius = 0.4 + 1.6 * k / (kHands - 1);  // 2.4 rad: a sunflower
   const double length = 1.0 + radius * std::cos(angle) * 10.4 / 184.0;
   const double girth = 1.0 + radius * std::sin(angle) * 14.0 / 193.0;
-  return std::make_shared<const Hand>(
-      make_hand_instance(base,
-                         {{{DimensionKind::kHandLength}, length * mean.hand_length},
-                          {{DimensionKind::kHandCircumference}, girth * mean.hand_circumference}})
+  return std::make_shared<const hand::Hand>(
+      hand::make_hand_instance(
+          base, {{{hand::DimensionKind::kHandLength}, length * mean.hand_length},
+                 {{hand::DimensionKind::kHandCircumference}, girth * mean.hand_circumference}})
           .hand);
 }
 
@@ -116,28 +118,30 @@ int main(int argc, char** argv) {
     return 2;
   }
   set_thread_count(1);
-  const auto base = std::make_shared<const Hand>(build_template(read_hand_asset(argv[1])));
-  const HandDimensions mean = measure_hand(*base);
-  std::vector<Product> products = {cylinder(35.0), prism(3.0), prism(10.0)};
-  products.push_back(argc > 2 ? load_product(argv[2], {.unit = LengthUnit::kMillimetre})
-                              : cylinder(50.0));
+  const auto base =
+      std::make_shared<const hand::Hand>(hand::build_template(records::read_hand_asset(argv[1])));
+  const hand::HandDimensions mean = hand::measure_hand(*base);
+  std::vector<product::Product> products = {cylinder(35.0), prism(3.0), prism(10.0)};
+  products.push_back(
+      argc > 2 ? records::load_product(argv[2], {.unit = geometry::LengthUnit::kMillimetre})
+               : cylinder(50.0));
   std::printf("%-66s %9s %-3s %9s %6s\n", "one thread", "ours", "", "asked", "ratio");
 
-  std::optional<HandFamily> family;
+  std::optional<contact::HandFamily> family;
   row("family of hands, once", seconds_of([&] { family.emplace(base); }), "s");
   std::vector<double> made, full, quick;
   for (int k = 0; k < 5; ++k) {
-    std::shared_ptr<const Hand> hand;
+    std::shared_ptr<const hand::Hand> hand;
     made.push_back(seconds_of([&] { hand = hand_number(k, *base, mean); }));
-    full.push_back(seconds_of([&] { PreparedHand prepared(hand); }));
-    quick.push_back(seconds_of([&] { PreparedHand prepared(hand, *family); }));
+    full.push_back(seconds_of([&] { contact::PreparedHand prepared(hand); }));
+    quick.push_back(seconds_of([&] { contact::PreparedHand prepared(hand, *family); }));
   }
   row("a hand from its dimensions", median(made), "s");
   row("prepared in full", median(full), "s");
   row("prepared as one of its family", median(quick), "s", 0.12);
 
-  std::vector<GraspPlace> places;
-  for (const Product& product : products) {
+  std::vector<grasp::GraspPlace> places;
+  for (const product::Product& product : products) {
     row("place on " + product.name + ", once",
         seconds_of([&] { places.emplace_back(*base, product); }), "s");
   }
@@ -145,14 +149,15 @@ int main(int argc, char** argv) {
     std::vector<double> search, hold, rest, judge;
     for (int k = 0; k < 5; ++k) {
       const auto hand = hand_number(k, *base, mean);
-      const PreparedHand prepared(hand, *family);
-      const GraspingHand grasping(hand);
-      Grasp grasp;
-      search.push_back(seconds_of([&] { grasp = find_grasp(*hand, products[p]); }));
+      const contact::PreparedHand prepared(hand, *family);
+      const grasp::GraspingHand grasping(hand);
+      grasp::Grasp grasp;
+      search.push_back(seconds_of([&] { grasp = grasp::find_grasp(*hand, products[p]); }));
       hold.push_back(seconds_of([&] { grasp = places[p].hold(grasping); }));
-      Balance balance;
-      rest.push_back(seconds_of(
-          [&] { balance = balance_grasp(prepared, products[p], grasp, study_options().balance); }));
+      grasp::Balance balance;
+      rest.push_back(seconds_of([&] {
+        balance = grasp::balance_grasp(prepared, products[p], grasp, study_options().balance);
+      }));
       judge.push_back(seconds_of([&] { judge_grasp(prepared, products[p], grasp, balance); }));
     }
     const std::string& name = products[p].name;
@@ -166,12 +171,12 @@ int main(int argc, char** argv) {
     parallel_for(kHands, [&](int k) {
       run_isolated([&] {
         const auto hand = hand_number(k, *base, mean);
-        const PreparedHand prepared(hand, *family);
-        const GraspingHand grasping(hand);
+        const contact::PreparedHand prepared(hand, *family);
+        const grasp::GraspingHand grasping(hand);
         for (std::size_t p = 0; p < products.size(); ++p) {
-          Grasp grasp = places[p].hold(grasping);
-          const Balance balance =
-              balance_grasp(prepared, products[p], grasp, study_options().balance);
+          grasp::Grasp grasp = places[p].hold(grasping);
+          const grasp::Balance balance =
+              grasp::balance_grasp(prepared, products[p], grasp, study_options().balance);
           judge_grasp(prepared, products[p], grasp, balance);
         }
       });

@@ -72,20 +72,20 @@ class DiskWatch {
   std::thread thread_;
 };
 
-void scale(StudyRecord& record, double factor) {
+void scale(study::StudyRecord& record, double factor) {
   for (double* const value :
        {&record.force, &record.grip_force, &record.area, &record.peak_pressure,
         &record.peak_pressure_cells, &record.mean_pressure}) {
     *value *= factor;
   }
-  for (RegionRecord& region : record.regions) {
+  for (study::RegionRecord& region : record.regions) {
     for (double* const value : {&region.force, &region.area, &region.peak_pressure,
                                 &region.peak_pressure_cells, &region.mean_pressure}) {
       *value *= factor;
     }
   }
-  for (IndexRecord& index : record.indices) index.value *= factor;
-  for (SparseField* const field : {&record.skin_pressure, &record.product_pressure}) {
+  for (study::IndexRecord& index : record.indices) index.value *= factor;
+  for (study::SparseField* const field : {&record.skin_pressure, &record.product_pressure}) {
     for (float& value : field->value) value *= static_cast<float>(factor);
   }
 }
@@ -119,30 +119,32 @@ void print_command(const std::string& palmar, const std::vector<std::string>& wo
 int run(const std::string& palmar, const fs::path& small_path, int hands, const fs::path& folder) {
   fs::create_directories(folder);
   const fs::path path = folder / "large.palmar";
-  const StudyStore small(small_path);
-  StudyPlan plan = small.plan();
-  const StudyPlan before = plan;
-  StudyPopulation& drawn = plan.populations.front();
+  const records::StudyStore small(small_path);
+  study::StudyPlan plan = small.plan();
+  const study::StudyPlan before = plan;
+  study::StudyPopulation& drawn = plan.populations.front();
   drawn.sampling.hands = hands;
   plan.populations.resize(1);
   plan.hands.clear();
-  for (HandSample& sample : sample_hands(drawn.population, drawn.sampling)) {
+  for (population::HandSample& sample :
+       population::sample_hands(drawn.population, drawn.sampling)) {
     plan.hands.push_back({0, std::move(sample)});
   }
-  std::vector<StudyRecord> known;
-  small.for_each(true, [&](const StudyRecord& record) { known.push_back(record); });
+  std::vector<study::StudyRecord> known;
+  small.for_each(true, [&](const study::StudyRecord& record) { known.push_back(record); });
   const auto per_hand = static_cast<std::int64_t>(known.size() / before.hands.size());
-  const std::int64_t grasps = task_count(plan);
+  const std::int64_t grasps = study::task_count(plan);
   {
     const DiskWatch watch(folder);
-    StudyStore::create(path, plan, small.inputs());
-    StudyStore store(path, StudyAccess::kWrite);
+    records::StudyStore::create(path, plan, small.inputs());
+    records::StudyStore store(path, records::StudyAccess::kWrite);
     std::mt19937_64 random(1);
     const double keeping = seconds_of([&] {
       for (std::int64_t number = 0; number < grasps; ++number) {
         const std::int64_t hand =
             number / per_hand % static_cast<std::int64_t>(before.hands.size());
-        StudyRecord record = known[static_cast<std::size_t>(hand * per_hand + number % per_hand)];
+        study::StudyRecord record =
+            known[static_cast<std::size_t>(hand * per_hand + number % per_hand)];
         record.number = number;
         scale(record, 0.95 + 0.1 * static_cast<double>(random() >> 11) * 0x1p-53);
         store.keep(record);

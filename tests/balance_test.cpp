@@ -23,45 +23,47 @@
 #include "palmar/product/primitives.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 using ::testing::HasSubstr;
 
-Product cylinder(double diameter) {
-  CylinderProductOptions options;
+product::Product cylinder(double diameter) {
+  product::CylinderProductOptions options;
   options.diameter = diameter;
   options.length = 150.0;
-  return make_cylinder_product(options);
+  return product::make_cylinder_product(options);
 }
 
 class BalanceTest : public TemplateTest {
  protected:
-  static const PreparedHand& prepared() {
-    static const PreparedHand made(std::make_shared<const Hand>(hand()));
+  static const contact::PreparedHand& prepared() {
+    static const contact::PreparedHand made(std::make_shared<const hand::Hand>(hand()));
     return made;
   }
-  static const Product& bar() {
-    static const Product made = cylinder(48.0);
+  static const product::Product& bar() {
+    static const product::Product made = cylinder(48.0);
     return made;
   }
-  static const Grasp& closed() {
-    static const Grasp made = close_power_grasp(hand(), bar());
+  static const grasp::Grasp& closed() {
+    static const grasp::Grasp made = grasp::close_power_grasp(hand(), bar());
     return made;
   }
   struct Rest {
-    Grasp grasp;
-    Balance balance;
-    ContactResult contact;
+    grasp::Grasp grasp;
+    grasp::Balance balance;
+    contact::ContactResult contact;
   };
-  static Rest settle(const Product& product, Grasp grasp, const BalanceOptions& options) {
+  static Rest settle(const product::Product& product, grasp::Grasp grasp,
+                     const grasp::BalanceOptions& options) {
     Rest rest{.grasp = std::move(grasp), .balance = {}, .contact = {}};
-    rest.balance = balance_grasp(prepared(), product, rest.grasp, options);
-    rest.contact = solve_hand_contact(prepared(), pose_skin(hand(), rest.grasp.posture),
-                                      rest.grasp.product_from_hand, *product.distance);
+    rest.balance = grasp::balance_grasp(prepared(), product, rest.grasp, options);
+    rest.contact =
+        contact::solve_hand_contact(prepared(), hand::pose_skin(hand(), rest.grasp.posture),
+                                    rest.grasp.product_from_hand, *product.distance);
     return rest;
   }
-  static Rest settle(const BalanceOptions& options = {}) {
+  static Rest settle(const grasp::BalanceOptions& options = {}) {
     return settle(bar(), closed(), options);
   }
 };
@@ -70,11 +72,11 @@ class BalanceTest : public TemplateTest {
 struct Sums {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
 };
-Sums sums_on_product(const ContactResult& contact, const Balance& balance, const Product& product,
-                     const Vec3& centre) {
+Sums sums_on_product(const contact::ContactResult& contact, const grasp::Balance& balance,
+                     const product::Product& product, const Vec3& centre) {
   Sums sums;
-  const std::vector<int> loaded = loaded_vertices(contact);
-  const std::vector<Vec3> normals = contact_normals(contact, *product.distance, loaded);
+  const std::vector<int> loaded = contact::loaded_vertices(contact);
+  const std::vector<Vec3> normals = contact::contact_normals(contact, *product.distance, loaded);
   for (std::size_t k = 0; k < loaded.size(); ++k) {
     const auto v = static_cast<std::size_t>(loaded[k]);
     const Vec3 force = balance.friction_force[v] - contact.force[v] * normals[k];
@@ -86,18 +88,18 @@ Sums sums_on_product(const ContactResult& contact, const Balance& balance, const
 
 TEST_F(BalanceTest, ForcesAndMomentsOnTheProductAddUpToNothing) {
   const Rest rest = settle();
-  ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
+  ASSERT_EQ(rest.balance.status, grasp::BalanceStatus::kBalanced) << rest.balance.message;
   const Sums sums = sums_on_product(rest.contact, rest.balance, bar(), rest.contact.total.centre);
   EXPECT_LT(sums.force.norm(), 0.01 * rest.balance.grip_force);
   EXPECT_LT(sums.moment.norm(), 0.01 * rest.balance.grip_force * 40.0);
-  EXPECT_NEAR(grip_force(rest.contact, *bar().distance).force, rest.balance.grip_force,
+  EXPECT_NEAR(grasp::grip_force(rest.contact, *bar().distance).force, rest.balance.grip_force,
               0.01 * rest.balance.grip_force);
 }
 
 TEST_F(BalanceTest, FrictionIsTangentialAndWithinItsLimit) {
   const Rest rest = settle();
-  const std::vector<int> loaded = loaded_vertices(rest.contact);
-  const std::vector<Vec3> normals = contact_normals(rest.contact, *bar().distance, loaded);
+  const std::vector<int> loaded = contact::loaded_vertices(rest.contact);
+  const std::vector<Vec3> normals = contact::contact_normals(rest.contact, *bar().distance, loaded);
   double largest = 0.0;
   for (std::size_t k = 0; k < loaded.size(); ++k) {
     const auto v = static_cast<std::size_t>(loaded[k]);
@@ -112,34 +114,36 @@ TEST_F(BalanceTest, FrictionIsTangentialAndWithinItsLimit) {
 TEST_F(BalanceTest, JointsCarryTheMomentsOfTheMuscles) {
   // Rigid phalanges instead of the skin's own motion: moments of all contact forces beyond a joint
   // about its axis, by the skeleton.
-  BalanceOptions options;
+  grasp::BalanceOptions options;
   options.friction = 0.0;
   options.grip_force = 40.0;
   const Rest rest = settle(options);
-  ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
-  const std::vector<int> loaded = loaded_vertices(rest.contact);
-  const std::vector<Vec3> normals = contact_normals(rest.contact, *bar().distance, loaded);
-  const Rigid3 hand_from_product = rest.grasp.product_from_hand.inverse();
-  const PosedSkeleton posed = pose_skeleton(hand().skeleton, rest.grasp.posture);
+  ASSERT_EQ(rest.balance.status, grasp::BalanceStatus::kBalanced) << rest.balance.message;
+  const std::vector<int> loaded = contact::loaded_vertices(rest.contact);
+  const std::vector<Vec3> normals = contact::contact_normals(rest.contact, *bar().distance, loaded);
+  const geometry::Rigid3 hand_from_product = rest.grasp.product_from_hand.inverse();
+  const hand::PosedSkeleton posed = hand::pose_skeleton(hand().skeleton, rest.grasp.posture);
   int looked_at = 0;
   for (const auto& [dof, parent, first, last] :
-       {std::tuple{Dof::kMiddleMcpFlexion, Segment::kPalm, Segment::kMiddleProximal,
-                   Segment::kMiddleDistal},
-        {Dof::kRingMcpFlexion, Segment::kPalm, Segment::kRingProximal, Segment::kRingDistal}}) {
-    const JointDof& joint = hand().skeleton.dof(dof);
+       {std::tuple{hand::Dof::kMiddleMcpFlexion, hand::Segment::kPalm,
+                   hand::Segment::kMiddleProximal, hand::Segment::kMiddleDistal},
+        {hand::Dof::kRingMcpFlexion, hand::Segment::kPalm, hand::Segment::kRingProximal,
+         hand::Segment::kRingDistal}}) {
+    const hand::JointDof& joint = hand().skeleton.dof(dof);
     if (rest.grasp.posture[dof] > joint.upper - 1e-3) continue;  // the joint's end carries a part
-    const Rigid3& base = posed.segment[static_cast<std::size_t>(parent)];
+    const geometry::Rigid3& base = posed.segment[static_cast<std::size_t>(parent)];
     const Vec3 axis = base.rotation * joint.axis, centre = base * joint.centre;
     double moment = 0.0;
     for (std::size_t k = 0; k < loaded.size(); ++k) {
       const auto v = static_cast<std::size_t>(loaded[k]);
-      const Segment segment = hand().segment[v];
+      const hand::Segment segment = hand().segment[v];
       if (segment < first || segment > last) continue;
       const Vec3 force = hand_from_product.rotation * (rest.contact.force[v] * normals[k]);
       const Vec3 point = hand_from_product * rest.contact.undeformed[v];
       moment += axis.dot((point - centre).cross(force));
     }
-    const double load = rest.balance.joint_load->digit[index_of(*finger_of(first))][0];
+    const double load =
+        rest.balance.joint_load->digit[palmar::index_of(*hand::finger_of(first))][0];
     EXPECT_NEAR(moment, load, 0.15 * std::abs(load)) << name_of(dof);
     EXPECT_LT(load, 0.0);  // the product opens the hand
     ++looked_at;
@@ -149,33 +153,34 @@ TEST_F(BalanceTest, JointsCarryTheMomentsOfTheMuscles) {
 
 TEST_F(BalanceTest, TheMusclesOfEveryDigitHoldIt) {
   const Rest rest = settle();
-  ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
+  ASSERT_EQ(rest.balance.status, grasp::BalanceStatus::kBalanced) << rest.balance.message;
   EXPECT_FALSE(rest.balance.is_overloaded);
-  const HandMuscles muscles(hand());
-  const HandLoad& load = *rest.balance.joint_load;
+  const hand::HandMuscles muscles(hand());
+  const hand::HandLoad& load = *rest.balance.joint_load;
   double largest = 0.0, share = 0.0;
-  for (const DigitLoad& one : load.digit) {
+  for (const hand::DigitLoad& one : load.digit) {
     for (const double moment : one) largest = std::max(largest, std::abs(moment));
   }
-  std::vector<DigitMuscles> digits;
-  for (int f = 0; f < kFingerCount; ++f) {
-    digits.push_back(muscles.in(static_cast<Finger>(f), rest.grasp.posture));
-    const MuscleProblem problem = problem_of(digits.back(), load.digit[f], 1.0);
-    EXPECT_TRUE(is_enough(balance_muscles(problem), kNegligibleMoment * largest)) << f;
-    share = std::max(share, least_strength_share(problem, kNegligibleMoment * largest));
+  std::vector<hand::DigitMuscles> digits;
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    digits.push_back(muscles.in(static_cast<hand::Finger>(f), rest.grasp.posture));
+    const hand::MuscleProblem problem = hand::problem_of(digits.back(), load.digit[f], 1.0);
+    EXPECT_TRUE(hand::is_enough(hand::balance_muscles(problem), hand::kNegligibleMoment * largest))
+        << f;
+    share = std::max(share, hand::least_strength_share(problem, hand::kNegligibleMoment * largest));
   }
   // No digit alone needs more than the hand does with its wrist.
   EXPECT_LT(share, *rest.balance.strength_use + 0.02);
-  const MuscleProblem all = problem_of(digits, muscles.wrist(), load, 1.0);
-  EXPECT_NEAR(least_strength_share(all, kNegligibleMoment * largest), *rest.balance.strength_use,
-              0.01);
+  const hand::MuscleProblem all = hand::problem_of(digits, muscles.wrist(), load, 1.0);
+  EXPECT_NEAR(hand::least_strength_share(all, hand::kNegligibleMoment * largest),
+              *rest.balance.strength_use, 0.01);
   if (!rest.balance.is_by_wrist) {
     EXPECT_NEAR(share, *rest.balance.strength_use, 0.03);
   }
 }
 
 TEST_F(BalanceTest, AWeakHandStaysBelowTheForceAskedFor) {
-  BalanceOptions options;
+  grasp::BalanceOptions options;
   options.grip_force = 120.0;
   options.strength = 0.4;
   const Rest rest = settle(options);
@@ -188,10 +193,10 @@ TEST_F(BalanceTest, AWeakHandStaysBelowTheForceAskedFor) {
 TEST_F(BalanceTest, ReachesTheGripForceAskedFor) {
   double last_area = 0.0, last_use = 0.0;
   for (const double force : {20.0, 60.0, 150.0}) {
-    BalanceOptions options;
+    grasp::BalanceOptions options;
     options.grip_force = force;
     const Rest rest = settle(options);
-    ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
+    ASSERT_EQ(rest.balance.status, grasp::BalanceStatus::kBalanced) << rest.balance.message;
     EXPECT_NEAR(rest.balance.grip_force, force, 0.01 * force);
     EXPECT_GT(rest.contact.total.area, last_area);
     EXPECT_GT(*rest.balance.strength_use, last_use);
@@ -201,34 +206,34 @@ TEST_F(BalanceTest, ReachesTheGripForceAskedFor) {
 }
 
 TEST_F(BalanceTest, WithoutFrictionNormalForcesAloneBalance) {
-  BalanceOptions options;
+  grasp::BalanceOptions options;
   options.friction = 0.0;
   options.grip_force = 40.0;
   const Rest rest = settle(options);
-  ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
+  ASSERT_EQ(rest.balance.status, grasp::BalanceStatus::kBalanced) << rest.balance.message;
   EXPECT_LT(rest.contact.total.force_vector.norm(), 0.01 * 40.0);
   EXPECT_EQ(rest.balance.friction_use, 0.0);
 }
 
 TEST_F(BalanceTest, CarriesALoadThatFrictionCanHold) {
-  BalanceOptions options;
+  grasp::BalanceOptions options;
   options.load.weight = 8.0;
   options.load.gravity = closed().grip_axis;
   const Rest rest = settle(options);
-  ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
+  ASSERT_EQ(rest.balance.status, grasp::BalanceStatus::kBalanced) << rest.balance.message;
   const Sums sums = sums_on_product(rest.contact, rest.balance, bar(), rest.contact.total.centre);
   EXPECT_LT((sums.force + 8.0 * closed().grip_axis).norm(), 0.01 * rest.balance.grip_force);
 }
 
 TEST_F(BalanceTest, ASmoothBarSlipsOutAlongItsLoad) {
   for (const double sign : {1.0, -1.0}) {
-    BalanceOptions options;
+    grasp::BalanceOptions options;
     options.friction = 0.0;
     options.load.weight = 20.0;
     options.load.gravity = sign * closed().grip_axis;
-    Grasp grasp = closed();
-    const Balance balance = balance_grasp(prepared(), bar(), grasp, options);
-    ASSERT_EQ(balance.status, BalanceStatus::kSlipsOut) << balance.message;
+    grasp::Grasp grasp = closed();
+    const grasp::Balance balance = grasp::balance_grasp(prepared(), bar(), grasp, options);
+    ASSERT_EQ(balance.status, grasp::BalanceStatus::kSlipsOut) << balance.message;
     const Vec3 pull = closed().product_from_hand.rotation.conjugate() * options.load.gravity;
     EXPECT_GT(balance.slip->dot(pull), 0.8);
     EXPECT_THAT(balance.message, HasSubstr("slips out, towards "));
@@ -239,27 +244,27 @@ TEST_F(BalanceTest, ASmoothBarSlipsOutAlongItsLoad) {
 
 TEST_F(BalanceTest, AGripForceOutOfReachIsNoSlip) {
   // Without a load nothing can slip under it, however far the hand stays below what was asked for.
-  const Product thin = cylinder(20.0);
-  BalanceOptions options;
+  const product::Product thin = cylinder(20.0);
+  grasp::BalanceOptions options;
   options.grip_force = 250.0;
-  const Rest rest = settle(thin, close_power_grasp(hand(), thin), options);
+  const Rest rest = settle(thin, grasp::close_power_grasp(hand(), thin), options);
   EXPECT_THAT(rest.balance.message, ::testing::Not(HasSubstr("under its load")));
   EXPECT_NEAR(rest.balance.slip.value_or(Vec3::UnitX()).norm(), 1.0, 1e-9);
 }
 
 TEST_F(BalanceTest, ATorqueAloneIsALoad) {
-  BalanceOptions options;
+  grasp::BalanceOptions options;
   options.load.torque = 100.0 * closed().grip_axis;
   const Rest rest = settle(options);
-  ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
+  ASSERT_EQ(rest.balance.status, grasp::BalanceStatus::kBalanced) << rest.balance.message;
   const Sums sums = sums_on_product(rest.contact, rest.balance, bar(), rest.contact.total.centre);
   EXPECT_LT((sums.moment + options.load.torque).norm(), 0.01 * rest.balance.grip_force * 40.0);
 }
 
 TEST_F(BalanceTest, NothingTouchedIsSaid) {
-  Grasp away = closed();
+  grasp::Grasp away = closed();
   away.product_from_hand.translation += Vec3(500.0, 0.0, 0.0);
-  EXPECT_EQ(balance_grasp(prepared(), bar(), away).status, BalanceStatus::kNoContact);
+  EXPECT_EQ(grasp::balance_grasp(prepared(), bar(), away).status, grasp::BalanceStatus::kNoContact);
 }
 
 TEST_F(BalanceTest, IsTheSameWithAnyNumberOfThreads) {
@@ -273,13 +278,14 @@ TEST_F(BalanceTest, IsTheSameWithAnyNumberOfThreads) {
 }
 
 TEST_F(BalanceTest, TurningTheWorldChangesNothing) {
-  const Rigid3 turn = Rigid3::about_axis(Vec3(0.3, -0.5, 0.8).normalized(), Vec3(10, 4, -7), 1.1);
-  Product turned = bar();
+  const geometry::Rigid3 turn =
+      geometry::Rigid3::about_axis(Vec3(0.3, -0.5, 0.8).normalized(), Vec3(10, 4, -7), 1.1);
+  product::Product turned = bar();
   for (Vec3& v : turned.mesh.vertices) v = turn * v;
-  turned.distance = std::make_shared<MeshDistance>(turned.mesh);
-  Grasp grasp = closed();
+  turned.distance = std::make_shared<geometry::MeshDistance>(turned.mesh);
+  grasp::Grasp grasp = closed();
   grasp.product_from_hand = turn * grasp.product_from_hand;
-  BalanceOptions options;
+  grasp::BalanceOptions options;
   options.load.weight = 5.0;
   options.load.gravity = Vec3(0.0, 1.0, -1.0);
   const Rest here = settle(bar(), closed(), options);
@@ -297,13 +303,14 @@ TEST_F(BalanceTest, NormalForcesAndSharesOfPhalangesAreThoseOfPeople) {
   std::array<double, 3> distal{}, proximal{};
   const std::array<double, 3> diameters = {32.0, 48.0, 64.0};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Product product = cylinder(diameters[i]);
-    const Rest rest = settle(product, close_power_grasp(hand(), product), {});
-    ASSERT_EQ(rest.balance.status, BalanceStatus::kBalanced) << rest.balance.message;
+    const product::Product product = cylinder(diameters[i]);
+    const Rest rest = settle(product, grasp::close_power_grasp(hand(), product), {});
+    ASSERT_EQ(rest.balance.status, grasp::BalanceStatus::kBalanced) << rest.balance.message;
     double sum = 0.0;
-    for (const RegionContact& region : rest.contact.regions) {
+    for (const contact::RegionContact& region : rest.contact.regions) {
       sum += region.force;
-      const auto place = static_cast<int>(region.region) - static_cast<int>(Region::kIndexProximal);
+      const auto place =
+          static_cast<int>(region.region) - static_cast<int>(hand::Region::kIndexProximal);
       if (place < 0 || place >= 12) continue;
       if (place % 3 == 0) proximal[i] += region.force;
       if (place % 3 == 2) distal[i] += region.force;
@@ -316,15 +323,15 @@ TEST_F(BalanceTest, NormalForcesAndSharesOfPhalangesAreThoseOfPeople) {
   EXPECT_GT(proximal[0], proximal[1]);
   EXPECT_GT(proximal[1], proximal[2]);
 
-  const Product handle = cylinder(51.0);
-  const Rest rest = settle(handle, close_power_grasp(hand(), handle), {});
+  const product::Product handle = cylinder(51.0);
+  const Rest rest = settle(handle, grasp::close_power_grasp(hand(), handle), {});
   const double ratio = rest.balance.sum_of_normals / rest.balance.grip_force;
   EXPECT_GE(ratio, 2.1);
   EXPECT_LE(ratio, 2.9);
 }
 
 TEST(BalanceOptionsTest, RefusesWhatMakesNoSense) {
-  const auto message = [](const BalanceOptions& options) {
+  const auto message = [](const grasp::BalanceOptions& options) {
     try {
       options.check();
     } catch (const UsageError& error) {
@@ -332,7 +339,7 @@ TEST(BalanceOptionsTest, RefusesWhatMakesNoSense) {
     }
     return std::string("accepted");
   };
-  BalanceOptions options;
+  grasp::BalanceOptions options;
   options.friction = -0.1;
   EXPECT_THAT(message(options), HasSubstr("friction is -0.1; 0 to 5"));
   options.friction = 0.5;
@@ -340,19 +347,20 @@ TEST(BalanceOptionsTest, RefusesWhatMakesNoSense) {
   EXPECT_THAT(message(options), HasSubstr("grip force is 0 N"));
   options.grip_force = 1e4;
   EXPECT_THAT(message(options), HasSubstr("at most 2000 N"));
-  BalanceOptions floating;
+  grasp::BalanceOptions floating;
   floating.load.weight = 3.0;
   floating.load.gravity = Vec3::Zero();
   EXPECT_THAT(message(floating), HasSubstr("gravity is 0, 0, 0"));
 }
 
 TEST(JointStrengthTest, GripStrengthKnowsSexAndAge) {
-  EXPECT_NEAR(*grip_strength(Sex::kMale, 30.0), 53.5 * 9.80665, 1e-9);
-  EXPECT_NEAR(*grip_strength(Sex::kFemale, 82.0), 22.1 * 9.80665, 1e-9);
-  EXPECT_FALSE(grip_strength(Sex::kMale, 12.0).has_value());
-  EXPECT_FALSE(grip_strength(Sex::kMale, 120.0).has_value());
-  EXPECT_LT(*grip_strength(Sex::kFemale, 40.0), *grip_strength(Sex::kMale, 40.0));
+  EXPECT_NEAR(*grasp::grip_strength(grasp::Sex::kMale, 30.0), 53.5 * 9.80665, 1e-9);
+  EXPECT_NEAR(*grasp::grip_strength(grasp::Sex::kFemale, 82.0), 22.1 * 9.80665, 1e-9);
+  EXPECT_FALSE(grasp::grip_strength(grasp::Sex::kMale, 12.0).has_value());
+  EXPECT_FALSE(grasp::grip_strength(grasp::Sex::kMale, 120.0).has_value());
+  EXPECT_LT(*grasp::grip_strength(grasp::Sex::kFemale, 40.0),
+            *grasp::grip_strength(grasp::Sex::kMale, 40.0));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -25,7 +25,7 @@
 #include "palmar/records/product/product_file.h"
 #include "run_program.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,11 +88,11 @@ class CadImport : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     ::setenv("PALMAR_CAD", PALMAR_CAD_PROGRAM, 1);
-    const CadFolder folder;
-    run_cad("make",
-            R"({"kind": "cylinder", "parameters": {"diameter_mm": 35, "length_mm": 130},)"
-            R"( "step": true})",
-            folder, "cylinder");
+    const records::CadFolder folder;
+    records::run_cad("make",
+                     R"({"kind": "cylinder", "parameters": {"diameter_mm": 35, "length_mm": 130},)"
+                     R"( "step": true})",
+                     folder, "cylinder");
     step() = text_of(folder.path() / "product.step");
   }
   static std::string& step() {
@@ -126,9 +126,9 @@ class CadImport : public ::testing::Test {
     write_text(folder_ / name, text);
     return folder_ / name;
   }
-  static std::string message_of(const fs::path& path, const CadLimits& limits = {}) {
+  static std::string message_of(const fs::path& path, const records::CadLimits& limits = {}) {
     try {
-      import_cad(path, {}, limits);
+      records::import_cad(path, {}, limits);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -140,22 +140,22 @@ class CadImport : public ::testing::Test {
 };
 
 TEST_F(CadImport, ProductOfAStepKnowsItsFaces) {
-  const Product product = load_product(file("bar.step", step()));
+  const product::Product product = records::load_product(file("bar.step", step()));
   EXPECT_EQ(product.name, "bar");
-  EXPECT_EQ(product.unit, LengthUnit::kMillimetre);
-  EXPECT_EQ(product.unit_source, UnitSource::kFile);
+  EXPECT_EQ(product.unit, geometry::LengthUnit::kMillimetre);
+  EXPECT_EQ(product.unit_source, product::UnitSource::kFile);
   ASSERT_NE(product.faces, nullptr);
   ASSERT_EQ(product.faces->face_of_triangle.size(), product.mesh.triangles.size());
   double side = 0.0;
-  for (const ProductFace& face : product.faces->face) {
-    if (face.kind == FaceKind::kCylinder) side += face.area;
+  for (const product::ProductFace& face : product.faces->face) {
+    if (face.kind == product::FaceKind::kCylinder) side += face.area;
   }
   EXPECT_GT(side, 0.9 * std::numbers::pi * 35.0 * 100.0);
   EXPECT_NEAR(product.distance->at(Vec3::Zero()).distance, -17.5, 0.1);
 }
 
 TEST_F(CadImport, SuffixDoesNotMatterForWhatAFileIs) {
-  EXPECT_NE(load_product(file("bar.txt", step())).faces, nullptr);
+  EXPECT_NE(records::load_product(file("bar.txt", step())).faces, nullptr);
   EXPECT_THAT(message_of(file("rubbish.stp", std::string("\0\1\2\3\xff", 5))),
               HasSubstr("neither STEP nor IGES"));
 }
@@ -169,7 +169,8 @@ TEST_F(CadImport, BallInMetresOrInchesIsTheSameBall) {
       {"CONVERSION_BASED_UNIT('INCH',#28)LENGTH_UNIT()NAMED_UNIT(#27)", 30.0 / 25.4, "inch"}};
   const double exact = 4.0 / 3.0 * std::numbers::pi * 27'000.0;
   for (const auto& [unit, radius, name] : units) {
-    const ImportedCad cad = import_cad(file("ball.step", ball_step(unit, radius)));
+    const records::ImportedCad cad =
+        records::import_cad(file("ball.step", ball_step(unit, radius)));
     EXPECT_EQ(cad.unit, name);
     EXPECT_NEAR(cad.volume, exact, 1e-4 * exact) << name;  // radius in text has 6 decimals
     EXPECT_EQ(cad.bodies, std::vector<std::string>{"ball"});
@@ -200,7 +201,7 @@ TEST_F(CadImport, ATorusThatCrossesItsAxisIsRefusedWithTheCause) {
   EXPECT_THAT(message, HasSubstr("ring of radius 12 mm and a tube of 20 mm"));
   // Pappus: 2 pi R pi r^2.
   const double exact = 2.0 * std::pow(std::numbers::pi, 2) * 20.0 * 144.0;
-  const ImportedCad ring = import_cad(file("ring.step", torus_step(20.0, 12.0)));
+  const records::ImportedCad ring = records::import_cad(file("ring.step", torus_step(20.0, 12.0)));
   EXPECT_NEAR(ring.volume, exact, 1e-4 * exact);
   const testing::ProgramRun run = testing::run_palmar("product info apple.step", folder_.string());
   EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
@@ -208,7 +209,8 @@ TEST_F(CadImport, ATorusThatCrossesItsAxisIsRefusedWithTheCause) {
 }
 
 TEST_F(CadImport, UnitOfTheUserWinsAndTheContradictionIsReported) {
-  const Product product = load_product(file("bar.step", step()), {.unit = LengthUnit::kCentimetre});
+  const product::Product product =
+      records::load_product(file("bar.step", step()), {.unit = geometry::LengthUnit::kCentimetre});
   Box3 box;
   for (const Vec3& v : product.mesh.vertices) box.extend(v);
   EXPECT_NEAR(box.sizes().maxCoeff(), 1300.0, 1e-6);
@@ -221,7 +223,7 @@ TEST_F(CadImport, UnitThatGivesAnAbsurdSizeIsRefusedBySize) {
       step(), std::regex(R"(SI_UNIT\(\.MILLI\.,\.METRE\.\))"), "SI_UNIT(.KILO.,.METRE.)");
   ASSERT_NE(text, step());
   try {
-    load_product(file("huge.step", text));
+    records::load_product(file("huge.step", text));
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("huge.step"));
@@ -269,7 +271,7 @@ TEST_F(CadImport, CancelEndsTheChildWithinASecond) {
   };
   const fs::path bar = file("bar.step", step());
   const auto start = Clock::now();
-  EXPECT_THROW(import_cad(bar, {}, {}, progress), Cancelled);
+  EXPECT_THROW(records::import_cad(bar, {}, {}, progress), Cancelled);
   ::setenv("PALMAR_CAD", PALMAR_CAD_PROGRAM, 1);
   EXPECT_LT(seconds_since(start), 1.0);
   EXPECT_EQ(last, "sleeping");
@@ -293,7 +295,7 @@ TEST_F(CadImport, ChildThatLiesIsNotBelieved) {
   ::setenv("PALMAR_CAD", liar.c_str(), 1);
   const std::string message = message_of(file("bar.step", step()));
   ::setenv("PALMAR_CAD", (folder_ / "none").c_str(), 1);
-  EXPECT_THROW(import_cad(folder_ / "bar.step"), OutputError);
+  EXPECT_THROW(records::import_cad(folder_ / "bar.step"), OutputError);
   ::setenv("PALMAR_CAD", PALMAR_CAD_PROGRAM, 1);
   EXPECT_THAT(message, HasSubstr("the CAD program's answer is damaged"));
 }
@@ -304,11 +306,12 @@ TEST_F(CadImport, ChildInheritsNoOpenFile) {
   const int leak = ::dup(STDERR_FILENO);
   const int high = ::fcntl(leak, F_DUPFD, 77);
   std::string lines;
-  const ChildResult result = run_child(lister, {}, folder_ / "log", {.seconds = 5.0},
-                                       [&](const std::string& line) { lines += line; }, {});
+  const formats::ChildResult result =
+      formats::run_child(lister, {}, folder_ / "log", {.seconds = 5.0},
+                         [&](const std::string& line) { lines += line; }, {});
   ::close(leak);
   ::close(high);
-  EXPECT_EQ(result.end, ChildResult::End::kExited);
+  EXPECT_EQ(result.end, formats::ChildResult::End::kExited);
   EXPECT_THAT(lines, ::testing::Not(HasSubstr("77")));
 }
 
@@ -327,10 +330,11 @@ TEST_F(CadImport, MemoryLimitHoldsByName) {
       file("ball.step", ball_step("LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.)", 30.0));
   const nlohmann::json request = {
       {"file", ball.string()}, {"chordal_error_mm", 1e-4}, {"max_triangles", 20'000'000}};
-  const CadFolder folder;
+  const records::CadFolder folder;
   const auto start = Clock::now();
   try {
-    run_cad("import", request.dump(), folder, "ball.step", {.seconds = 30.0, .memory_mb = 256.0});
+    records::run_cad("import", request.dump(), folder, "ball.step",
+                     {.seconds = 30.0, .memory_mb = 256.0});
     FAIL() << "no error";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("ball.step: needs more than 256 MB of memory"));
@@ -380,7 +384,7 @@ TEST_F(CadImport, MutatedFilesHaveNamedOutcomes) {
     const fs::path path = file("mutant.step", text);
     const auto start = Clock::now();
     try {
-      load_product(path, {.limits = {.seconds = 20.0, .memory_mb = 2048.0}});
+      records::load_product(path, {.limits = {.seconds = 20.0, .memory_mb = 2048.0}});
       ++usable;
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), HasSubstr("mutant.step")) << i;
@@ -419,4 +423,4 @@ TEST_F(CadImport, CommandLineListsFacesAndRefusesMeshesAsStep) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

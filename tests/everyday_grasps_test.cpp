@@ -27,73 +27,75 @@
 #include "palmar/records/product/product_file.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 using ::testing::HasSubstr;
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-double depth_of(const Grasp& grasp, Segment segment) {
+double depth_of(const grasp::Grasp& grasp, hand::Segment segment) {
   return grasp.stops[static_cast<std::size_t>(segment)].penetration;
 }
 
-bool touches(const Grasp& grasp, Finger finger) {
-  for (const auto& segment : segments_of(finger)) {
+bool touches(const grasp::Grasp& grasp, hand::Finger finger) {
+  for (const auto& segment : hand::segments_of(finger)) {
     if (segment && depth_of(grasp, *segment) > 0.0) return true;
   }
   return false;
 }
 
-int fingers_touching(const Grasp& grasp) {  // thumb not counted
+int fingers_touching(const grasp::Grasp& grasp) {  // thumb not counted
   int count = 0;
-  for (int f = 1; f < kFingerCount; ++f) count += touches(grasp, static_cast<Finger>(f)) ? 1 : 0;
+  for (int f = 1; f < hand::kFingerCount; ++f)
+    count += touches(grasp, static_cast<hand::Finger>(f)) ? 1 : 0;
   return count;
 }
 
-Vec3 tip_in_product(const Hand& hand, const Grasp& grasp, Finger finger) {
-  const PosedSkeleton pose = pose_skeleton(hand.skeleton, grasp.posture);
-  const auto segments = segments_of(finger);
-  const Segment last = finger == Finger::kThumb ? *segments[1] : *segments[2];
+Vec3 tip_in_product(const hand::Hand& hand, const grasp::Grasp& grasp, hand::Finger finger) {
+  const hand::PosedSkeleton pose = hand::pose_skeleton(hand.skeleton, grasp.posture);
+  const auto segments = hand::segments_of(finger);
+  const hand::Segment last = finger == hand::Finger::kThumb ? *segments[1] : *segments[2];
   return grasp.product_from_hand * (pose.segment[static_cast<std::size_t>(last)] *
                                     hand.skeleton.fingertips[static_cast<std::size_t>(finger)]);
 }
 
 // Deepest that skin of the back of the hand and of the fingers goes into the product, mm.
-double deepest_dorsum(const Hand& hand, const Product& product, const Grasp& grasp) {
-  const std::vector<Vec3> skin = pose_skin(hand, grasp.posture);
+double deepest_dorsum(const hand::Hand& hand, const product::Product& product,
+                      const grasp::Grasp& grasp) {
+  const std::vector<Vec3> skin = hand::pose_skin(hand, grasp.posture);
   double depth = 0.0;
   for (std::size_t v = 0; v < skin.size(); ++v) {
-    if (hand.region[v] != Region::kDorsum) continue;
+    if (hand.region[v] != hand::Region::kDorsum) continue;
     depth = std::max(depth, -product.distance->at(grasp.product_from_hand * skin[v]).distance);
   }
   return depth;
 }
 
-Product bar(double diameter, double length) {
-  CylinderProductOptions options;
+product::Product bar(double diameter, double length) {
+  product::CylinderProductOptions options;
   options.diameter = diameter;
   options.length = length;
-  return make_cylinder_product(options);
+  return product::make_cylinder_product(options);
 }
 
-Product ball(double diameter) {
-  SphereProductOptions options;
+product::Product ball(double diameter) {
+  product::SphereProductOptions options;
   options.diameter = diameter;
   options.fineness.chordal_error = 0.1;
-  return make_sphere_product(options);
+  return product::make_sphere_product(options);
 }
 
 struct EverydayThing {
   const char* file;
-  std::vector<Grip> grips;  ///< any of these
-  Vec3 low, high;           ///< where the grip point lies, shares of the bounding box
-  Vec3 axis;                ///< towards the thumb, product frame; zero: left open
-  int fingers;              ///< at least, beside the thumb
+  std::vector<grasp::Grip> grips;  ///< any of these
+  Vec3 low, high;                  ///< where the grip point lies, shares of the bounding box
+  Vec3 axis;                       ///< towards the thumb, product frame; zero: left open
+  int fingers;                     ///< at least, beside the thumb
 };
 
 const std::vector<EverydayThing>& everyday_things() {
-  using enum Grip;
+  using enum grasp::Grip;
   static const std::vector<EverydayThing> list = {
       // Handle x from 165 of 260 mm; the blade beyond the thumb.
       {"screwdriver_phillips",
@@ -122,10 +124,10 @@ const std::vector<EverydayThing>& everyday_things() {
 
 class EverydayGrasps : public TemplateTest {
  protected:
-  static Product load(const std::string& name) {
+  static product::Product load(const std::string& name) {
     const std::filesystem::path file =
         std::filesystem::path(PALMAR_SHARED_DIR) / "products" / (name + ".obj");
-    return load_product(file.string(), {.unit = LengthUnit::kMillimetre});
+    return records::load_product(file.string(), {.unit = geometry::LengthUnit::kMillimetre});
   }
   static bool are_here() {
     return std::filesystem::exists(std::filesystem::path(PALMAR_SHARED_DIR) / "products");
@@ -136,11 +138,11 @@ TEST_F(EverydayGrasps, ThoroughTenProductsAreHeldAsPeopleHoldThem) {
   if (!are_here()) GTEST_SKIP() << "the scanned products are not here";
   for (const EverydayThing& thing : everyday_things()) {
     SCOPED_TRACE(thing.file);
-    const Product product = load(thing.file);
-    const Grasp grasp = close_power_grasp(hand(), product);
-    EXPECT_EQ(grasp.status, GraspStatus::kHeld) << grasp.message;
+    const product::Product product = load(thing.file);
+    const grasp::Grasp grasp = grasp::close_power_grasp(hand(), product);
+    EXPECT_EQ(grasp.status, grasp::GraspStatus::kHeld) << grasp.message;
     EXPECT_THAT(thing.grips, ::testing::Contains(grasp.grip)) << name_of(grasp.grip);
-    EXPECT_TRUE(touches(grasp, Finger::kThumb));
+    EXPECT_TRUE(touches(grasp, hand::Finger::kThumb));
     EXPECT_GE(fingers_touching(grasp), thing.fingers);
     const Box3 box = product.distance->bounding_box();
     const Vec3 share = (grasp.grip_point - box.min()).cwiseQuotient(box.sizes());
@@ -151,7 +153,7 @@ TEST_F(EverydayGrasps, ThoroughTenProductsAreHeldAsPeopleHoldThem) {
       EXPECT_GT(grasp.grip_axis.dot(thing.axis), 0.8);
     }
     EXPECT_LT(deepest_dorsum(hand(), product, grasp), 4.0);
-    EXPECT_TRUE(clamp_to_range(hand().skeleton, grasp.posture).clamped.empty());
+    EXPECT_TRUE(hand::clamp_to_range(hand().skeleton, grasp.posture).clamped.empty());
     EXPECT_GT(grasp.candidates, 10);
   }
 }
@@ -161,13 +163,14 @@ TEST_F(EverydayGrasps, ThoroughTenProductsAreHeldAsPeopleHoldThem) {
 TEST_F(EverydayGrasps, HandsOfEverySizeTakeTheSamePart) {
   if (!are_here()) GTEST_SKIP() << "the scanned products are not here";
   for (const char* const name : {"power_drill", "mug", "portable_speaker"}) {
-    const Product product = load(name);
-    const GraspPlace place(hand(), product);
-    const Grasp& usual = place.reference_grasp();
+    const product::Product product = load(name);
+    const grasp::GraspPlace place(hand(), product);
+    const grasp::Grasp& usual = place.reference_grasp();
     for (const double factor : {0.9, 1.05, 1.2}) {
-      const auto other = std::make_shared<const Hand>(scaled(hand(), factor));
-      const Grasp kept = place.hold(GraspingHand(other));
-      EXPECT_EQ(kept.status, GraspStatus::kHeld) << name << ' ' << factor << ": " << kept.message;
+      const auto other = std::make_shared<const hand::Hand>(scaled(hand(), factor));
+      const grasp::Grasp kept = place.hold(grasp::GraspingHand(other));
+      EXPECT_EQ(kept.status, grasp::GraspStatus::kHeld)
+          << name << ' ' << factor << ": " << kept.message;
       EXPECT_LT((kept.grip_point - usual.grip_point).norm(), 15.0) << name << ' ' << factor;
       EXPECT_GT(kept.grip_axis.dot(usual.grip_axis), 0.9) << name << ' ' << factor;
     }
@@ -176,8 +179,8 @@ TEST_F(EverydayGrasps, HandsOfEverySizeTakeTheSamePart) {
 
 TEST_F(EverydayGrasps, TheDrillPointsAwayFromTheForearm) {
   if (!are_here()) GTEST_SKIP() << "the scanned products are not here";
-  const Product drill = load("power_drill");
-  const Grasp grasp = close_power_grasp(hand(), drill);
+  const product::Product drill = load("power_drill");
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand(), drill);
   // The chuck is where the gearbox reaches farthest from the handle.
   const Box3 box = drill.distance->bounding_box();
   const double x = grasp.grip_point.x();
@@ -186,7 +189,8 @@ TEST_F(EverydayGrasps, TheDrillPointsAwayFromTheForearm) {
   EXPECT_GT(in_hand.dot(Vec3(0.0, 1.0, 1.0).normalized()), 0.5);
   // The index finger is the one at the trigger: the fingers follow in order.
   double before = 1e9;
-  for (const Finger finger : {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
+  for (const hand::Finger finger :
+       {hand::Finger::kIndex, hand::Finger::kMiddle, hand::Finger::kRing, hand::Finger::kLittle}) {
     const double here = grasp.grip_axis.dot(tip_in_product(hand(), grasp, finger));
     EXPECT_LT(here, before) << name_of(finger);
     before = here;
@@ -195,23 +199,23 @@ TEST_F(EverydayGrasps, TheDrillPointsAwayFromTheForearm) {
 
 TEST_F(EverydayGrasps, TheDriveLiesWithItsFaceInThePalmAndTheConsoleBetweenThumbAndFingers) {
   if (!are_here()) GTEST_SKIP() << "the scanned products are not here";
-  const Grasp drive = close_power_grasp(hand(), load("portable_drive"));
+  const grasp::Grasp drive = grasp::close_power_grasp(hand(), load("portable_drive"));
   const Vec3 face = drive.product_from_hand.rotation.conjugate() * Vec3::UnitX();
   EXPECT_GT(std::abs(face.z()), 0.8);
-  const Product console = load("handheld_console");
-  const Grasp grasp = close_power_grasp(hand(), console);
+  const product::Product console = load("handheld_console");
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand(), console);
   const double middle = console.distance->bounding_box().center().z();
-  const double thumb = tip_in_product(hand(), grasp, Finger::kThumb).z() - middle;
-  for (const Finger finger : {Finger::kMiddle, Finger::kRing}) {
+  const double thumb = tip_in_product(hand(), grasp, hand::Finger::kThumb).z() - middle;
+  for (const hand::Finger finger : {hand::Finger::kMiddle, hand::Finger::kRing}) {
     EXPECT_LT(thumb * (tip_in_product(hand(), grasp, finger).z() - middle), 0.0);
   }
 }
 
 TEST_F(EverydayGrasps, NoSkinOfAFingerComesOutInsideTheMug) {
   if (!are_here()) GTEST_SKIP() << "the scanned products are not here";
-  const Product mug = load("mug");
-  const Grasp grasp = close_power_grasp(hand(), mug);
-  const std::vector<Vec3> skin = pose_skin(hand(), grasp.posture);
+  const product::Product mug = load("mug");
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand(), mug);
+  const std::vector<Vec3> skin = hand::pose_skin(hand(), grasp.posture);
   // The cup's axis and mouth from the list's sizes: a cylinder of 38 mm radius well inside it.
   int inside = 0;
   for (const Vec3& p : skin) {
@@ -226,15 +230,15 @@ TEST_F(EverydayGrasps, ABallIsHeldWithFingersSpreadTheMoreTheLargerItIs) {
   double before = -1.0;
   for (const double diameter : {60.0, 95.0}) {
     SCOPED_TRACE(diameter);
-    const Grasp grasp = close_power_grasp(hand(), ball(diameter));
-    EXPECT_EQ(grasp.grip, Grip::kPowerSphere);
-    EXPECT_EQ(grasp.status, GraspStatus::kHeld) << grasp.message;
+    const grasp::Grasp grasp = grasp::close_power_grasp(hand(), ball(diameter));
+    EXPECT_EQ(grasp.grip, grasp::Grip::kPowerSphere);
+    EXPECT_EQ(grasp.status, grasp::GraspStatus::kHeld) << grasp.message;
     EXPECT_GE(fingers_touching(grasp), 4);
     // Its pad, or its side with the pad beside it.
-    EXPECT_GT(depth_of(grasp, Segment::kThumbDistal), -3.0);
-    EXPECT_GT(depth_of(grasp, Segment::kPalm), 1.0);
-    const double spread =
-        grasp.posture[Dof::kIndexMcpAbduction] - grasp.posture[Dof::kLittleMcpAbduction];
+    EXPECT_GT(depth_of(grasp, hand::Segment::kThumbDistal), -3.0);
+    EXPECT_GT(depth_of(grasp, hand::Segment::kPalm), 1.0);
+    const double spread = grasp.posture[hand::Dof::kIndexMcpAbduction] -
+                          grasp.posture[hand::Dof::kLittleMcpAbduction];
     if (before > -1.0) {
       EXPECT_GT(spread, before + 5.0 * kDeg);
     }
@@ -243,33 +247,35 @@ TEST_F(EverydayGrasps, ABallIsHeldWithFingersSpreadTheMoreTheLargerItIs) {
 }
 
 TEST_F(EverydayGrasps, AHookCarriesInTheFingersAlone) {
-  PowerGraspOptions options;
-  options.grip = Grip::kFixedHook;
-  const Grasp grasp = close_power_grasp(hand(), bar(25.0, 120.0), options);
-  EXPECT_EQ(grasp.grip, Grip::kFixedHook);
-  EXPECT_EQ(grasp.status, GraspStatus::kHeld) << grasp.message;
+  grasp::PowerGraspOptions options;
+  options.grip = grasp::Grip::kFixedHook;
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand(), bar(25.0, 120.0), options);
+  EXPECT_EQ(grasp.grip, grasp::Grip::kFixedHook);
+  EXPECT_EQ(grasp.status, grasp::GraspStatus::kHeld) << grasp.message;
   EXPECT_EQ(fingers_touching(grasp), 4);
-  EXPECT_FALSE(touches(grasp, Finger::kThumb));
+  EXPECT_FALSE(touches(grasp, hand::Finger::kThumb));
   EXPECT_THAT(grasp.message, ::testing::Not(HasSubstr("thumb")));
-  for (const Finger finger : {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
-    const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * (static_cast<int>(finger) - 1);
+  for (const hand::Finger finger :
+       {hand::Finger::kIndex, hand::Finger::kMiddle, hand::Finger::kRing, hand::Finger::kLittle}) {
+    const int first =
+        static_cast<int>(hand::Dof::kIndexMcpFlexion) + 4 * (static_cast<int>(finger) - 1);
     EXPECT_LT(grasp.posture.angle[static_cast<std::size_t>(first)], 25.0 * kDeg);
     EXPECT_GT(grasp.posture.angle[static_cast<std::size_t>(first + 2)], 40.0 * kDeg);
   }
-  EXPECT_LT(depth_of(grasp, Segment::kPalm), 4.1);
+  EXPECT_LT(depth_of(grasp, hand::Segment::kPalm), 4.1);
 }
 
 TEST_F(EverydayGrasps, WrapsAreCalledByTheirSize) {
-  EXPECT_EQ(close_power_grasp(hand(), bar(20.0, 160.0)).grip, Grip::kSmallDiameter);
-  EXPECT_EQ(close_power_grasp(hand(), bar(40.0, 160.0)).grip, Grip::kMediumWrap);
-  EXPECT_EQ(close_power_grasp(hand(), bar(75.0, 160.0)).grip, Grip::kLargeDiameter);
+  EXPECT_EQ(grasp::close_power_grasp(hand(), bar(20.0, 160.0)).grip, grasp::Grip::kSmallDiameter);
+  EXPECT_EQ(grasp::close_power_grasp(hand(), bar(40.0, 160.0)).grip, grasp::Grip::kMediumWrap);
+  EXPECT_EQ(grasp::close_power_grasp(hand(), bar(75.0, 160.0)).grip, grasp::Grip::kLargeDiameter);
 }
 
 TEST_F(EverydayGrasps, DistalJointsFollowTheMiddleOnes) {
   for (const double diameter : {25.0, 40.0, 70.0}) {
-    const Grasp grasp = close_power_grasp(hand(), bar(diameter, 160.0));
-    for (const Dof pip : {Dof::kIndexPipFlexion, Dof::kMiddlePipFlexion, Dof::kRingPipFlexion,
-                          Dof::kLittlePipFlexion}) {
+    const grasp::Grasp grasp = grasp::close_power_grasp(hand(), bar(diameter, 160.0));
+    for (const hand::Dof pip : {hand::Dof::kIndexPipFlexion, hand::Dof::kMiddlePipFlexion,
+                                hand::Dof::kRingPipFlexion, hand::Dof::kLittlePipFlexion}) {
       const auto p = static_cast<std::size_t>(pip);
       const double off = grasp.posture.angle[p + 1] - 2.0 / 3.0 * grasp.posture.angle[p];
       // 25 degrees to lie on the product; opening what went too deep may add a little.
@@ -279,90 +285,90 @@ TEST_F(EverydayGrasps, DistalJointsFollowTheMiddleOnes) {
 }
 
 TEST_F(EverydayGrasps, ARegionIsWhereTheHandGoes) {
-  PowerGraspOptions options;
-  const Product product = bar(35.0, 400.0);
+  grasp::PowerGraspOptions options;
+  const product::Product product = bar(35.0, 400.0);
   options.placement.region = Box3(Vec3(-20.0, -20.0, 100.0), Vec3(20.0, 20.0, 160.0));
-  const Grasp grasp = close_power_grasp(hand(), product, options);
-  EXPECT_EQ(grasp.status, GraspStatus::kHeld) << grasp.message;
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand(), product, options);
+  EXPECT_EQ(grasp.status, grasp::GraspStatus::kHeld) << grasp.message;
   EXPECT_NEAR(grasp.grip_point.z(), 130.0, 5.0);
   options.placement.region = Box3(Vec3(100.0, 100.0, 0.0), Vec3(120.0, 120.0, 20.0));
   try {
-    close_power_grasp(hand(), product, options);
+    grasp::close_power_grasp(hand(), product, options);
     FAIL() << "a region beside the product was taken";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("region holds no part of the surface"));
   }
   options.placement.region = Box3(Vec3(0.0, 0.0, 0.0), Vec3(0.0, 10.0, 10.0));
-  EXPECT_THROW(close_power_grasp(hand(), product, options), UsageError);
+  EXPECT_THROW(grasp::close_power_grasp(hand(), product, options), UsageError);
 }
 
 TEST_F(EverydayGrasps, AGivenPlacementIsKeptAndOnlyTheFingersClose) {
-  const Product product = bar(45.0, 160.0);
-  const Grasp found = close_power_grasp(hand(), product);
-  PowerGraspOptions options;
+  const product::Product product = bar(45.0, 160.0);
+  const grasp::Grasp found = grasp::close_power_grasp(hand(), product);
+  grasp::PowerGraspOptions options;
   options.placement.product_from_hand = found.product_from_hand;
-  const Grasp again = close_power_grasp(hand(), product, options);
+  const grasp::Grasp again = grasp::close_power_grasp(hand(), product, options);
   EXPECT_EQ(again.product_from_hand.translation, found.product_from_hand.translation);
-  EXPECT_EQ(again.status, GraspStatus::kHeld) << again.message;
+  EXPECT_EQ(again.status, grasp::GraspStatus::kHeld) << again.message;
   EXPECT_EQ(again.candidates, 1);
   options.placement.at = Vec3::Zero();
-  EXPECT_THROW(close_power_grasp(hand(), product, options), UsageError);
+  EXPECT_THROW(grasp::close_power_grasp(hand(), product, options), UsageError);
 }
 
 TEST_F(EverydayGrasps, RunnersUpAreOtherWaysOfHoldingBestFirst) {
-  Product product;
+  product::Product product;
   product.name = "slab";
-  product.mesh = make_box({25.0, 45.0, 140.0}, 8);
-  product.distance = std::make_shared<MeshDistance>(product.mesh);
-  const Grasp grasp = close_power_grasp(hand(), product);
+  product.mesh = geometry::make_box({25.0, 45.0, 140.0}, 8);
+  product.distance = std::make_shared<geometry::MeshDistance>(product.mesh);
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand(), product);
   ASSERT_FALSE(grasp.runners_up.empty());
   double before = grasp.score + 0.2;  // such a difference doesn't change the order
-  std::vector<Rigid3> seen;
-  for (const GraspRunnerUp& other : grasp.runners_up) {
+  std::vector<geometry::Rigid3> seen;
+  for (const grasp::GraspRunnerUp& other : grasp.runners_up) {
     EXPECT_LE(other.score, before);
     before = std::min(before, other.score + 0.2);
-    for (const Rigid3& placement : seen) {
-      EXPECT_TRUE(differ(hand(), placement, other.product_from_hand));
+    for (const geometry::Rigid3& placement : seen) {
+      EXPECT_TRUE(grasp::differ(hand(), placement, other.product_from_hand));
     }
     seen.push_back(other.product_from_hand);
-    EXPECT_TRUE(clamp_to_range(hand().skeleton, other.posture).clamped.empty());
+    EXPECT_TRUE(hand::clamp_to_range(hand().skeleton, other.posture).clamped.empty());
   }
 }
 
 TEST_F(EverydayGrasps, FewerCandidatesAreTriedIfSoAsked) {
-  PowerGraspOptions options;
+  grasp::PowerGraspOptions options;
   options.placement.axis = Vec3::UnitZ();  // placed by coordinates: the rest is searched
-  PowerGraspOptions plenty = options;
+  grasp::PowerGraspOptions plenty = options;
   options.candidates = 12;
-  const Product product = bar(45.0, 160.0);
-  const Grasp few = close_power_grasp(hand(), product, options);
-  const Grasp many = close_power_grasp(hand(), product, plenty);
+  const product::Product product = bar(45.0, 160.0);
+  const grasp::Grasp few = grasp::close_power_grasp(hand(), product, options);
+  const grasp::Grasp many = grasp::close_power_grasp(hand(), product, plenty);
   EXPECT_LT(few.candidates, many.candidates);
   // The thumb is added at the end and can turn out a little worse at a better place.
   EXPECT_LE(few.score, 1.01 * many.score);
   options.candidates = 0;
-  EXPECT_THROW(close_power_grasp(hand(), product, options), UsageError);
+  EXPECT_THROW(grasp::close_power_grasp(hand(), product, options), UsageError);
 }
 
 TEST_F(EverydayGrasps, AMirroredWorldIsGraspedTheMirroredWay) {
-  Product product;
-  product.mesh = make_box({26.0, 36.0, 150.0}, 8);
+  product::Product product;
+  product.mesh = geometry::make_box({26.0, 36.0, 150.0}, 8);
   for (Vec3& v : product.mesh.vertices) {  // without any symmetry of its own
     v.head<2>() *= 1.0 + 0.001 * (v.z() + 0.4 * v.x() + 0.3 * v.y());
   }
-  product.distance = std::make_shared<MeshDistance>(product.mesh);
-  Product mirror = product;
+  product.distance = std::make_shared<geometry::MeshDistance>(product.mesh);
+  product::Product mirror = product;
   for (Vec3& v : mirror.mesh.vertices) v.x() = -v.x();
   for (Triangle& t : mirror.mesh.triangles) std::swap(t[1], t[2]);
-  mirror.distance = std::make_shared<MeshDistance>(mirror.mesh);
-  const Grasp right = close_power_grasp(hand(), product);
-  const Grasp left = close_power_grasp(mirrored(hand()), mirror);
+  mirror.distance = std::make_shared<geometry::MeshDistance>(mirror.mesh);
+  const grasp::Grasp right = grasp::close_power_grasp(hand(), product);
+  const grasp::Grasp left = grasp::close_power_grasp(hand::mirrored(hand()), mirror);
   EXPECT_EQ(left.status, right.status);
   EXPECT_EQ(left.candidates, right.candidates);
   // The quick distance keeps single precision: 1e-6 mm, over a phalanx of 20 mm.
   for (std::size_t d = 0; d < right.posture.angle.size(); ++d) {
     EXPECT_NEAR(left.posture.angle[d], right.posture.angle[d], 3e-5)
-        << name_of(static_cast<Dof>(d));
+        << name_of(static_cast<hand::Dof>(d));
   }
   const auto across = [](const Vec3& v) { return Vec3(-v.x(), v.y(), v.z()); };
   for (const Vec3& p : {Vec3(0.0, 0.0, 0.0), Vec3(50.0, 0.0, 0.0), Vec3(0.0, 90.0, 30.0)}) {
@@ -372,10 +378,10 @@ TEST_F(EverydayGrasps, AMirroredWorldIsGraspedTheMirroredWay) {
 }
 
 TEST_F(EverydayGrasps, AGripForFingertipsIsRefused) {
-  PowerGraspOptions options;
-  options.grip = Grip::kTripod;
+  grasp::PowerGraspOptions options;
+  options.grip = grasp::Grip::kTripod;
   try {
-    close_power_grasp(hand(), bar(20.0, 120.0), options);
+    grasp::close_power_grasp(hand(), bar(20.0, 120.0), options);
     FAIL() << "a tripod was taken for a power grip";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("tripod is no power grip"));
@@ -383,4 +389,4 @@ TEST_F(EverydayGrasps, AGripForFingertipsIsRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

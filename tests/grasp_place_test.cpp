@@ -16,92 +16,95 @@
 #include "palmar/product/primitives.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 class GraspPlaces : public TemplateTest {
  protected:
   /// Length and circumference of the template times these.
-  static std::shared_ptr<const Hand> instance(double length, double circumference) {
-    const HandDimensions own = measure_hand(hand());
-    return std::make_shared<const Hand>(
-        make_hand_instance(
-            hand(), {{{DimensionKind::kHandLength}, length * own.hand_length},
-                     {{DimensionKind::kHandCircumference}, circumference * own.hand_circumference}})
+  static std::shared_ptr<const hand::Hand> instance(double length, double circumference) {
+    const hand::HandDimensions own = hand::measure_hand(hand());
+    return std::make_shared<const hand::Hand>(
+        hand::make_hand_instance(
+            hand(),
+            {{{hand::DimensionKind::kHandLength}, length * own.hand_length},
+             {{hand::DimensionKind::kHandCircumference}, circumference * own.hand_circumference}})
             .hand);
   }
-  static Product cylinder() {
-    CylinderProductOptions options;
+  static product::Product cylinder() {
+    product::CylinderProductOptions options;
     options.diameter = 38.0;
-    return make_cylinder_product(options);
+    return product::make_cylinder_product(options);
   }
-  static double contact_area(const std::shared_ptr<const Hand>& held_by, const Product& product,
-                             const Grasp& grasp) {
-    const PreparedHand prepared(held_by);
-    return solve_hand_contact(prepared, pose_skin(*held_by, grasp.posture), grasp.product_from_hand,
-                              *product.distance)
+  static double contact_area(const std::shared_ptr<const hand::Hand>& held_by,
+                             const product::Product& product, const grasp::Grasp& grasp) {
+    const contact::PreparedHand prepared(held_by);
+    return contact::solve_hand_contact(prepared, hand::pose_skin(*held_by, grasp.posture),
+                                       grasp.product_from_hand, *product.distance)
         .total.area;
   }
 };
 
 TEST_F(GraspPlaces, ReferenceHandHoldsAsFound) {
-  const Product product = cylinder();
-  const GraspPlace place(hand(), product);
-  const Grasp searched = find_grasp(hand(), product);
-  const Grasp again = place.hold(GraspingHand(std::make_shared<const Hand>(hand())));
+  const product::Product product = cylinder();
+  const grasp::GraspPlace place(hand(), product);
+  const grasp::Grasp searched = grasp::find_grasp(hand(), product);
+  const grasp::Grasp again =
+      place.hold(grasp::GraspingHand(std::make_shared<const hand::Hand>(hand())));
   EXPECT_EQ(again.posture.angle, searched.posture.angle);
   EXPECT_EQ(again.product_from_hand.translation, searched.product_from_hand.translation);
   EXPECT_EQ(again.message, searched.message);
 }
 
 TEST_F(GraspPlaces, OtherHandsHoldTheSameSideAsFirmlyAsAfterASearch) {
-  const Product product = cylinder();
-  const GraspPlace place(hand(), product);
+  const product::Product product = cylinder();
+  const grasp::GraspPlace place(hand(), product);
   for (const auto& [length, circumference] : {std::pair{0.88, 0.9}, std::pair{1.12, 1.05}}) {
     const auto other = instance(length, circumference);
-    const Grasp kept = place.hold(GraspingHand(other));
-    ASSERT_EQ(kept.status, GraspStatus::kHeld) << kept.message;
+    const grasp::Grasp kept = place.hold(grasp::GraspingHand(other));
+    ASSERT_EQ(kept.status, grasp::GraspStatus::kHeld) << kept.message;
     EXPECT_LT(kept.product_from_hand.rotation.angularDistance(
                   place.reference_grasp().product_from_hand.rotation),
               0.2);  // rad; poses differ by the tilt of thin handles only
     // A search of its own may find a little more skin to lie on.
-    const double searched = contact_area(other, product, find_grasp(*other, product));
+    const double searched = contact_area(other, product, grasp::find_grasp(*other, product));
     EXPECT_GT(contact_area(other, product, kept), 0.8 * searched);
   }
 }
 
 TEST_F(GraspPlaces, LeftHandsHoldAMirroredProductInTheMirroredWay) {
-  Product product = cylinder();
+  product::Product product = cylinder();
   for (Vec3& v : product.mesh.vertices) v.head<2>() *= 1.0 + 0.001 * (v.z() + 0.4 * v.x());
-  product.distance = std::make_shared<MeshDistance>(product.mesh);
-  Product mirror = product;
+  product.distance = std::make_shared<geometry::MeshDistance>(product.mesh);
+  product::Product mirror = product;
   for (Vec3& v : mirror.mesh.vertices) v.x() = -v.x();
   for (Triangle& t : mirror.mesh.triangles) std::swap(t[1], t[2]);
-  mirror.distance = std::make_shared<MeshDistance>(mirror.mesh);
+  mirror.distance = std::make_shared<geometry::MeshDistance>(mirror.mesh);
   const auto other = instance(1.06, 1.0);
-  const Hand left_reference = mirrored(hand());
-  const Grasp right = GraspPlace(hand(), product).hold(GraspingHand(other));
-  const Grasp left = GraspPlace(left_reference, mirror)
-                         .hold(GraspingHand(std::make_shared<const Hand>(mirrored(*other))));
+  const hand::Hand left_reference = hand::mirrored(hand());
+  const grasp::Grasp right = grasp::GraspPlace(hand(), product).hold(grasp::GraspingHand(other));
+  const grasp::Grasp left =
+      grasp::GraspPlace(left_reference, mirror)
+          .hold(grasp::GraspingHand(std::make_shared<const hand::Hand>(hand::mirrored(*other))));
   EXPECT_EQ(left.status, right.status);
   for (std::size_t d = 0; d < right.posture.angle.size(); ++d) {
     EXPECT_NEAR(left.posture.angle[d], right.posture.angle[d],
                 2e-3)  // rad; on a nearly round bar the sides of its quick distance are chance
-        << name_of(static_cast<Dof>(d));
+        << name_of(static_cast<hand::Dof>(d));
   }
 }
 
 // The span of a small child's hand, 106 mm long, can't reach a third round a pipe of 346 mm of
 // girth: 115 mm of arc from the thumb to the fingertips.
 TEST_F(GraspPlaces, AHandThatCantHoldItThereIsAResult) {
-  CylinderProductOptions pipe;
+  product::CylinderProductOptions pipe;
   pipe.diameter = 110.0;
-  const Product product = make_cylinder_product(pipe);
-  const GraspPlace place(hand(), product);
-  ASSERT_EQ(place.reference_grasp().status, GraspStatus::kHeld);
-  const auto child = std::make_shared<const Hand>(scaled(hand(), 0.6));
-  const Grasp kept = place.hold(GraspingHand(child));
-  EXPECT_NE(kept.status, GraspStatus::kHeld);
+  const product::Product product = product::make_cylinder_product(pipe);
+  const grasp::GraspPlace place(hand(), product);
+  ASSERT_EQ(place.reference_grasp().status, grasp::GraspStatus::kHeld);
+  const auto child = std::make_shared<const hand::Hand>(scaled(hand(), 0.6));
+  const grasp::Grasp kept = place.hold(grasp::GraspingHand(child));
+  EXPECT_NE(kept.status, grasp::GraspStatus::kHeld);
   EXPECT_THAT(kept.message,
               ::testing::StartsWith("cannot take the hold \"large diameter of the body"));
   // Never another hold without a word: what it could do instead is told, or that there is nothing.
@@ -112,27 +115,28 @@ TEST_F(GraspPlaces, AHandThatCantHoldItThereIsAResult) {
 }
 
 TEST_F(GraspPlaces, ThreadsShareAPlace) {
-  const Product product = cylinder();
-  const GraspPlace place(hand(), product);
+  const product::Product product = cylinder();
+  const grasp::GraspPlace place(hand(), product);
   const auto other = instance(0.95, 1.05);
-  const Grasp alone = place.hold(GraspingHand(other));
-  std::array<Grasp, 4> together;
-  parallel_for(
-      4, [&](int i) { together[static_cast<std::size_t>(i)] = place.hold(GraspingHand(other)); });
-  for (const Grasp& grasp : together) {
+  const grasp::Grasp alone = place.hold(grasp::GraspingHand(other));
+  std::array<grasp::Grasp, 4> together;
+  parallel_for(4, [&](int i) {
+    together[static_cast<std::size_t>(i)] = place.hold(grasp::GraspingHand(other));
+  });
+  for (const grasp::Grasp& grasp : together) {
     EXPECT_EQ(grasp.posture.angle, alone.posture.angle);
     EXPECT_EQ(grasp.product_from_hand.translation, alone.product_from_hand.translation);
   }
 }
 
 TEST_F(GraspPlaces, FingertipsGoToTheSamePointsOfTheProduct) {
-  GraspOptions options;
-  options.grip = Grip::kTripod;
-  CylinderProductOptions pen;
+  grasp::GraspOptions options;
+  options.grip = grasp::Grip::kTripod;
+  product::CylinderProductOptions pen;
   pen.diameter = 14.0;
-  const Product product = make_cylinder_product(pen);
-  const GraspPlace place(hand(), product, options);
-  const Grasp kept = place.hold(GraspingHand(instance(1.05, 1.02)));
+  const product::Product product = product::make_cylinder_product(pen);
+  const grasp::GraspPlace place(hand(), product, options);
+  const grasp::Grasp kept = place.hold(grasp::GraspingHand(instance(1.05, 1.02)));
   ASSERT_EQ(kept.fingertips.size(), place.reference_grasp().fingertips.size());
   for (std::size_t k = 0; k < kept.fingertips.size(); ++k) {
     EXPECT_LT((kept.fingertips[k].target - place.reference_grasp().fingertips[k].target).norm(),
@@ -142,19 +146,21 @@ TEST_F(GraspPlaces, FingertipsGoToTheSamePointsOfTheProduct) {
 
 // Three standard deviations of hand length (17 %) and circumference (22 %) about the mean.
 TEST_F(GraspPlaces, HandsOfOneFamilyPressAsIfPreparedInFull) {
-  const auto base = std::make_shared<const Hand>(hand());
-  const HandFamily family(base);
-  const Product product = cylinder();
-  const GraspPlace place(hand(), product);
+  const auto base = std::make_shared<const hand::Hand>(hand());
+  const contact::HandFamily family(base);
+  const product::Product product = cylinder();
+  const grasp::GraspPlace place(hand(), product);
   for (const auto& [length, circumference] :
        {std::pair{0.85, 0.85}, std::pair{1.17, 0.9}, std::pair{0.95, 1.2}}) {
     const auto other = instance(length, circumference);
-    const Grasp grasp = place.hold(GraspingHand(other));
-    const std::vector<Vec3> skin = pose_skin(*other, grasp.posture);
-    const auto press = [&](const PreparedHand& prepared) {
-      return solve_hand_contact(prepared, skin, grasp.product_from_hand, *product.distance).total;
+    const grasp::Grasp grasp = place.hold(grasp::GraspingHand(other));
+    const std::vector<Vec3> skin = hand::pose_skin(*other, grasp.posture);
+    const auto press = [&](const contact::PreparedHand& prepared) {
+      return contact::solve_hand_contact(prepared, skin, grasp.product_from_hand, *product.distance)
+          .total;
     };
-    const RegionContact full = press(PreparedHand(other)), quick = press({other, family});
+    const contact::RegionContact full = press(contact::PreparedHand(other)),
+                                 quick = press({other, family});
     EXPECT_NEAR(quick.force, full.force, 0.002 * full.force);
     EXPECT_NEAR(quick.area, full.area, 0.002 * full.area);
     EXPECT_NEAR(quick.peak_pressure_cells, full.peak_pressure_cells,
@@ -163,4 +169,4 @@ TEST_F(GraspPlaces, HandsOfOneFamilyPressAsIfPreparedInFull) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -19,7 +19,7 @@
 #include "palmar/hand/mirror.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 constexpr double kLawDeg = std::numbers::pi / 180.0;
@@ -68,25 +68,25 @@ const std::map<std::string, std::string>& known_breaks() {
 
 struct FirstHold {
   bool is_found = false;
-  RankedHold ranked;
+  grasp::RankedHold ranked;
   double part_length = 0.0;  // mm
   double centre = 0.0;       // from the product's middle, mm
 };
 
-FirstHold first_hold(const Hand& hand, const Product& product) {
-  RankedHolds found = rank_holds(hand, product);
+FirstHold first_hold(const hand::Hand& hand, const product::Product& product) {
+  grasp::RankedHolds found = grasp::rank_holds(hand, product);
   FirstHold first;
   if (found.holds.empty()) return first;
   first.is_found = true;
   first.ranked = std::move(found.holds.front());
   first.part_length = found.parts.parts.at(first.ranked.hold.part - 1).length;
-  first.centre = (centre_of(first.ranked) - centre_of_volume(product.mesh)).norm();
+  first.centre = (centre_of(first.ranked) - geometry::centre_of_volume(product.mesh)).norm();
   return first;
 }
 
 std::string words_of(const FirstHold& first) {
   if (!first.is_found) return "none";
-  const Hold& h = first.ranked.hold;
+  const grasp::Hold& h = first.ranked.hold;
   return fmt::format(
       "{}: part {} ({}), {}, along {:.3f}, toward {:+d}, turn {:.0f} deg, score {:.3f}",
       first.ranked.words, h.part, h.part_name, name_of(h.grip), h.along, h.toward, h.turn / kLawDeg,
@@ -98,10 +98,10 @@ std::string words_of(const FirstHold& first) {
 // other coordinates.
 std::string difference(const FirstHold& a, const FirstHold& b, const std::string& product) {
   if (!a.is_found || !b.is_found) return a.is_found == b.is_found ? "" : "found once only";
-  const Hold &p = a.ranked.hold, &q = b.ranked.hold;
+  const grasp::Hold &p = a.ranked.hold, &q = b.ranked.hold;
   if (p.part != q.part || p.part_name != q.part_name) return "another part";
   if (p.grip != q.grip) return "another grip";
-  if (!is_power(p.grip)) {
+  if (!grasp::is_power(p.grip)) {
     if (p.fingertips.size() != q.fingertips.size()) return "other fingers";
     // A fiftieth of the part, at least the finest lattice's step.
     const double tolerance = std::max(3.0, 0.02 * a.part_length);  // mm
@@ -130,8 +130,8 @@ void expect_no_difference(const std::string& law, const std::string& product,
 
 class LawsOfHolds : public TemplateTest, public testing::WithParamInterface<std::string> {
  protected:
-  static const Product& as_it_is() {
-    static std::map<std::string, Product> known;
+  static const product::Product& as_it_is() {
+    static std::map<std::string, product::Product> known;
     const auto found = known.find(GetParam());
     return found != known.end()
                ? found->second
@@ -150,14 +150,14 @@ class LawsOfHolds : public TemplateTest, public testing::WithParamInterface<std:
 };
 
 TEST_P(LawsOfHolds, StayWhenTheProductIsShiftedAndTurnedALittle) {
-  const Rigid3 motion = {Quat(Eigen::AngleAxisd(5.0 * kLawDeg, Vec3(0.6, -0.48, 0.64))),
-                         Vec3(100.0, 0.0, 0.0)};
+  const geometry::Rigid3 motion = {Quat(Eigen::AngleAxisd(5.0 * kLawDeg, Vec3(0.6, -0.48, 0.64))),
+                                   Vec3(100.0, 0.0, 0.0)};
   expect_same("shifted", first_hold(hand(), moved(as_it_is(), motion)));
 }
 
 TEST_P(LawsOfHolds, StayWhenTheProductIsTurnedAnyhow) {
-  const Rigid3 motion = {Quat(Eigen::AngleAxisd(2.2, Vec3(0.36, 0.48, -0.8))),
-                         Vec3(-40.0, 25.0, 310.0)};
+  const geometry::Rigid3 motion = {Quat(Eigen::AngleAxisd(2.2, Vec3(0.36, 0.48, -0.8))),
+                                   Vec3(-40.0, 25.0, 310.0)};
   expect_same("turned", first_hold(hand(), moved(as_it_is(), motion)));
 }
 
@@ -195,4 +195,4 @@ INSTANTIATE_TEST_SUITE_P(Products, LawsOfHolds, testing::ValuesIn(tried_products
                          [](const auto& one) { return one.param; });
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

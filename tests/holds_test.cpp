@@ -21,7 +21,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 // Products whose first hold isn't one that people do, and why not. A product that is listed here
@@ -57,14 +57,14 @@ std::vector<PeoplesHold> peoples_holds(const std::string& product) {
 }
 
 // Ranked once for all tests.
-const RankedHolds& ranked(const Hand& hand, const std::string& product) {
-  static std::map<std::string, RankedHolds> known;
+const grasp::RankedHolds& ranked(const hand::Hand& hand, const std::string& product) {
+  static std::map<std::string, grasp::RankedHolds> known;
   const auto found = known.find(product);
   if (found != known.end()) return found->second;
-  return known.emplace(product, rank_holds(hand, tried_product(product))).first->second;
+  return known.emplace(product, grasp::rank_holds(hand, tried_product(product))).first->second;
 }
 
-std::string words_of(const RankedHold& found) {
+std::string words_of(const grasp::RankedHold& found) {
   const Vec3 centre = centre_of(found);
   return fmt::format("{} ({:.2f}), centre ({:.0f}, {:.0f}, {:.0f}) mm", found.words, found.score,
                      centre.x(), centre.y(), centre.z());
@@ -74,7 +74,7 @@ class PeoplesHolds : public TemplateTest, public testing::WithParamInterface<std
 
 TEST_P(PeoplesHolds, FirstHoldIsOneThatPeopleDo) {
   const std::vector<PeoplesHold> people = peoples_holds(GetParam());
-  const RankedHolds& found = ranked(hand(), GetParam());
+  const grasp::RankedHolds& found = ranked(hand(), GetParam());
   std::string miss = "no hold was found";
   std::string first = "none";
   if (!found.holds.empty()) {
@@ -111,7 +111,7 @@ TEST_F(Holds, IndexFingerLiesOnTheTrigger) {
   for (const PeoplesHold& people : all_peoples_holds()) {
     if (!people.index_fingertip) continue;
     if (people.product == "power_drill" && !has_scans()) continue;
-    const RankedHolds& found = ranked(hand(), people.product);
+    const grasp::RankedHolds& found = ranked(hand(), people.product);
     ASSERT_FALSE(found.holds.empty()) << people.product;
     const Vec3 tip = index_fingertip(hand(), found.holds.front());
     // Known shortfall: on the drill 13 mm below the trigger, since its tail stops the ball of the
@@ -126,11 +126,11 @@ TEST_F(Holds, ThoroughScoresFallAndAreTheSumsOfTheirTerms) {
   for (const std::string& product : tried_products()) {
     SCOPED_TRACE(product);
     double before = 0.2;  // such a difference from the best doesn't change the order (hold.h)
-    for (const RankedHold& found : ranked(hand(), product).holds) {
+    for (const grasp::RankedHold& found : ranked(hand(), product).holds) {
       EXPECT_LE(found.score, before + 1e-9) << found.words;
       before = before == 0.2 ? found.score + 0.2 : std::min(before, found.score);
       double sum = 0.0;
-      for (const HoldTerm& term : found.terms) {
+      for (const grasp::HoldTerm& term : found.terms) {
         EXPECT_LE(term.score, 1e-12) << term.name;
         EXPECT_FALSE(term.words.empty()) << term.name;
         sum += term.score;
@@ -150,7 +150,7 @@ TEST_F(Holds, TableOfWhatPeopleDoAndWhatIsFound) {
   int hits = 0, products = 0;
   for (const std::string& product : tried_products()) {
     const std::vector<PeoplesHold> people = peoples_holds(product);
-    const RankedHolds& found = ranked(hand(), product);
+    const grasp::RankedHolds& found = ranked(hand(), product);
     std::string what;
     for (const PeoplesHold& way : people) {
       what += (what.empty() ? "" : "; or ") + way.part + " (" + fmt::format("{}", way.grips[0]);
@@ -178,8 +178,8 @@ TEST(MadeProducts, AreClosedManifoldsAndHaveAnEntryOfWhatPeopleDo) {
   for (const MadeShape& shape : made_shapes()) {
     SCOPED_TRACE(shape.name);
     made.insert(shape.name);
-    const TriangleMesh mesh = net_mesh_of(shape.solid, shape.lattice);
-    const TopologyReport report = examine_topology(mesh);
+    const geometry::TriangleMesh mesh = net_mesh_of(shape.solid, shape.lattice);
+    const geometry::TopologyReport report = geometry::examine_topology(mesh);
     EXPECT_TRUE(report.is_closed && report.is_two_manifold && report.is_oriented);
     EXPECT_EQ(report.components, 1);
     EXPECT_GT(mesh.triangle_count(), 5000);
@@ -193,7 +193,7 @@ TEST(MadeProducts, AreClosedManifoldsAndHaveAnEntryOfWhatPeopleDo) {
       {"spade", 1},  {"key", 1}, {"tailors_shears", 2}, {"nail_scissors", 2}};
   for (const MadeShape& shape : made_shapes()) {
     const auto expected = tunnels.find(shape.name);
-    EXPECT_EQ(examine_topology(net_mesh_of(shape.solid, shape.lattice)).euler_number,
+    EXPECT_EQ(geometry::examine_topology(net_mesh_of(shape.solid, shape.lattice)).euler_number,
               2 - 2 * (expected == tunnels.end() ? 0 : expected->second))
         << shape.name;
   }
@@ -201,7 +201,7 @@ TEST(MadeProducts, AreClosedManifoldsAndHaveAnEntryOfWhatPeopleDo) {
 
 TEST(MadeProducts, HaveTheSizesThatTheyAreSaidToHave) {
   // Closed forms: the cube, its edges rounded by 2 mm; the tumbler's and bottle's height and width.
-  const TriangleMesh cube =
+  const geometry::TriangleMesh cube =
       net_mesh_of(made_shape("cube_60mm").solid, made_shape("cube_60mm").lattice);
   double volume = 0.0;
   for (const auto& [a, b, c] : cube.triangles) {
@@ -224,4 +224,4 @@ TEST(MadeProducts, HaveTheSizesThatTheyAreSaidToHave) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

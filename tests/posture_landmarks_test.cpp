@@ -11,7 +11,7 @@
 #include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 using ::testing::HasSubstr;
@@ -29,11 +29,11 @@ class LandmarksTest : public TemplateTest {
 };
 
 TEST_F(LandmarksTest, EveryNameHasAPointNearTheHand) {
-  const Landmarks landmarks(hand());
-  const std::vector<std::string> names = Landmarks::names();
+  const hand::Landmarks landmarks(hand());
+  const std::vector<std::string> names = hand::Landmarks::names();
   EXPECT_GT(names.size(), 80U);
   for (const std::string& name : names) {
-    const HandPoint point = landmarks.at(name);
+    const hand::HandPoint point = landmarks.at(name);
     double nearest = 1e9;
     for (const Vec3& v : hand().skin.vertices) {
       nearest = std::min(nearest, (v - point.reference).norm());
@@ -44,7 +44,7 @@ TEST_F(LandmarksTest, EveryNameHasAPointNearTheHand) {
 }
 
 TEST_F(LandmarksTest, SidesLieWhereTheirNamesSay) {
-  const Landmarks landmarks(hand());
+  const hand::Landmarks landmarks(hand());
   for (const std::string joint : {"index_pip", "middle_dip", "ring_pip", "little_dip"}) {
     const Vec3 centre = landmarks.at(joint + "_centre").reference;
     // Right hand, about straight fingers: x radial, z palmar; half a finger's thickness is 4 to 12
@@ -68,9 +68,9 @@ TEST_F(LandmarksTest, SidesLieWhereTheirNamesSay) {
 }
 
 TEST_F(LandmarksTest, AMirroredHandHasMirroredLandmarks) {
-  const Hand left = mirrored(hand());
-  const Landmarks here(hand()), there(left);
-  for (const std::string& name : Landmarks::names()) {
+  const hand::Hand left = hand::mirrored(hand());
+  const hand::Landmarks here(hand()), there(left);
+  for (const std::string& name : hand::Landmarks::names()) {
     Vec3 expected = here.at(name).reference;
     expected.x() = -expected.x();
     // Rays are traced in single precision.
@@ -79,8 +79,8 @@ TEST_F(LandmarksTest, AMirroredHandHasMirroredLandmarks) {
 }
 
 TEST_F(LandmarksTest, HeightLiftsOffTheSkin) {
-  const Landmarks landmarks(hand());
-  for (const DorsalMarker& marker : dorsal_markers()) {
+  const hand::Landmarks landmarks(hand());
+  for (const hand::DorsalMarker& marker : hand::dorsal_markers()) {
     const Vec3 low = landmarks.at(marker.label).reference;
     const Vec3 high = landmarks.at(marker.label, 6.0).reference;
     EXPECT_NEAR((high - low).norm(), 6.0, 1e-9) << marker.label;
@@ -93,43 +93,44 @@ TEST_F(LandmarksTest, HeightLiftsOffTheSkin) {
 TEST_F(LandmarksTest, PointsGoWithTheSkinOrTheirPart) {
   // Any posture: points on vertices are where pose_skin() has these vertices, points of a part
   // where pose_skeleton() has that part.
-  std::vector<HandPoint> points;
-  for (int v = 0; v < hand().skin.vertex_count(); v += 97) points.push_back(skin_point(hand(), v));
+  std::vector<hand::HandPoint> points;
+  for (int v = 0; v < hand().skin.vertex_count(); v += 97)
+    points.push_back(hand::skin_point(hand(), v));
   const std::size_t on_skin = points.size();
   const Vec3 p(10, 150, 20);
-  points.push_back(part_point("index_distal", p));
-  points.push_back(part_point("thumb_metacarpal", p));
-  points.push_back(part_point("thumb_distal", p));
-  points.push_back(part_point("forearm", p));
-  points.push_back(part_point("palm", p));
-  const PosablePoints posable(hand(), points);
-  Posture posture = *named_posture(hand().skeleton, "tripod");
-  posture[Dof::kWristFlexion] = 0.5;
-  posture[Dof::kWristPronation] = -0.3;
+  points.push_back(hand::part_point("index_distal", p));
+  points.push_back(hand::part_point("thumb_metacarpal", p));
+  points.push_back(hand::part_point("thumb_distal", p));
+  points.push_back(hand::part_point("forearm", p));
+  points.push_back(hand::part_point("palm", p));
+  const hand::PosablePoints posable(hand(), points);
+  hand::Posture posture = *hand::named_posture(hand().skeleton, "tripod");
+  posture[hand::Dof::kWristFlexion] = 0.5;
+  posture[hand::Dof::kWristPronation] = -0.3;
   const std::vector<Vec3> posed = posable.pose(posture);
-  const std::vector<Vec3> skin = pose_skin(hand(), posture);
+  const std::vector<Vec3> skin = hand::pose_skin(hand(), posture);
   for (std::size_t i = 0; i < on_skin; ++i) {
     EXPECT_LT((posed[i] - skin[97 * i]).norm(), 1e-12);
   }
-  const PosedSkeleton skeleton = pose_skeleton(hand().skeleton, posture);
-  const auto at = [&](Segment s) {
+  const hand::PosedSkeleton skeleton = hand::pose_skeleton(hand().skeleton, posture);
+  const auto at = [&](hand::Segment s) {
     return Vec3(skeleton.segment[static_cast<std::size_t>(s)] * p);
   };
-  EXPECT_LT((posed[on_skin] - at(Segment::kIndexDistal)).norm(), 1e-9);
+  EXPECT_LT((posed[on_skin] - at(hand::Segment::kIndexDistal)).norm(), 1e-9);
   EXPECT_LT((posed[on_skin + 1] - skeleton.thumb_metacarpal * p).norm(), 1e-9);
-  EXPECT_LT((posed[on_skin + 2] - at(Segment::kThumbDistal)).norm(), 1e-9);
+  EXPECT_LT((posed[on_skin + 2] - at(hand::Segment::kThumbDistal)).norm(), 1e-9);
   EXPECT_LT((posed[on_skin + 3] - skeleton.forearm * p).norm(), 1e-9);
   EXPECT_LT((posed[on_skin + 4] - p).norm(), 1e-12);
 }
 
 TEST_F(LandmarksTest, UnknownNamesAreAnsweredWithTheNearest) {
-  const Landmarks landmarks(hand());
+  const hand::Landmarks landmarks(hand());
   EXPECT_THAT(message_of([&] { landmarks.at("index_dip_dorsl"); }), HasSubstr("index_dip_dorsal"));
   EXPECT_THAT(message_of([&] { landmarks.at("elbow"); }), HasSubstr("index_dip_dorsal"));
-  EXPECT_THAT(message_of([&] { part_point("index_distl", Vec3::Zero()); }),
+  EXPECT_THAT(message_of([&] { hand::part_point("index_distl", Vec3::Zero()); }),
               HasSubstr("index_distal"));
-  EXPECT_THAT(message_of([&] { skin_point(hand(), 1000000); }), HasSubstr("1000000"));
+  EXPECT_THAT(message_of([&] { hand::skin_point(hand(), 1000000); }), HasSubstr("1000000"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -20,7 +20,7 @@
 // Meshes of posed hands, made by another skinning than the one that is fitted: linear blending of
 // the bones' matrices with weights of distance, so that folds and joints look different.
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 using ::testing::HasSubstr;
@@ -37,36 +37,36 @@ double distance_to(const Vec3& p, const Vec3& a, const Vec3& b) {
 }
 
 /// Skin moved by matrices blended with weights that fall off with the distance from each bone.
-TriangleMesh blended_skin(const Hand& hand, const Posture& posture) {
-  const PosedSkeleton posed = pose_skeleton(hand.skeleton, posture);
+geometry::TriangleMesh blended_skin(const hand::Hand& hand, const hand::Posture& posture) {
+  const hand::PosedSkeleton posed = hand::pose_skeleton(hand.skeleton, posture);
   struct Link {
     Vec3 from, to;
-    Rigid3 motion;
+    geometry::Rigid3 motion;
     int finger = -1;  // palm
   };
   std::vector<Link> links;
-  const auto centre = [&](JointId id) { return hand.skeleton.joint(id).centre; };
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
+  const auto centre = [&](hand::JointId id) { return hand.skeleton.joint(id).centre; };
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
     const Vec3 tip = hand.skeleton.fingertips[static_cast<std::size_t>(f)];
-    std::vector<Segment> segments;
-    for (const auto& one : segments_of(finger)) {
+    std::vector<hand::Segment> segments;
+    for (const auto& one : hand::segments_of(finger)) {
       if (one) segments.push_back(*one);
     }
     for (std::size_t k = 0; k < segments.size(); ++k) {
-      const Vec3 from = centre(joint_of(segments[k]));
-      const Vec3 to = k + 1 < segments.size() ? centre(joint_of(segments[k + 1])) : tip;
+      const Vec3 from = centre(hand::joint_of(segments[k]));
+      const Vec3 to = k + 1 < segments.size() ? centre(hand::joint_of(segments[k + 1])) : tip;
       links.push_back({from, to, posed.segment[static_cast<std::size_t>(segments[k])], f});
     }
-    const Vec3 knuckle = centre(joint_of(segments.front()));
-    if (finger == Finger::kThumb) {
-      links.push_back({centre(JointId::kThumbCmc), knuckle, posed.thumb_metacarpal, f});
+    const Vec3 knuckle = centre(hand::joint_of(segments.front()));
+    if (finger == hand::Finger::kThumb) {
+      links.push_back({centre(hand::JointId::kThumbCmc), knuckle, posed.thumb_metacarpal, f});
     } else {
-      links.push_back({Vec3(0.6 * knuckle.x(), 18, knuckle.z()), knuckle, Rigid3{}, -1});
+      links.push_back({Vec3(0.6 * knuckle.x(), 18, knuckle.z()), knuckle, geometry::Rigid3{}, -1});
     }
   }
   links.push_back({Vec3(0, -35, 0), Vec3(0, 0, 0), posed.forearm, -2});
-  TriangleMesh skin = hand.skin;
+  geometry::TriangleMesh skin = hand.skin;
   for (Vec3& v : skin.vertices) {
     std::vector<double> distance;
     double nearest = 1e9;
@@ -94,10 +94,11 @@ TriangleMesh blended_skin(const Hand& hand, const Posture& posture) {
   return skin;
 }
 
-const Rigid3 kMeshPlace{Quat(Eigen::AngleAxisd(1.9, Vec3(-0.5, 0.7, 0.51).normalized())),
-                        Vec3(-300, 120, 55)};
+const geometry::Rigid3 kMeshPlace{Quat(Eigen::AngleAxisd(1.9, Vec3(-0.5, 0.7, 0.51).normalized())),
+                                  Vec3(-300, 120, 55)};
 
-TriangleMesh placed(TriangleMesh mesh, const Rigid3& place, double noise, unsigned seed) {
+geometry::TriangleMesh placed(geometry::TriangleMesh mesh, const geometry::Rigid3& place,
+                              double noise, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> error(0.0, 1.0);
   for (Vec3& v : mesh.vertices) {
@@ -111,11 +112,11 @@ struct AngleError {
   double rms = 0.0, worst = 0.0;
   std::string text;
 };
-AngleError angle_error(const Posture& found, const Posture& truth) {
+AngleError angle_error(const hand::Posture& found, const hand::Posture& truth) {
   AngleError error;
   int count = 0;
-  for (int d = static_cast<int>(Dof::kThumbCmcFlexion); d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
+  for (int d = static_cast<int>(hand::Dof::kThumbCmcFlexion); d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
     const double e = std::abs(found[dof] - truth[dof]) / kRadians;
     error.rms += e * e;
     ++count;
@@ -127,34 +128,35 @@ AngleError angle_error(const Posture& found, const Posture& truth) {
 }
 
 /// Another triangulation, coarser than the hand's.
-TriangleMesh scanned(const TriangleMesh& skin, double noise, unsigned seed) {
-  return placed(remesh(skin, {.edge_length = 4.0, .rounds = 4}).mesh, kMeshPlace, noise, seed);
+geometry::TriangleMesh scanned(const geometry::TriangleMesh& skin, double noise, unsigned seed) {
+  return placed(geometry::remesh(skin, {.edge_length = 4.0, .rounds = 4}).mesh, kMeshPlace, noise,
+                seed);
 }
 
 /// Angles drawn between two postures that people take: fingers don't run through each other.
-Posture drawn_mesh_posture(const Hand& hand, unsigned seed) {
+hand::Posture drawn_mesh_posture(const hand::Hand& hand, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> share(0.0, 1.0);
-  const Posture flat = *named_posture(hand.skeleton, "flat");
-  const Posture bent = *named_posture(hand.skeleton, "cylinder_grip");
-  Posture posture = flat;
-  for (std::size_t d = 0; d < kDofCount; ++d) {
+  const hand::Posture flat = *hand::named_posture(hand.skeleton, "flat");
+  const hand::Posture bent = *hand::named_posture(hand.skeleton, "cylinder_grip");
+  hand::Posture posture = flat;
+  for (std::size_t d = 0; d < hand::kDofCount; ++d) {
     posture.angle[d] += share(random) * 1.2 * (bent.angle[d] - flat.angle[d]);
   }
-  return clamp_to_range(hand.skeleton, posture).posture;
+  return hand::clamp_to_range(hand.skeleton, posture).posture;
 }
 
 TEST_F(PostureMeshTest, TheSameSkinIsFoundVertexForVertex) {
-  Posture truth = *named_posture(hand().skeleton, "tripod");
-  truth[Dof::kWristFlexion] = 20 * kRadians;
-  const TriangleMesh mesh =
-      placed({pose_skin(hand(), truth), hand().skin.triangles}, kMeshPlace, 0.0, 1);
-  const MeshFit fit = fit_posture_to_mesh(hand(), mesh);
-  EXPECT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
+  hand::Posture truth = *hand::named_posture(hand().skeleton, "tripod");
+  truth[hand::Dof::kWristFlexion] = 20 * kRadians;
+  const geometry::TriangleMesh mesh =
+      placed({hand::pose_skin(hand(), truth), hand().skin.triangles}, kMeshPlace, 0.0, 1);
+  const hand::MeshFit fit = hand::fit_posture_to_mesh(hand(), mesh);
+  EXPECT_EQ(fit.status, hand::PostureFitStatus::kFitted) << fit.message;
   EXPECT_TRUE(fit.is_vertex_to_vertex);
   EXPECT_GT(fit.partner_share, 0.99);
   EXPECT_LT(fit.percentile_95, 0.01);  // mm; the prior of 10 rad pulls by less
-  for (std::size_t d = 0; d < kDofCount; ++d) {
+  for (std::size_t d = 0; d < hand::kDofCount; ++d) {
     EXPECT_NEAR(fit.posture.angle[d] / kRadians, truth.angle[d] / kRadians, 0.05);
   }
   EXPECT_LT((fit.mesh_from_hand.translation - kMeshPlace.translation).norm(), 0.05);
@@ -162,10 +164,10 @@ TEST_F(PostureMeshTest, TheSameSkinIsFoundVertexForVertex) {
 
 TEST_F(PostureMeshTest, AnglesOfAnotherSkinningComeOutWithinAFewDegrees) {
   for (const unsigned seed : {1U, 2U}) {
-    const Posture truth = drawn_mesh_posture(hand(), seed);
-    const MeshFit fit =
-        fit_posture_to_mesh(hand(), scanned(blended_skin(hand(), truth), 0.3, seed));
-    ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
+    const hand::Posture truth = drawn_mesh_posture(hand(), seed);
+    const hand::MeshFit fit =
+        hand::fit_posture_to_mesh(hand(), scanned(blended_skin(hand(), truth), 0.3, seed));
+    ASSERT_EQ(fit.status, hand::PostureFitStatus::kFitted) << fit.message;
     EXPECT_FALSE(fit.is_vertex_to_vertex);
     const AngleError error = angle_error(fit.posture, truth);
     EXPECT_LT(error.rms, 3.0) << seed << ": " << error.text;
@@ -177,8 +179,8 @@ TEST_F(PostureMeshTest, AnglesOfAnotherSkinningComeOutWithinAFewDegrees) {
 }
 
 TEST_F(PostureMeshTest, AForearmAndHolesDontMislead) {
-  const Posture truth = drawn_mesh_posture(hand(), 5);
-  TriangleMesh mesh = blended_skin(hand(), truth);
+  const hand::Posture truth = drawn_mesh_posture(hand(), 5);
+  geometry::TriangleMesh mesh = blended_skin(hand(), truth);
   // The forearm goes on for 200 mm as a tube of the wrist's girth, beside the stub's cut.
   const int first = mesh.vertex_count();
   constexpr int kRound = 24, kRings = 40;
@@ -204,8 +206,8 @@ TEST_F(PostureMeshTest, AForearmAndHolesDontMislead) {
     if (!is_lost) kept.push_back(t);
   }
   mesh.triangles = kept;
-  const MeshFit fit = fit_posture_to_mesh(hand(), placed(mesh, kMeshPlace, 0.2, 2));
-  ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
+  const hand::MeshFit fit = hand::fit_posture_to_mesh(hand(), placed(mesh, kMeshPlace, 0.2, 2));
+  ASSERT_EQ(fit.status, hand::PostureFitStatus::kFitted) << fit.message;
   const AngleError error = angle_error(fit.posture, truth);
   EXPECT_LT(error.rms, 3.0) << error.text;
   EXPECT_LT(error.worst, 12.0) << error.text;
@@ -214,28 +216,29 @@ TEST_F(PostureMeshTest, AForearmAndHolesDontMislead) {
 }
 
 TEST_F(PostureMeshTest, AnotherSizeIsFoundIfAskedFor) {
-  const Hand large = scaled(hand(), 1.1);
-  const Posture truth = drawn_mesh_posture(large, 6);
-  const MeshFit fit = fit_posture_to_mesh(hand(), scanned(blended_skin(large, truth), 0.2, 1),
-                                          {.fits_scale = true});
-  ASSERT_EQ(fit.status, PostureFitStatus::kFitted) << fit.message;
+  const hand::Hand large = hand::scaled(hand(), 1.1);
+  const hand::Posture truth = drawn_mesh_posture(large, 6);
+  const hand::MeshFit fit = hand::fit_posture_to_mesh(
+      hand(), scanned(blended_skin(large, truth), 0.2, 1), {.fits_scale = true});
+  ASSERT_EQ(fit.status, hand::PostureFitStatus::kFitted) << fit.message;
   EXPECT_NEAR(fit.scale, 1.1, 0.01);
   EXPECT_LT(angle_error(fit.posture, truth).rms, 3.5) << angle_error(fit.posture, truth).text;
 }
 
 TEST_F(PostureMeshTest, TheOtherHandIsRecognised) {
-  const Hand left = mirrored(hand());
-  const Posture truth = drawn_mesh_posture(left, 3);
-  const TriangleMesh skin{pose_skin(left, truth), left.skin.triangles};
-  const MeshFit by_vertex = fit_posture_to_mesh(hand(), placed(skin, kMeshPlace, 0.0, 1));
-  EXPECT_EQ(by_vertex.status, PostureFitStatus::kMirrored) << by_vertex.message;
-  const MeshFit by_shape = fit_posture_to_mesh(hand(), scanned(skin, 0.2, 1));
-  EXPECT_EQ(by_shape.status, PostureFitStatus::kMirrored) << by_shape.message;
+  const hand::Hand left = hand::mirrored(hand());
+  const hand::Posture truth = drawn_mesh_posture(left, 3);
+  const geometry::TriangleMesh skin{hand::pose_skin(left, truth), left.skin.triangles};
+  const hand::MeshFit by_vertex =
+      hand::fit_posture_to_mesh(hand(), placed(skin, kMeshPlace, 0.0, 1));
+  EXPECT_EQ(by_vertex.status, hand::PostureFitStatus::kMirrored) << by_vertex.message;
+  const hand::MeshFit by_shape = hand::fit_posture_to_mesh(hand(), scanned(skin, 0.2, 1));
+  EXPECT_EQ(by_shape.status, hand::PostureFitStatus::kMirrored) << by_shape.message;
   EXPECT_THAT(by_shape.message, HasSubstr("hand mirror"));
 }
 
 TEST_F(PostureMeshTest, WhatIsNoHandIsNotTakenForOne) {
-  TriangleMesh tube;
+  geometry::TriangleMesh tube;
   constexpr int kRound = 48, kRings = 60;
   for (int r = 0; r <= kRings; ++r) {
     for (int k = 0; k < kRound; ++k) {
@@ -250,14 +253,14 @@ TEST_F(PostureMeshTest, WhatIsNoHandIsNotTakenForOne) {
       tube.triangles.push_back({b, b + kRound, a + kRound});
     }
   }
-  EXPECT_EQ(fit_posture_to_mesh(hand(), tube).status, PostureFitStatus::kPoor);
+  EXPECT_EQ(hand::fit_posture_to_mesh(hand(), tube).status, hand::PostureFitStatus::kPoor);
   for (Vec3& v : tube.vertices) v *= 0.001;
-  const MeshFit metres = fit_posture_to_mesh(hand(), tube);
-  EXPECT_EQ(metres.status, PostureFitStatus::kWrongUnit);
+  const hand::MeshFit metres = hand::fit_posture_to_mesh(hand(), tube);
+  EXPECT_EQ(metres.status, hand::PostureFitStatus::kWrongUnit);
   EXPECT_THAT(metres.message, HasSubstr("unit"));
-  EXPECT_THROW(fit_posture_to_mesh(hand(), TriangleMesh{}), Error);
-  EXPECT_THROW(fit_posture_to_mesh(hand(), tube, {.reach = -1}), UsageError);
+  EXPECT_THROW(hand::fit_posture_to_mesh(hand(), geometry::TriangleMesh{}), Error);
+  EXPECT_THROW(hand::fit_posture_to_mesh(hand(), tube, {.reach = -1}), UsageError);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

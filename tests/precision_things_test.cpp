@@ -31,22 +31,22 @@
 #include "palmar/product/primitives.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 using ::testing::HasSubstr;
 
-Product thing_of(TriangleMesh mesh, const std::string& name) {
-  Product product;
+product::Product thing_of(geometry::TriangleMesh mesh, const std::string& name) {
+  product::Product product;
   product.name = name;
   product.mesh = std::move(mesh);
-  product.distance = std::make_shared<MeshDistance>(product.mesh);
+  product.distance = std::make_shared<geometry::MeshDistance>(product.mesh);
   return product;
 }
 
 /// A bow of 24 x 24 mm and a blade of 8 x 30 mm, 2.2 mm thick.
-TriangleMesh key_mesh() {
-  TriangleMesh mesh = make_box({24.0, 54.0, 2.2}, 27);
+geometry::TriangleMesh key_mesh() {
+  geometry::TriangleMesh mesh = geometry::make_box({24.0, 54.0, 2.2}, 27);
   for (Vec3& v : mesh.vertices) {
     const double from_bow = v.y() + 3.0;  // the bow ends at y = -3
     const double t = std::clamp(from_bow / 4.0, 0.0, 1.0);
@@ -55,73 +55,76 @@ TriangleMesh key_mesh() {
   return mesh;
 }
 
-TriangleMesh cylinder_mesh(double diameter, double length) {
-  CylinderOptions options;
+geometry::TriangleMesh cylinder_mesh(double diameter, double length) {
+  geometry::CylinderOptions options;
   options.radius = 0.5 * diameter;
   options.length = length;
-  return make_cylinder(options);
+  return geometry::make_cylinder(options);
 }
 
-TriangleMesh pill_mesh() {
-  CylinderProductOptions options;
+geometry::TriangleMesh pill_mesh() {
+  product::CylinderProductOptions options;
   options.diameter = 8.0;
   options.length = 4.0;
-  return make_cylinder_product(options).mesh;
+  return product::make_cylinder_product(options).mesh;
 }
 
 struct Thing {
   std::string name;
-  TriangleMesh mesh;
-  Grip grip;
+  geometry::TriangleMesh mesh;
+  grasp::Grip grip;
   double force;  ///< N
 };
 
 std::vector<Thing> six_things() {
-  return {{"key", key_mesh(), Grip::kLateral, 10.5},
-          {"card", make_box({85.6, 54.0, 0.76}, 24), Grip::kLateral, 10.5},
-          {"pen", cylinder_mesh(8.0, 140.0), Grip::kWritingTripod, 5.0},
-          {"pill", pill_mesh(), Grip::kTipPinch, 2.6},
-          {"ring", make_torus(14.0, 1.0, 96, 12), Grip::kPalmarPinch, 3.7},
-          {"cube", make_box({60.0, 60.0, 60.0}, 24), Grip::kPrecisionSphere, 15.0}};
+  return {
+      {"key", key_mesh(), grasp::Grip::kLateral, 10.5},
+      {"card", geometry::make_box({85.6, 54.0, 0.76}, 24), grasp::Grip::kLateral, 10.5},
+      {"pen", cylinder_mesh(8.0, 140.0), grasp::Grip::kWritingTripod, 5.0},
+      {"pill", pill_mesh(), grasp::Grip::kTipPinch, 2.6},
+      {"ring", geometry::make_torus(14.0, 1.0, 96, 12), grasp::Grip::kPalmarPinch, 3.7},
+      {"cube", geometry::make_box({60.0, 60.0, 60.0}, 24), grasp::Grip::kPrecisionSphere, 15.0}};
 }
 
 struct Held {
-  Grasp grasp;
-  Balance balance;
-  ContactResult contact;
+  grasp::Grasp grasp;
+  grasp::Balance balance;
+  contact::ContactResult contact;
 
-  double force_of(Finger finger, const Hand& hand) const {
+  double force_of(hand::Finger finger, const hand::Hand& hand) const {
     double sum = 0.0;
     for (std::size_t v = 0; v < contact.force.size(); ++v) {
-      if (finger_of(hand.segment[v]) == finger) sum += contact.force[v];
+      if (hand::finger_of(hand.segment[v]) == finger) sum += contact.force[v];
     }
     return sum;
   }
 };
 
-Held hold(const PreparedHand& hand, const Product& product, Grip grip, double force,
-          const ProductLoad& load = {}) {
-  PrecisionGripOptions options;
+Held hold(const contact::PreparedHand& hand, const product::Product& product, grasp::Grip grip,
+          double force, const contact::ProductLoad& load = {}) {
+  grasp::PrecisionGripOptions options;
   options.grip = grip;
-  Held held{
-      .grasp = close_precision_grip(hand.hand(), product, options), .balance = {}, .contact = {}};
-  BalanceOptions balance;
+  Held held{.grasp = grasp::close_precision_grip(hand.hand(), product, options),
+            .balance = {},
+            .contact = {}};
+  grasp::BalanceOptions balance;
   balance.grip_force = force;
   balance.load = load;
-  held.balance = balance_grasp(hand, product, held.grasp, balance);
-  held.contact = solve_hand_contact(hand, pose_skin(hand.hand(), held.grasp.posture),
-                                    held.grasp.product_from_hand, *product.distance);
+  held.balance = grasp::balance_grasp(hand, product, held.grasp, balance);
+  held.contact = contact::solve_hand_contact(hand, hand::pose_skin(hand.hand(), held.grasp.posture),
+                                             held.grasp.product_from_hand, *product.distance);
   return held;
 }
 
 class PrecisionThings : public TemplateTest {
  protected:
-  static const PreparedHand& prepared() {
-    static const PreparedHand made(std::make_shared<const Hand>(hand()));
+  static const contact::PreparedHand& prepared() {
+    static const contact::PreparedHand made(std::make_shared<const hand::Hand>(hand()));
     return made;
   }
-  static const PreparedHand& left() {
-    static const PreparedHand made(std::make_shared<const Hand>(mirrored(hand())));
+  static const contact::PreparedHand& left() {
+    static const contact::PreparedHand made(
+        std::make_shared<const hand::Hand>(hand::mirrored(hand())));
     return made;
   }
 };
@@ -129,15 +132,15 @@ class PrecisionThings : public TemplateTest {
 TEST_F(PrecisionThings, AreHeldAtRestAtForcesThatPeopleUse) {
   for (const Thing& thing : six_things()) {
     SCOPED_TRACE(thing.name);
-    const Product product = thing_of(thing.mesh, thing.name);
+    const product::Product product = thing_of(thing.mesh, thing.name);
     const Held held = hold(prepared(), product, thing.grip, thing.force);
-    EXPECT_EQ(held.grasp.status, GraspStatus::kHeld) << held.grasp.message;
+    EXPECT_EQ(held.grasp.status, grasp::GraspStatus::kHeld) << held.grasp.message;
     // Known shortfall: whether pill and ring come to rest hangs on their mesh
     // (docs/method/limits.md).
     if (std::string_view(thing.name) == "pill" || std::string_view(thing.name) == "ring") continue;
-    EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced) << held.balance.message;
+    EXPECT_EQ(held.balance.status, grasp::BalanceStatus::kBalanced) << held.balance.message;
     EXPECT_NEAR(held.balance.grip_force, thing.force, 0.01 * thing.force);
-    for (const FingertipContact& tip : held.grasp.fingertips) {
+    for (const grasp::FingertipContact& tip : held.grasp.fingertips) {
       // Even shares among the fingers against the thumb would be a quarter at least.
       EXPECT_GT(held.force_of(tip.finger, hand()), 0.1 * thing.force) << name_of(tip.finger);
     }
@@ -147,23 +150,23 @@ TEST_F(PrecisionThings, AreHeldAtRestAtForcesThatPeopleUse) {
 }
 
 TEST_F(PrecisionThings, CubeOfOneKilogramDoesNotSlipFromFiveFingers) {
-  const Product cube = thing_of(make_box({60.0, 60.0, 60.0}, 24), "cube");
-  ProductLoad load;
+  const product::Product cube = thing_of(geometry::make_box({60.0, 60.0, 60.0}, 24), "cube");
+  contact::ProductLoad load;
   load.weight = 9.81;  // N
-  const Held held = hold(prepared(), cube, Grip::kPrecisionSphere, 15.0, load);
-  EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced) << held.balance.message;
+  const Held held = hold(prepared(), cube, grasp::Grip::kPrecisionSphere, 15.0, load);
+  EXPECT_EQ(held.balance.status, grasp::BalanceStatus::kBalanced) << held.balance.message;
   EXPECT_NEAR(held.balance.grip_force, 15.0, 0.15);
 }
 
 TEST_F(PrecisionThings, AMovedAndTurnedThingIsHeldAlike) {
-  const Rigid3 motion =
-      Rigid3::about_axis(Vec3(0.3, -0.8, 0.52).normalized(), Vec3(3.0, -7.0, 11.0), 1.1);
+  const geometry::Rigid3 motion =
+      geometry::Rigid3::about_axis(Vec3(0.3, -0.8, 0.52).normalized(), Vec3(3.0, -7.0, 11.0), 1.1);
   for (const Thing& thing : six_things()) {
     // Known breaks: a cube has several places of nearly one cost, of which rounding chooses, and
     // what touches a pill or a thin ring are ten vertices of the skin.
     if (thing.name == "cube" || thing.name == "ring" || thing.name == "pill") continue;
     SCOPED_TRACE(thing.name);
-    TriangleMesh moved = thing.mesh;
+    geometry::TriangleMesh moved = thing.mesh;
     for (Vec3& v : moved.vertices) v = motion * v + Vec3(40.0, -25.0, 300.0);
     const Held a = hold(prepared(), thing_of(thing.mesh, thing.name), thing.grip, thing.force);
     const Held b = hold(prepared(), thing_of(moved, thing.name), thing.grip, thing.force);
@@ -171,7 +174,7 @@ TEST_F(PrecisionThings, AMovedAndTurnedThingIsHeldAlike) {
     EXPECT_NEAR(b.balance.grip_force, a.balance.grip_force, 0.01 * thing.force);
     EXPECT_NEAR(b.contact.total.force, a.contact.total.force, 0.01 * a.contact.total.force);
     EXPECT_NEAR(b.contact.total.area, a.contact.total.area, 0.01 * a.contact.total.area);
-    for (int d = 0; d < kDofCount; ++d) {
+    for (int d = 0; d < hand::kDofCount; ++d) {
       EXPECT_NEAR(b.grasp.posture.angle[d], a.grasp.posture.angle[d], 0.01) << d;  // rad
     }
   }
@@ -180,7 +183,7 @@ TEST_F(PrecisionThings, AMovedAndTurnedThingIsHeldAlike) {
 TEST_F(PrecisionThings, AMirroredThingIsHeldMirroredByTheLeftHand) {
   for (const Thing& thing : six_things()) {
     SCOPED_TRACE(thing.name);
-    TriangleMesh mirror = thing.mesh;
+    geometry::TriangleMesh mirror = thing.mesh;
     for (Vec3& v : mirror.vertices) v.x() = -v.x();
     for (Triangle& t : mirror.triangles) std::swap(t[1], t[2]);
     const Held a = hold(prepared(), thing_of(thing.mesh, thing.name), thing.grip, thing.force);
@@ -188,7 +191,7 @@ TEST_F(PrecisionThings, AMirroredThingIsHeldMirroredByTheLeftHand) {
     EXPECT_EQ(b.balance.status, a.balance.status) << b.balance.message;
     EXPECT_NEAR(b.contact.total.force, a.contact.total.force, 1e-6 * a.contact.total.force);
     EXPECT_NEAR(b.contact.total.area, a.contact.total.area, 1e-6 * a.contact.total.area);
-    for (int d = 0; d < kDofCount; ++d) {
+    for (int d = 0; d < hand::kDofCount; ++d) {
       EXPECT_NEAR(b.grasp.posture.angle[d], a.grasp.posture.angle[d], 1e-6) << d;  // rad
     }
   }
@@ -198,25 +201,25 @@ TEST_F(PrecisionThings, APenIsHeldForWriting) {
   // As writing is taught: fingertips about 30 mm behind the tip, the pen between thumb and index
   // finger on the side of the middle finger, its long end over the web, towards the forearm and
   // over the back of the hand's thumb side.
-  const Product pen = thing_of(cylinder_mesh(8.0, 140.0), "pen");
-  const Held held = hold(prepared(), pen, Grip::kWritingTripod, 5.0);
-  ASSERT_EQ(held.grasp.status, GraspStatus::kHeld) << held.grasp.message;
+  const product::Product pen = thing_of(cylinder_mesh(8.0, 140.0), "pen");
+  const Held held = hold(prepared(), pen, grasp::Grip::kWritingTripod, 5.0);
+  ASSERT_EQ(held.grasp.status, grasp::GraspStatus::kHeld) << held.grasp.message;
   EXPECT_THAT(held.grasp.message, HasSubstr("leans over the web"));
   ASSERT_EQ(held.grasp.fingertips.size(), 3u);
   double mean = 0.0;
-  for (const FingertipContact& tip : held.grasp.fingertips) mean += tip.reached.z() / 3.0;
+  for (const grasp::FingertipContact& tip : held.grasp.fingertips) mean += tip.reached.z() / 3.0;
   const double sign = mean < 0.0 ? -1.0 : 1.0;  // which end writes
-  for (const FingertipContact& tip : held.grasp.fingertips) {
+  for (const grasp::FingertipContact& tip : held.grasp.fingertips) {
     const double behind = 70.0 - sign * tip.reached.z();
     EXPECT_GT(behind, 15.0) << name_of(tip.finger);
     EXPECT_LT(behind, 50.0) << name_of(tip.finger);
   }
-  const Rigid3 hand_from_product = held.grasp.product_from_hand.inverse();
+  const geometry::Rigid3 hand_from_product = held.grasp.product_from_hand.inverse();
   const Vec3 back = hand_from_product.rotation * Vec3(0.0, 0.0, -sign);
   EXPECT_LT(back.y(), 0.25);  // level or towards the forearm, never out over the fingertips
   EXPECT_LT(back.z(), 0.0);   // towards the back of the hand
   // The axis passes the knuckle of the index finger, on the thumb's side.
-  const Vec3 knuckle = hand().skeleton.joint(JointId::kIndexMcp).centre;
+  const Vec3 knuckle = hand().skeleton.joint(hand::JointId::kIndexMcp).centre;
   const Vec3 on_axis = hand_from_product * Vec3(0.0, 0.0, 0.0);
   const Vec3 off = on_axis - knuckle;
   const Vec3 nearest = knuckle + off - back * back.dot(off);
@@ -233,22 +236,22 @@ TEST_F(PrecisionThings, APenIsHeldForWriting) {
 TEST_F(PrecisionThings, ALidIsHeldByItsRim) {
   for (const double diameter : {55.0, 70.0}) {
     SCOPED_TRACE(diameter);
-    const Product lid = thing_of(cylinder_mesh(diameter, 15.0), "lid");
-    const Held held = hold(prepared(), lid, Grip::kPrecisionDisk, 15.0);
-    ASSERT_EQ(held.grasp.status, GraspStatus::kHeld) << held.grasp.message;
-    EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced) << held.balance.message;
+    const product::Product lid = thing_of(cylinder_mesh(diameter, 15.0), "lid");
+    const Held held = hold(prepared(), lid, grasp::Grip::kPrecisionDisk, 15.0);
+    ASSERT_EQ(held.grasp.status, grasp::GraspStatus::kHeld) << held.grasp.message;
+    EXPECT_EQ(held.balance.status, grasp::BalanceStatus::kBalanced) << held.balance.message;
     ASSERT_EQ(held.grasp.fingertips.size(), 5u);
-    for (const FingertipContact& tip : held.grasp.fingertips) {
+    for (const grasp::FingertipContact& tip : held.grasp.fingertips) {
       EXPECT_LT(std::abs(tip.normal.z()), 0.5) << name_of(tip.finger);
       EXPECT_GT(held.force_of(tip.finger, hand()), 0.5) << name_of(tip.finger);
     }
     // The palm is over a face, not beside the rim.
     const Vec3 palm =
-        held.grasp.product_from_hand * hand().skeleton.joint(JointId::kMiddleMcp).centre;
+        held.grasp.product_from_hand * hand().skeleton.joint(hand::JointId::kMiddleMcp).centre;
     EXPECT_GT(std::abs(palm.z()), 20.0);
     // All round: the fingers leave no gap of more than 160 degrees.
     std::vector<double> angle;
-    for (const FingertipContact& tip : held.grasp.fingertips) {
+    for (const grasp::FingertipContact& tip : held.grasp.fingertips) {
       angle.push_back(std::atan2(tip.reached.y(), tip.reached.x()));
     }
     std::sort(angle.begin(), angle.end());
@@ -262,22 +265,23 @@ TEST_F(PrecisionThings, ALidIsHeldByItsRim) {
 
 TEST_F(PrecisionThings, WhatAGripCannotHoldAnotherDoes) {
   // A lateral pinch opens to a quarter of the hand's length; the cube is 60 mm wide.
-  const Product cube = thing_of(make_box({60.0, 60.0, 60.0}, 24), "cube");
-  GraspOptions asked;
-  asked.grip = Grip::kLateral;
-  EXPECT_NE(find_grasp(hand(), cube, asked).status, GraspStatus::kHeld);
-  BalanceOptions balance;
+  const product::Product cube = thing_of(geometry::make_box({60.0, 60.0, 60.0}, 24), "cube");
+  grasp::GraspOptions asked;
+  asked.grip = grasp::Grip::kLateral;
+  EXPECT_NE(grasp::find_grasp(hand(), cube, asked).status, grasp::GraspStatus::kHeld);
+  grasp::BalanceOptions balance;
   balance.grip_force = 15.0;
-  const std::optional<Grip> other = other_grip_that_holds(prepared(), cube, asked, balance);
+  const std::optional<grasp::Grip> other =
+      grasp::other_grip_that_holds(prepared(), cube, asked, balance);
   ASSERT_TRUE(other.has_value());
   const Held held = hold(prepared(), cube, *other, 15.0);
-  EXPECT_EQ(held.grasp.status, GraspStatus::kHeld);
-  EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced);
+  EXPECT_EQ(held.grasp.status, grasp::GraspStatus::kHeld);
+  EXPECT_EQ(held.balance.status, grasp::BalanceStatus::kBalanced);
 
   // Nothing of a hand spans 300 mm.
-  const Product block = thing_of(make_box({300.0, 310.0, 320.0}, 8), "block");
-  EXPECT_FALSE(other_grip_that_holds(prepared(), block, asked, balance).has_value());
+  const product::Product block = thing_of(geometry::make_box({300.0, 310.0, 320.0}, 8), "block");
+  EXPECT_FALSE(grasp::other_grip_that_holds(prepared(), block, asked, balance).has_value());
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -15,13 +15,13 @@
 #include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 class TemplateBones : public TemplateTest {
  protected:
-  static const Bone& bone(const std::string& name) {
-    for (const Bone& b : hand().bones) {
+  static const hand::Bone& bone(const std::string& name) {
+    for (const hand::Bone& b : hand().bones) {
       if (b.name == name) return b;
     }
     throw std::runtime_error("no bone " + name);
@@ -29,14 +29,14 @@ class TemplateBones : public TemplateTest {
 };
 
 // Length between the poles, which are the first and the last vertex.
-double length_of(const Bone& bone) {
+double length_of(const hand::Bone& bone) {
   return (bone.mesh.vertices.back() - bone.mesh.vertices.front()).norm();
 }
 
 TEST_F(TemplateBones, AreAllThere) {
   EXPECT_EQ(hand().bones.size(), 14u + 5u + 8u + 2u);
   int phalanges = 0, thumb_metacarpals = 0, forearm = 0;
-  for (const Bone& b : hand().bones) {
+  for (const hand::Bone& b : hand().bones) {
     phalanges += b.name.find("phalanx") != std::string::npos;
     thumb_metacarpals += b.is_thumb_metacarpal;
     forearm += !b.segment;
@@ -50,19 +50,19 @@ TEST_F(TemplateBones, AreAllThere) {
 }
 
 TEST_F(TemplateBones, AreClosedManifoldsOfPositiveVolume) {
-  for (const Bone& b : hand().bones) {
-    const TopologyReport report = examine_topology(b.mesh);
+  for (const hand::Bone& b : hand().bones) {
+    const geometry::TopologyReport report = geometry::examine_topology(b.mesh);
     EXPECT_TRUE(report.is_closed && report.is_two_manifold && report.is_oriented) << b.name;
     EXPECT_EQ(report.euler_number, 2) << b.name;
-    EXPECT_GT(signed_volume(b.mesh), 100.0) << b.name;  // mm^3
+    EXPECT_GT(geometry::signed_volume(b.mesh), 100.0) << b.name;  // mm^3
     EXPECT_GE(b.mesh.vertex_count(), 200) << b.name;
     EXPECT_LE(b.mesh.vertex_count(), 600) << b.name;
   }
 }
 
 TEST_F(TemplateBones, LieInsideTheSkinEverywhere) {
-  const MeshDistance skin(hand().skin);
-  for (const Bone& b : hand().bones) {
+  const geometry::MeshDistance skin(hand().skin);
+  for (const hand::Bone& b : hand().bones) {
     double nearest = std::numeric_limits<double>::lowest();
     for (const Vec3& v : b.mesh.vertices) nearest = std::max(nearest, skin.at(v).distance);
     EXPECT_LE(nearest, -1.0) << b.name;  // mm
@@ -70,8 +70,9 @@ TEST_F(TemplateBones, LieInsideTheSkinEverywhere) {
 }
 
 TEST_F(TemplateBones, DoNotTouchEachOther) {
-  std::vector<std::unique_ptr<MeshDistance>> distance;
-  for (const Bone& b : hand().bones) distance.push_back(std::make_unique<MeshDistance>(b.mesh));
+  std::vector<std::unique_ptr<geometry::MeshDistance>> distance;
+  for (const hand::Bone& b : hand().bones)
+    distance.push_back(std::make_unique<geometry::MeshDistance>(b.mesh));
   for (std::size_t i = 0; i < hand().bones.size(); ++i) {
     for (std::size_t j = 0; j < hand().bones.size(); ++j) {
       if (i == j) continue;
@@ -116,9 +117,9 @@ TEST_F(TemplateBones, HaveTheLengthsOfRadiographs) {
 
 TEST_F(TemplateBones, EndAsFarBeforeTheSkinAsOnRadiographs) {
   for (const auto& [name, finger, tissue] :
-       {std::tuple{"thumb_distal_phalanx", Finger::kThumb, 5.67},
-        std::tuple{"index_distal_phalanx", Finger::kIndex, 3.84},
-        std::tuple{"middle_distal_phalanx", Finger::kMiddle, 3.95}}) {
+       {std::tuple{"thumb_distal_phalanx", hand::Finger::kThumb, 5.67},
+        std::tuple{"index_distal_phalanx", hand::Finger::kIndex, 3.84},
+        std::tuple{"middle_distal_phalanx", hand::Finger::kMiddle, 3.95}}) {
     const Vec3& tip = hand().skeleton.fingertips[static_cast<std::size_t>(finger)];
     EXPECT_NEAR((tip - bone(name).mesh.vertices.back()).norm(), tissue, 0.6) << name;  // 1 SD
   }
@@ -126,15 +127,15 @@ TEST_F(TemplateBones, EndAsFarBeforeTheSkinAsOnRadiographs) {
 
 TEST_F(TemplateBones, FillAFifthOfTheFingertip) {
   // 18 % of the fingertip beyond the DIP crease in cadavers (Murai et al. 1997).
-  const HandCreases creases(hand().skin, hand().skeleton);
-  const CreasePlane& crease = creases.proximal_crease(Segment::kIndexDistal);
-  const auto volume_beyond = [&](const TriangleMesh& mesh, double reach) {
+  const hand::HandCreases creases(hand().skin, hand().skeleton);
+  const hand::CreasePlane& crease = creases.proximal_crease(hand::Segment::kIndexDistal);
+  const auto volume_beyond = [&](const geometry::TriangleMesh& mesh, double reach) {
     // Sum of sections, 0.25 mm apart; of the skin only the curve round the finger.
     double volume = 0.0;
     for (double x = 0.125; x < reach; x += 0.25) {
-      for (const SectionCurve& c :
-           plane_section(mesh, crease.point + x * crease.normal, crease.normal)) {
-        const Vec3 off = curve_centre(c) - crease.point;
+      for (const geometry::SectionCurve& c :
+           geometry::plane_section(mesh, crease.point + x * crease.normal, crease.normal)) {
+        const Vec3 off = geometry::curve_centre(c) - crease.point;
         if ((off - crease.normal.dot(off) * crease.normal).norm() > 10.0) continue;
         double area = 0.0;
         for (std::size_t i = 0; i < c.point.size(); ++i) {
@@ -155,12 +156,12 @@ TEST_F(TemplateBones, FillAFifthOfTheFingertip) {
 }
 
 TEST_F(TemplateBones, LieNearerToTheBackOfTheFinger) {
-  const MeshDistance skin(hand().skin);
+  const geometry::MeshDistance skin(hand().skin);
   for (const char* name : {"index_distal_phalanx", "middle_distal_phalanx", "index_middle_phalanx",
                            "middle_proximal_phalanx", "middle_metacarpal"}) {
     double palmar = 1e9, dorsal = 1e9;
-    const TriangleMesh& mesh = bone(name).mesh;
-    const std::vector<Vec3> normal = vertex_normals(mesh);
+    const geometry::TriangleMesh& mesh = bone(name).mesh;
+    const std::vector<Vec3> normal = geometry::vertex_normals(mesh);
     for (std::size_t i = 0; i < normal.size(); ++i) {
       const double depth = -skin.at(mesh.vertices[i]).distance;
       if (normal[i].z() > 0.8) palmar = std::min(palmar, depth);
@@ -171,12 +172,12 @@ TEST_F(TemplateBones, LieNearerToTheBackOfTheFinger) {
 }
 
 TEST_F(TemplateBones, StayInsideTheSkinOfAFist) {
-  const auto fist = named_posture(hand().skeleton, "fist");
+  const auto fist = hand::named_posture(hand().skeleton, "fist");
   ASSERT_TRUE(fist);
-  TriangleMesh posed = hand().skin;
-  posed.vertices = pose_skin(hand(), *fist);
-  const std::vector<TriangleMesh> bones = pose_bones(hand(), *fist);
-  const MeshDistance skin(posed);
+  geometry::TriangleMesh posed = hand().skin;
+  posed.vertices = hand::pose_skin(hand(), *fist);
+  const std::vector<geometry::TriangleMesh> bones = hand::pose_bones(hand(), *fist);
+  const geometry::MeshDistance skin(posed);
   for (std::size_t b = 0; b < bones.size(); ++b) {
     int outside = 0;
     for (const Vec3& v : bones[b].vertices) outside += skin.at(v).distance > 0.0;
@@ -186,4 +187,4 @@ TEST_F(TemplateBones, StayInsideTheSkinOfAFist) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

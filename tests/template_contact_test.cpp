@@ -8,21 +8,21 @@
 #include "palmar/hand/dimensions/dimensions.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 /// Case G2: the middle fingertip on a plate at 30 degrees.
 class TemplateFingertip : public TemplateTest {
  protected:
-  static const PreparedHand& prepared() {
-    static const PreparedHand made(std::make_shared<const Hand>(hand()));
+  static const contact::PreparedHand& prepared() {
+    static const contact::PreparedHand made(std::make_shared<const hand::Hand>(hand()));
     return made;
   }
-  static PressOptions plate_at_30_degrees(std::vector<double> depths) {
-    PressOptions options;
-    options.specimen.kind = PressSpecimen::Kind::kHandRegion;
-    options.specimen.region = Region::kMiddleDistal;
-    options.indenter.kind = PressIndenter::Kind::kPlane;
+  static contact::PressOptions plate_at_30_degrees(std::vector<double> depths) {
+    contact::PressOptions options;
+    options.specimen.kind = contact::PressSpecimen::Kind::kHandRegion;
+    options.specimen.region = hand::Region::kMiddleDistal;
+    options.indenter.kind = contact::PressIndenter::Kind::kPlane;
     options.tilt = std::numbers::pi / 6.0;
     options.depths = std::move(depths);
     return options;
@@ -38,11 +38,12 @@ TEST_F(TemplateFingertip, ForceLiesInTheBandOfTheThesis) {
                                            2.545, 3.941, 5.717, 7.902};  // N
   constexpr std::array<double, 8> upper = {0.097, 0.476, 1.248, 2.494,
                                            4.288, 6.691, 9.759, 13.546};  // N
-  const double width =
-      measure_hand(hand()).segment[static_cast<std::size_t>(Segment::kMiddleDistal)].width;
+  const double width = hand::measure_hand(hand())
+                           .segment[static_cast<std::size_t>(hand::Segment::kMiddleDistal)]
+                           .width;
   const double scale = std::sqrt(0.5 * width / 7.0);
-  const auto steps =
-      press(plate_at_30_degrees(std::vector<double>(depth.begin(), depth.end())), &prepared());
+  const auto steps = contact::press(
+      plate_at_30_degrees(std::vector<double>(depth.begin(), depth.end())), &prepared());
   for (std::size_t i = 0; i < depth.size(); ++i) {
     // 25 % outside either edge: the band is one of spheres, a fingertip is none.
     EXPECT_GT(steps[i].force, 0.75 * scale * lower[i]) << depth[i] << " mm";
@@ -55,7 +56,7 @@ TEST_F(TemplateFingertip, ForceLiesInTheBandOfTheThesis) {
 
 TEST_F(TemplateFingertip, ForceGrowsFasterThanHertzAndEverFaster) {
   // Over doublings of the depth: over shorter steps the facets of the skin show.
-  const auto steps = press(plate_at_30_degrees({0.5, 1.0, 2.0, 4.0}), &prepared());
+  const auto steps = contact::press(plate_at_30_degrees({0.5, 1.0, 2.0, 4.0}), &prepared());
   double before = 1.5;  // Hertz; G grows with the depth
   for (std::size_t i = 1; i < steps.size(); ++i) {
     const double exponent = std::log2(steps[i].force / steps[i - 1].force);
@@ -65,11 +66,11 @@ TEST_F(TemplateFingertip, ForceGrowsFasterThanHertzAndEverFaster) {
 }
 
 TEST_F(TemplateFingertip, AreaDoesNotDependOnTheShearModulus) {
-  PressOptions options = plate_at_30_degrees({1.0, 2.0, 4.0});
+  contact::PressOptions options = plate_at_30_degrees({1.0, 2.0, 4.0});
   options.shear_modulus = 0.02;
-  const auto soft = press(options, &prepared());
+  const auto soft = contact::press(options, &prepared());
   options.shear_modulus = 0.10;
-  const auto stiff = press(options, &prepared());
+  const auto stiff = contact::press(options, &prepared());
   for (std::size_t i = 0; i < soft.size(); ++i) {
     EXPECT_NEAR(stiff[i].area, soft[i].area, 0.02 * soft[i].area);
     EXPECT_NEAR(stiff[i].force, 5.0 * soft[i].force, 1e-4 * stiff[i].force);
@@ -77,4 +78,4 @@ TEST_F(TemplateFingertip, AreaDoesNotDependOnTheShearModulus) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -9,7 +9,7 @@
 #include "palmar/hand/template/template_hand.h"
 #include "palmar/records/hand/hand_asset.h"
 
-namespace palmar {
+namespace palmar::tests {
 
 /// Tests on the template hand, built once from the package's asset; skipped where set-up has not
 /// fetched it.
@@ -21,10 +21,11 @@ class TemplateTest : public testing::Test {
                    << PALMAR_HAND_ASSET;
     }
   }
-  static const Hand& hand() {
-    static const Hand built = build_template(read_hand_asset(PALMAR_HAND_ASSET));
+  static const hand::Hand& hand() {
+    static const hand::Hand built =
+        hand::build_template(records::read_hand_asset(PALMAR_HAND_ASSET));
     return built;
   }
 };
 
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -22,37 +22,38 @@
 #include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 using ::testing::HasSubstr;
-using Targets = std::vector<SizedDimension>;
+using Targets = std::vector<hand::SizedDimension>;
 
-constexpr HandDimension kLength{DimensionKind::kHandLength};
-constexpr HandDimension kGirth{DimensionKind::kHandCircumference};
-constexpr HandDimension kWidth{DimensionKind::kHandWidth};
-constexpr HandDimension kThickness{DimensionKind::kHandThickness};
-constexpr HandDimension kPalm{DimensionKind::kSegmentLength, Segment::kPalm};
+constexpr hand::HandDimension kLength{hand::DimensionKind::kHandLength};
+constexpr hand::HandDimension kGirth{hand::DimensionKind::kHandCircumference};
+constexpr hand::HandDimension kWidth{hand::DimensionKind::kHandWidth};
+constexpr hand::HandDimension kThickness{hand::DimensionKind::kHandThickness};
+constexpr hand::HandDimension kPalm{hand::DimensionKind::kSegmentLength, hand::Segment::kPalm};
 
-HandDimension length_of(Segment s) { return {DimensionKind::kSegmentLength, s}; }
-HandDimension width_of(Segment s) { return {DimensionKind::kSegmentWidth, s}; }
+hand::HandDimension length_of(hand::Segment s) { return {hand::DimensionKind::kSegmentLength, s}; }
+hand::HandDimension width_of(hand::Segment s) { return {hand::DimensionKind::kSegmentWidth, s}; }
 
 class TemplateInstance : public TemplateTest {
  protected:
-  static const HandInstanceMaker& maker() {
-    static const HandInstanceMaker made(hand());
+  static const hand::HandInstanceMaker& maker() {
+    static const hand::HandInstanceMaker made(hand());
     return made;
   }
-  static SizedDimension times(HandDimension dimension, double factor) {
-    static const HandDimensions own = measure_hand(hand());
-    return {dimension, factor * value_of(own, dimension)};
+  static hand::SizedDimension times(hand::HandDimension dimension, double factor) {
+    static const hand::HandDimensions own = hand::measure_hand(hand());
+    return {dimension, factor * hand::value_of(own, dimension)};
   }
   static Targets all_times(double factor) {
     Targets targets;
-    for (const HandDimension d : all_hand_dimensions()) targets.push_back(times(d, factor));
+    for (const hand::HandDimension d : hand::all_hand_dimensions())
+      targets.push_back(times(d, factor));
     return targets;
   }
-  static double farthest(const Hand& a, const Hand& b) {
+  static double farthest(const hand::Hand& a, const hand::Hand& b) {
     double most = 0.0;
     for (std::size_t v = 0; v < a.skin.vertices.size(); ++v) {
       most = std::max(most, (a.skin.vertices[v] - b.skin.vertices[v]).norm());
@@ -108,21 +109,21 @@ TEST_F(TemplateInstance, MeetsWhatIsAskedForTwoHundredPeople) {
     Targets targets = {{kLength, length}, {kGirth, girth}};
     if (i % 3 > 0) targets.push_back({kWidth, width});
     if (i % 3 > 1) targets.push_back({kPalm, palm_share * palm});
-    const HandInstance made = maker().make(targets);
+    const hand::HandInstance made = maker().make(targets);
     EXPECT_LE(made.largest_miss, 0.1) << i;
-    const HandDimensions measured = measure_hand(made.hand);  // by the ruler itself
+    const hand::HandDimensions measured = hand::measure_hand(made.hand);  // by the ruler itself
     ASSERT_EQ(made.driven.size(), targets.size());
     for (std::size_t k = 0; k < targets.size(); ++k) {
-      EXPECT_NEAR(value_of(measured, targets[k].dimension), targets[k].value, 0.1)
+      EXPECT_NEAR(hand::value_of(measured, targets[k].dimension), targets[k].value, 0.1)
           << i << " " << name_of(targets[k].dimension);
-      EXPECT_EQ(made.driven[k].measured, value_of(measured, targets[k].dimension));
+      EXPECT_EQ(made.driven[k].measured, hand::value_of(measured, targets[k].dimension));
     }
     // Closed as the base is, for it has the same triangles; and not inside out.
-    EXPECT_GT(signed_volume(made.hand.skin), 1e5) << i;  // mm^3
-    EXPECT_TRUE(find_self_crossings(made.hand.skin).empty()) << i;
+    EXPECT_GT(geometry::signed_volume(made.hand.skin), 1e5) << i;  // mm^3
+    EXPECT_TRUE(geometry::find_self_crossings(made.hand.skin).empty()) << i;
     if (i % 20 > 0) continue;
-    const MeshDistance skin(made.hand.skin);
-    for (const Bone& bone : made.hand.bones) {
+    const geometry::MeshDistance skin(made.hand.skin);
+    for (const hand::Bone& bone : made.hand.bones) {
       double nearest = std::numeric_limits<double>::lowest();
       for (const Vec3& v : bone.mesh.vertices) nearest = std::max(nearest, skin.at(v).distance);
       EXPECT_LE(nearest, -0.8) << i << " " << bone.name;  // mm; 1 mm in the template
@@ -138,46 +139,48 @@ TEST_F(TemplateInstance, MeetsEveryDimensionAtOnce) {
   for (int i = 0; i < 10; ++i) {
     const double longer = 1.0 + 0.06 * normal(random), wider = 1.0 + 0.06 * normal(random);
     Targets targets = {times(kLength, longer), times(kGirth, wider)};
-    for (const HandDimension d : all_hand_dimensions()) {
-      if (d <= kThickness || d == length_of(Segment::kMiddleProximal)) continue;
-      const double size = d.kind == DimensionKind::kSegmentLength ? longer : wider;
+    for (const hand::HandDimension d : hand::all_hand_dimensions()) {
+      if (d <= kThickness || d == length_of(hand::Segment::kMiddleProximal)) continue;
+      const double size = d.kind == hand::DimensionKind::kSegmentLength ? longer : wider;
       const double scatter = d == kPalm ? 0.0 : 0.05 * std::clamp(normal(random), -2.0, 2.0);
       targets.push_back(times(d, size * (1.0 + scatter)));
     }
     ASSERT_EQ(targets.size(), 44U);
-    const HandInstance made = maker().make(targets);
+    const hand::HandInstance made = maker().make(targets);
     EXPECT_LE(made.largest_miss, 0.1) << i;
-    EXPECT_TRUE(find_self_crossings(made.hand.skin).empty()) << i;
+    EXPECT_TRUE(geometry::find_self_crossings(made.hand.skin).empty()) << i;
   }
 }
 
 TEST_F(TemplateInstance, OfItsOwnDimensionsIsTheHand) {
   EXPECT_LT(farthest(maker().make(all_times(1.0)).hand, hand()), 1e-9);
-  const HandInstance copy = maker().make({});
+  const hand::HandInstance copy = maker().make({});
   EXPECT_LT(farthest(copy.hand, hand()), 1e-9);
   EXPECT_EQ(copy.hand.provenance, hand().provenance);
 }
 
 TEST_F(TemplateInstance, OfOneFactorIsTheScaledHand) {
   for (const double factor : {0.5, 0.8, 1.15, 2.0}) {
-    const Hand expected = scaled(hand(), factor);
-    const Hand made = maker().make({times(kLength, factor), times(kGirth, factor)}).hand;
+    const hand::Hand expected = hand::scaled(hand(), factor);
+    const hand::Hand made = maker().make({times(kLength, factor), times(kGirth, factor)}).hand;
     EXPECT_LT(farthest(made, expected), 1e-6) << factor;
     EXPECT_LT(
         (made.skeleton.thumb_cmc.abduction.t - expected.skeleton.thumb_cmc.abduction.t).norm(),
         1e-9);
-    EXPECT_NEAR(signed_volume(made.skin) / signed_volume(hand().skin), std::pow(factor, 3), 1e-6);
+    EXPECT_NEAR(geometry::signed_volume(made.skin) / geometry::signed_volume(hand().skin),
+                std::pow(factor, 3), 1e-6);
   }
   // The ruler's base crease lies 1.5 mm above the web in every hand: segments don't scale exactly.
-  EXPECT_LT(farthest(maker().make(all_times(1.1)).hand, scaled(hand(), 1.1)), 0.3);
+  EXPECT_LT(farthest(maker().make(all_times(1.1)).hand, hand::scaled(hand(), 1.1)), 0.3);
 }
 
 TEST_F(TemplateInstance, DoesNotDependOnTheOrderOrTheRun) {
   Targets targets = {times(kLength, 1.05), times(kGirth, 0.95), times(kPalm, 1.02),
-                     times(width_of(Segment::kIndexDistal), 1.1)};
-  const Hand first = maker().make(targets).hand, again = make_hand_instance(hand(), targets).hand;
+                     times(width_of(hand::Segment::kIndexDistal), 1.1)};
+  const hand::Hand first = maker().make(targets).hand,
+                   again = hand::make_hand_instance(hand(), targets).hand;
   std::reverse(targets.begin(), targets.end());
-  const Hand other = maker().make(targets).hand;
+  const hand::Hand other = maker().make(targets).hand;
   EXPECT_EQ(farthest(first, again), 0.0);
   EXPECT_EQ(farthest(first, other), 0.0);
   EXPECT_EQ(first.provenance, other.provenance);
@@ -187,21 +190,22 @@ TEST_F(TemplateInstance, DoesNotDependOnTheOrderOrTheRun) {
 TEST_F(TemplateInstance, OfTheMirroredHandIsTheMirroredInstance) {
   const Targets targets = {times(kLength, 1.1), times(kGirth, 0.95), times(kWidth, 0.97),
                            times(kThickness, 0.97)};
-  const Hand right = make_hand_instance(hand(), targets).hand;
-  const Hand left = make_hand_instance(mirrored(hand()), targets).hand;
-  EXPECT_LT(farthest(mirrored(right), left), 1e-6);
+  const hand::Hand right = hand::make_hand_instance(hand(), targets).hand;
+  const hand::Hand left = hand::make_hand_instance(hand::mirrored(hand()), targets).hand;
+  EXPECT_LT(farthest(hand::mirrored(right), left), 1e-6);
 }
 
 TEST_F(TemplateInstance, OfAnInstanceMeetsItsDimensionsToo) {
-  const Hand slim = maker().make({times(kLength, 1.1), times(kGirth, 0.9)}).hand;
-  const HandInstance back = make_hand_instance(slim, {times(kLength, 1.0), times(kGirth, 1.0)});
+  const hand::Hand slim = maker().make({times(kLength, 1.1), times(kGirth, 0.9)}).hand;
+  const hand::HandInstance back =
+      hand::make_hand_instance(slim, {times(kLength, 1.0), times(kGirth, 1.0)});
   EXPECT_LE(back.largest_miss, 0.1);
   // There and back again; what was mixed at the roots of the fingers doesn't part exactly.
   EXPECT_LT(farthest(back.hand, hand()), 1.0);  // mm
 }
 
 TEST_F(TemplateInstance, KeepsWhatDoesNotScale) {
-  const Hand made = maker().make({times(kLength, 1.1), times(kGirth, 0.9)}).hand;
+  const hand::Hand made = maker().make({times(kLength, 1.1), times(kGirth, 0.9)}).hand;
   EXPECT_EQ(made.skin.triangles, hand().skin.triangles);
   EXPECT_EQ(made.segment, hand().segment);
   EXPECT_EQ(made.region, hand().region);
@@ -210,17 +214,18 @@ TEST_F(TemplateInstance, KeepsWhatDoesNotScale) {
     EXPECT_EQ(made.weights[j].w1, hand().weights[j].w1);
     EXPECT_EQ(made.weights[j].w2, hand().weights[j].w2);
   }
-  for (int d = 0; d < kDofCount; ++d) {
-    const JointDof& before = hand().skeleton.dof(static_cast<Dof>(d));
-    const JointDof& after = made.skeleton.dof(static_cast<Dof>(d));
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const hand::JointDof& before = hand().skeleton.dof(static_cast<hand::Dof>(d));
+    const hand::JointDof& after = made.skeleton.dof(static_cast<hand::Dof>(d));
     EXPECT_EQ(after.lower, before.lower);
     EXPECT_EQ(after.upper, before.upper);
     EXPECT_EQ(after.reference, before.reference);
     EXPECT_EQ(after.axis, before.axis);
   }
   // Fingers move with the palm and keep their directions.
-  for (const JointId id : {JointId::kIndexMcp, JointId::kRingPip, JointId::kLittleMcp}) {
-    const auto next = static_cast<JointId>(static_cast<int>(id) + 1);
+  for (const hand::JointId id :
+       {hand::JointId::kIndexMcp, hand::JointId::kRingPip, hand::JointId::kLittleMcp}) {
+    const auto next = static_cast<hand::JointId>(static_cast<int>(id) + 1);
     const Vec3 before = hand().skeleton.joint(next).centre - hand().skeleton.joint(id).centre;
     const Vec3 after = made.skeleton.joint(next).centre - made.skeleton.joint(id).centre;
     EXPECT_LT(before.normalized().cross(after.normalized()).norm(), 1e-9);
@@ -228,11 +233,11 @@ TEST_F(TemplateInstance, KeepsWhatDoesNotScale) {
 }
 
 TEST_F(TemplateInstance, ThumbStillTurnsAboutTheAxesOfItsJoint) {
-  const Hand made = maker().make({times(kLength, 0.9), times(kGirth, 1.15)}).hand;
-  const Joint& cmc = made.skeleton.joint(JointId::kThumbCmc);
-  const ThumbCmc& limits = made.skeleton.thumb_cmc;
-  for (const CmcLimit* limit : {&limits.abduction, &limits.flexion}) {
-    const JointDof& dof = cmc.dofs.at(limit == &limits.abduction ? 0 : 1);
+  const hand::Hand made = maker().make({times(kLength, 0.9), times(kGirth, 1.15)}).hand;
+  const hand::Joint& cmc = made.skeleton.joint(hand::JointId::kThumbCmc);
+  const hand::ThumbCmc& limits = made.skeleton.thumb_cmc;
+  for (const hand::CmcLimit* limit : {&limits.abduction, &limits.flexion}) {
+    const hand::JointDof& dof = cmc.dofs.at(limit == &limits.abduction ? 0 : 1);
     // A turn about the axis leaves the points of the axis where they are.
     const Vec3 arm = dof.centre - cmc.centre;
     EXPECT_LT((limit->q * arm + limit->t - arm).norm(), 1e-9);  // mm
@@ -242,12 +247,12 @@ TEST_F(TemplateInstance, ThumbStillTurnsAboutTheAxesOfItsJoint) {
 TEST_F(TemplateInstance, CreasesLieWhereTheRegionsEnd) {
   // Vertices whose place, by the creases found again on the skin, isn't the region that they keep:
   // the template has some, at borders that were smoothed.
-  const auto strays = [](const Hand& h) {
-    const HandCreases creases(h.skin, h.skeleton);
+  const auto strays = [](const hand::Hand& h) {
+    const hand::HandCreases creases(h.skin, h.skeleton);
     int count = 0;
     for (std::size_t v = 0; v < h.skin.vertices.size(); ++v) {
-      const SkinLabel own{h.segment[v], h.region[v]};
-      const SkinLabel found = creases.label(h.skin.vertices[v]);
+      const hand::SkinLabel own{h.segment[v], h.region[v]};
+      const hand::SkinLabel found = creases.label(h.skin.vertices[v]);
       if (found == own) continue;
       ++count;
       EXPECT_LT(std::abs(creases.boundary_value(h.skin.vertices[v], found, own)), 3.5);  // mm
@@ -260,28 +265,28 @@ TEST_F(TemplateInstance, CreasesLieWhereTheRegionsEnd) {
 }
 
 TEST_F(TemplateInstance, FistOfASmallWomanAndALargeManIsAFist) {
-  const auto depth = [](const Hand& h) {
-    TriangleMesh fist = h.skin;
-    fist.vertices = pose_skin(h, *named_posture(h.skeleton, "fist"));
-    return crossing_depth(fist).deepest;
+  const auto depth = [](const hand::Hand& h) {
+    geometry::TriangleMesh fist = h.skin;
+    fist.vertices = hand::pose_skin(h, *hand::named_posture(h.skeleton, "fist"));
+    return geometry::crossing_depth(fist).deepest;
   };
-  const auto kept = [](const Hand& h) {  // of the volume
-    TriangleMesh fist = h.skin;
-    fist.vertices = pose_skin(h, *named_posture(h.skeleton, "fist"));
-    return signed_volume(fist) / signed_volume(h.skin);
+  const auto kept = [](const hand::Hand& h) {  // of the volume
+    geometry::TriangleMesh fist = h.skin;
+    fist.vertices = hand::pose_skin(h, *hand::named_posture(h.skeleton, "fist"));
+    return geometry::signed_volume(fist) / geometry::signed_volume(h.skin);
   };
   // P5 of women, P95 of men, ANSUR II; mm.
   for (const Targets& targets :
        {Targets{{kLength, 165.0}, {kGirth, 172.0}}, Targets{{kLength, 210.0}, {kGirth, 230.0}}}) {
-    const Hand made = maker().make(targets).hand;
+    const hand::Hand made = maker().make(targets).hand;
     EXPECT_LT(depth(made), depth(hand()) + 0.5);
     EXPECT_NEAR(kept(made), kept(hand()), 0.02);  // bulges over bent joints grew along
   }
 }
 
 TEST_F(TemplateInstance, MeshStaysGood) {
-  const auto smallest = [](const Hand& h) {
-    const std::vector<double> angles = smallest_angles(h.skin);
+  const auto smallest = [](const hand::Hand& h) {
+    const std::vector<double> angles = geometry::smallest_angles(h.skin);
     return *std::min_element(angles.begin(), angles.end());
   };
   const double usual = smallest(hand());
@@ -293,12 +298,12 @@ TEST_F(TemplateInstance, MeshStaysGood) {
 }
 
 TEST_F(TemplateInstance, UndrivenSegmentsFollow) {
-  const HandInstance made = maker().make({times(kLength, 1.1), times(kGirth, 0.9)});
-  const HandDimensions own = measure_hand(hand());
-  for (int s = 1; s < kSegmentCount; ++s) {
+  const hand::HandInstance made = maker().make({times(kLength, 1.1), times(kGirth, 0.9)});
+  const hand::HandDimensions own = hand::measure_hand(hand());
+  for (int s = 1; s < hand::kSegmentCount; ++s) {
     const auto segment = static_cast<std::size_t>(s);
-    const SegmentDimensions& after = made.hand.dimensions.segment[segment];
-    const SegmentDimensions& before = own.segment[segment];
+    const hand::SegmentDimensions& after = made.hand.dimensions.segment[segment];
+    const hand::SegmentDimensions& before = own.segment[segment];
     // The little finger's first segment, 14 mm, begins 1.5 mm above the web in every hand.
     EXPECT_NEAR(after.length / before.length, 1.1, 0.07) << s;
     EXPECT_NEAR(after.width / before.width, 0.9, 0.03) << s;
@@ -307,11 +312,12 @@ TEST_F(TemplateInstance, UndrivenSegmentsFollow) {
 }
 
 TEST_F(TemplateInstance, MarkersOfAThumbBallMoveWithThePalm) {
-  Hand base = hand();
+  hand::Hand base = hand();
   base.thumb_ball = {
       .beta = 0.004, .marker = {{40.0, 40.0, 10.0}}, .vertex = {0}, .coefficient = {}};
   base.thumb_ball.coefficient.fill({Vec3(1.0, 2.0, 3.0)});
-  const Hand made = make_hand_instance(base, {times(kLength, 1.5), times(kGirth, 1.5)}).hand;
+  const hand::Hand made =
+      hand::make_hand_instance(base, {times(kLength, 1.5), times(kGirth, 1.5)}).hand;
   EXPECT_LT((made.thumb_ball.marker[0] - Vec3(60.0, 60.0, 15.0)).norm(), 1e-3);
   EXPECT_LT((made.thumb_ball.coefficient[2][0] - Vec3(1.5, 3.0, 4.5)).norm(), 1e-3);
   EXPECT_NEAR(made.thumb_ball.beta, 0.004 / 2.25, 1e-6);
@@ -323,7 +329,7 @@ TEST_F(TemplateInstance, BadTargetsAreNamed) {
   EXPECT_THAT(refusal({{kLength, 1760.0}}), HasSubstr("half to twice"));
   EXPECT_THAT(refusal({times(kLength, 1.0), times(kLength, 1.1)}),
               HasSubstr("hand_length is given twice"));
-  EXPECT_THAT(refusal({{{DimensionKind::kSegmentWidth, Segment::kPalm}, 80.0}}),
+  EXPECT_THAT(refusal({{{hand::DimensionKind::kSegmentWidth, hand::Segment::kPalm}, 80.0}}),
               HasSubstr("not one of the 47"));
 }
 
@@ -334,16 +340,17 @@ TEST_F(TemplateInstance, ContradictionsAreNamed) {
               HasSubstr("beside hand_width 96.9 mm"));
   EXPECT_THAT(refusal({times(kWidth, 1.0), times(kThickness, 1.0), times(kGirth, 1.3)}),
               HasSubstr("and hand_thickness 31.3 mm"));
-  const Targets parts = {
-      times(kLength, 1.0), times(kPalm, 1.0), times(length_of(Segment::kMiddleProximal), 1.1),
-      times(length_of(Segment::kMiddleMiddle), 1.0), times(length_of(Segment::kMiddleDistal), 1.0)};
+  const Targets parts = {times(kLength, 1.0), times(kPalm, 1.0),
+                         times(length_of(hand::Segment::kMiddleProximal), 1.1),
+                         times(length_of(hand::Segment::kMiddleMiddle), 1.0),
+                         times(length_of(hand::Segment::kMiddleDistal), 1.0)};
   EXPECT_THAT(refusal(parts), HasSubstr("contradict each other"));
   Targets crowded = {times(kWidth, 0.9)};
-  for (int s = 3; s < kSegmentCount; ++s) {
-    crowded.push_back(times(width_of(static_cast<Segment>(s)), 1.4));
+  for (int s = 3; s < hand::kSegmentCount; ++s) {
+    crowded.push_back(times(width_of(static_cast<hand::Segment>(s)), 1.4));
   }
   EXPECT_THAT(refusal(crowded), HasSubstr("times as wide"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

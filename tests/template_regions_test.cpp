@@ -12,7 +12,7 @@
 #include "palmar/hand/skin/regions.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180.0;
@@ -21,8 +21,9 @@ class TemplateRegions : public TemplateTest {};
 
 // Components of the vertices that carry each label.
 template <typename Label>
-std::map<Label, int> components(const TriangleMesh& skin, const std::vector<Label>& label) {
-  const auto neighbours = vertex_neighbours(build_topology(skin));
+std::map<Label, int> components(const geometry::TriangleMesh& skin,
+                                const std::vector<Label>& label) {
+  const auto neighbours = geometry::vertex_neighbours(geometry::build_topology(skin));
   std::vector<bool> is_seen(label.size());
   std::map<Label, int> count;
   for (std::size_t seed = 0; seed < label.size(); ++seed) {
@@ -46,33 +47,33 @@ std::map<Label, int> components(const TriangleMesh& skin, const std::vector<Labe
 
 TEST_F(TemplateRegions, EveryRegionAndSegmentIsThereInOnePiece) {
   const auto regions = components(hand().skin, hand().region);
-  EXPECT_EQ(regions.size(), static_cast<std::size_t>(kRegionCount));
+  EXPECT_EQ(regions.size(), static_cast<std::size_t>(hand::kRegionCount));
   for (const auto& [region, count] : regions) EXPECT_EQ(count, 1) << name_of(region);
   const auto segments = components(hand().skin, hand().segment);
-  EXPECT_EQ(segments.size(), static_cast<std::size_t>(kSegmentCount));
+  EXPECT_EQ(segments.size(), static_cast<std::size_t>(hand::kSegmentCount));
   for (const auto& [segment, count] : segments) EXPECT_EQ(count, 1) << name_of(segment);
 }
 
 TEST_F(TemplateRegions, EachPalmarRegionLiesOnItsSegment) {
   for (std::size_t i = 0; i < hand().region.size(); ++i) {
-    const auto segment = segment_of(hand().region[i]);
+    const auto segment = hand::segment_of(hand().region[i]);
     EXPECT_EQ(segment.value_or(hand().segment[i]), hand().segment[i]) << "vertex " << i;
   }
 }
 
 TEST_F(TemplateRegions, SlidingOntoCreasesLeavesGoodTriangles) {
   // Asked of the template: above 20 degrees for 99 % of the triangles.
-  std::vector<double> angle = smallest_angles(hand().skin);
+  std::vector<double> angle = geometry::smallest_angles(hand().skin);
   std::sort(angle.begin(), angle.end());
   EXPECT_GT(angle[angle.size() / 100], 20.0 * kDeg);
   EXPECT_GT(angle.front(), 10.0 * kDeg);
-  require_closed_manifold(hand().skin, "skin");
+  geometry::require_closed_manifold(hand().skin, "skin");
 }
 
 TEST_F(TemplateRegions, CreasesRunSmoothlyAlongEdges) {
-  const TriangleMesh& skin = hand().skin;
-  const MeshTopology topology = build_topology(skin);
-  const std::vector<Region> of = triangle_regions(skin.triangles, hand().region);
+  const geometry::TriangleMesh& skin = hand().skin;
+  const geometry::MeshTopology topology = geometry::build_topology(skin);
+  const std::vector<hand::Region> of = hand::triangle_regions(skin.triangles, hand().region);
   std::map<int, std::vector<int>> along;  // vertex -> other ends of crease edges
   for (int h = 0; h < static_cast<int>(topology.twin.size()); ++h) {
     const int twin = topology.twin[static_cast<std::size_t>(h)];
@@ -99,28 +100,29 @@ TEST_F(TemplateRegions, CreasesRunSmoothlyAlongEdges) {
 }
 
 TEST_F(TemplateRegions, AreasHaveTheOrderOfAHand) {
-  const std::vector<double> area = vertex_areas(hand().skin);
-  std::array<double, kRegionCount> sum{};
+  const std::vector<double> area = geometry::vertex_areas(hand().skin);
+  std::array<double, hand::kRegionCount> sum{};
   for (std::size_t i = 0; i < area.size(); ++i) {
     sum[static_cast<std::size_t>(hand().region[i])] += area[i];
   }
-  const auto of = [&](Region r) { return sum[static_cast<std::size_t>(r)]; };
+  const auto of = [&](hand::Region r) { return sum[static_cast<std::size_t>(r)]; };
   // Pulps of 300 to 1200 mm^2; thenar and hypothenar are the largest palmar regions.
-  for (const Region r : {Region::kThumbDistal, Region::kIndexDistal, Region::kMiddleDistal,
-                         Region::kRingDistal, Region::kLittleDistal}) {
+  for (const hand::Region r :
+       {hand::Region::kThumbDistal, hand::Region::kIndexDistal, hand::Region::kMiddleDistal,
+        hand::Region::kRingDistal, hand::Region::kLittleDistal}) {
     EXPECT_GT(of(r), 300.0) << name_of(r);
     EXPECT_LT(of(r), 1200.0) << name_of(r);
   }
-  for (int r = 1; r < kRegionCount; ++r) {
-    const auto region = static_cast<Region>(r);
-    if (region == Region::kThenar || region == Region::kHypothenar) continue;
-    EXPECT_LT(of(region), of(Region::kThenar)) << name_of(region);
-    EXPECT_LT(of(region), of(Region::kHypothenar)) << name_of(region);
+  for (int r = 1; r < hand::kRegionCount; ++r) {
+    const auto region = static_cast<hand::Region>(r);
+    if (region == hand::Region::kThenar || region == hand::Region::kHypothenar) continue;
+    EXPECT_LT(of(region), of(hand::Region::kThenar)) << name_of(region);
+    EXPECT_LT(of(region), of(hand::Region::kHypothenar)) << name_of(region);
   }
 }
 
 TEST_F(TemplateRegions, FingertipsAndWebsArePalmarAndTheForearmIsNot) {
-  const TriangleMesh& skin = hand().skin;
+  const geometry::TriangleMesh& skin = hand().skin;
   const auto region_near = [&](const Vec3& p) {
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < skin.vertices.size(); ++i) {
@@ -128,19 +130,19 @@ TEST_F(TemplateRegions, FingertipsAndWebsArePalmarAndTheForearmIsNot) {
     }
     return hand().region[nearest];
   };
-  EXPECT_EQ(region_near(hand().skeleton.fingertips[2]), Region::kMiddleDistal);
-  EXPECT_EQ(region_near(hand().skeleton.fingertips[0]), Region::kThumbDistal);
-  const Vec3 wrist = hand().skeleton.joint(JointId::kWrist).centre;
-  EXPECT_EQ(region_near(wrist + Vec3(0.0, -10.0, 30.0)), Region::kDorsum);
-  const Vec3 mcp = hand().skeleton.joint(JointId::kMiddleMcp).centre;
-  EXPECT_EQ(region_near(mcp + Vec3(0.0, 0.0, -30.0)), Region::kDorsum);
-  EXPECT_EQ(region_near(mcp + Vec3(5.0, 5.0, 30.0)), Region::kRadialPalm);
+  EXPECT_EQ(region_near(hand().skeleton.fingertips[2]), hand::Region::kMiddleDistal);
+  EXPECT_EQ(region_near(hand().skeleton.fingertips[0]), hand::Region::kThumbDistal);
+  const Vec3 wrist = hand().skeleton.joint(hand::JointId::kWrist).centre;
+  EXPECT_EQ(region_near(wrist + Vec3(0.0, -10.0, 30.0)), hand::Region::kDorsum);
+  const Vec3 mcp = hand().skeleton.joint(hand::JointId::kMiddleMcp).centre;
+  EXPECT_EQ(region_near(mcp + Vec3(0.0, 0.0, -30.0)), hand::Region::kDorsum);
+  EXPECT_EQ(region_near(mcp + Vec3(5.0, 5.0, 30.0)), hand::Region::kRadialPalm);
 }
 
 TEST_F(TemplateRegions, ALeftHandIsPartitionedAlike) {
-  const Hand left = mirrored(hand());
-  const SkinPartition again = partition_skin(left.skin, left.skeleton);
-  const SkinPartition right = partition_skin(hand().skin, hand().skeleton);
+  const hand::Hand left = hand::mirrored(hand());
+  const hand::SkinPartition again = hand::partition_skin(left.skin, left.skeleton);
+  const hand::SkinPartition right = hand::partition_skin(hand().skin, hand().skeleton);
   int different = 0;
   for (std::size_t i = 0; i < again.region.size(); ++i) {
     different += again.region[i] != right.region[i] || again.segment[i] != right.segment[i];
@@ -150,4 +152,4 @@ TEST_F(TemplateRegions, ALeftHandIsPartitionedAlike) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

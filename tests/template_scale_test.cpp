@@ -8,25 +8,26 @@
 #include "palmar/hand/skin/skinning.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 using TemplateScale = TemplateTest;
 
 TEST_F(TemplateScale, PosedSkinAndBonesScaleWithTheHand) {
   const double factor = 1.3;
-  const Hand large = scaled(hand(), factor);
-  Posture posture = reference_posture(hand().skeleton);
-  for (int d = 3; d < kDofCount; ++d) {
-    const JointDof& dof = hand().skeleton.dof(static_cast<Dof>(d));
+  const hand::Hand large = hand::scaled(hand(), factor);
+  hand::Posture posture = hand::reference_posture(hand().skeleton);
+  for (int d = 3; d < hand::kDofCount; ++d) {
+    const hand::JointDof& dof = hand().skeleton.dof(static_cast<hand::Dof>(d));
     posture[dof.dof] = 0.3 * dof.lower + 0.7 * dof.upper;
   }
-  const std::vector<Vec3> small_skin = pose_skin(hand(), posture);
-  const std::vector<Vec3> large_skin = pose_skin(large, posture);
+  const std::vector<Vec3> small_skin = hand::pose_skin(hand(), posture);
+  const std::vector<Vec3> large_skin = hand::pose_skin(large, posture);
   for (std::size_t v = 0; v < small_skin.size(); ++v) {
     ASSERT_LT((large_skin[v] - factor * small_skin[v]).norm(), 1e-9) << "vertex " << v;
   }
-  const auto small_bones = pose_bones(hand(), posture), large_bones = pose_bones(large, posture);
+  const auto small_bones = hand::pose_bones(hand(), posture),
+             large_bones = hand::pose_bones(large, posture);
   for (std::size_t b = 0; b < small_bones.size(); ++b) {
     for (std::size_t v = 0; v < small_bones[b].vertices.size(); ++v) {
       const Vec3 expected = factor * small_bones[b].vertices[v];
@@ -36,8 +37,8 @@ TEST_F(TemplateScale, PosedSkinAndBonesScaleWithTheHand) {
 }
 
 TEST_F(TemplateScale, DimensionsKeptAreThoseThatTheSkinHas) {
-  const Hand small = scaled(hand(), 0.9);
-  const HandDimensions measured = measure_hand(small);
+  const hand::Hand small = hand::scaled(hand(), 0.9);
+  const hand::HandDimensions measured = hand::measure_hand(small);
   EXPECT_NEAR(small.dimensions.hand_length, measured.hand_length, 1e-6);
   EXPECT_NEAR(small.dimensions.hand_circumference, measured.hand_circumference, 1e-6);
   for (std::size_t s = 0; s < measured.segment.size(); ++s) {
@@ -47,9 +48,9 @@ TEST_F(TemplateScale, DimensionsKeptAreThoseThatTheSkinHas) {
 }
 
 TEST_F(TemplateScale, FactorOutOfRangeIsRefused) {
-  EXPECT_THROW(scaled(hand(), 0.0), UsageError);
-  EXPECT_THROW(scaled(hand(), std::nan("")), UsageError);
+  EXPECT_THROW(hand::scaled(hand(), 0.0), UsageError);
+  EXPECT_THROW(hand::scaled(hand(), std::nan("")), UsageError);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -90,9 +90,9 @@ CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string&
   return verb;
 }
 
-std::optional<LengthUnit> parse_unit(const std::string& text) {
+std::optional<geometry::LengthUnit> parse_unit(const std::string& text) {
   if (text.empty()) return std::nullopt;
-  if (const auto unit = length_unit_named(text)) return unit;
+  if (const auto unit = geometry::length_unit_named(text)) return unit;
   throw UsageError("--unit: \"" + text + "\" is not known; mm, cm, m or inch is allowed");
 }
 
@@ -201,7 +201,7 @@ void note(const CommonOptions& common, const std::string& text) {
 }
 
 void print(const std::string& given) {
-  const std::string text = is_module() ? xml_escaped(given) : given;
+  const std::string text = is_module() ? formats::xml_escaped(given) : given;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     throw OutputError("standard output can't be written to (disk full or pipe closed)");
   }

@@ -69,7 +69,7 @@ CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string&
                    const std::string& example);
 
 /// "mm", "cm", "m", "inch"; empty = not given. Throws UsageError naming --unit.
-std::optional<LengthUnit> parse_unit(const std::string& text);
+std::optional<geometry::LengthUnit> parse_unit(const std::string& text);
 
 /// Messages of the library name settings in words; from now on they get the names of this verb's
 /// options: those in `others`, else the ones that have the same words.

@@ -16,9 +16,10 @@ namespace {
   const std::filesystem::path beside = program_folder() / program;
   execv(beside.c_str(), arguments);
   const std::string part = std::string(program).substr(std::string("palmar-").size());
-  throw ProgramMissing("`" + command + "` needs the program " + program + ", which isn't beside this one (" +
-                       beside.string() + "): `./demo --also " + part +
-                       "` in Palmar's source folder builds it, and the package palmar has it");
+  throw formats::ProgramMissing(
+      "`" + command + "` needs the program " + program + ", which isn't beside this one (" +
+      beside.string() + "): `./demo --also " + part +
+      "` in Palmar's source folder builds it, and the package palmar has it");
 }
 
 }  // namespace

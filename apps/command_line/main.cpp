@@ -52,7 +52,7 @@ std::string explain_verb(const CLI::App& where, const std::string& wrong) {
       full_name(where) == "palmar product make" ? "kind of product" : "command";
   return wrong + " is no " + what +
          (nearest.empty() ? "; there are " : "; did you mean " + nearest + "? There are ") +
-         joined(names, ", ") + "\nTry: " + full_name(where) + " --help";
+         palmar::joined(names, ", ") + "\nTry: " + full_name(where) + " --help";
 }
 
 /// What was wrong with the command line, and the nearest thing that would have been right.
@@ -82,7 +82,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
 /// (cmake/write_build.cmake).
 std::string version_text() {
   std::string text = build_description();
-  std::ifstream file(share_folder() + "/build.txt");
+  std::ifstream file(workflow::share_folder() + "/build.txt");
   for (std::string line; std::getline(file, line);) text += "\n" + line;
   return text;
 }

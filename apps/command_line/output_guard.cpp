@@ -35,7 +35,7 @@ void check_shape_output(const std::string& out, bool allows_step) {
   }
   const std::string suffix = lower_case(fs::path(out).extension().string());
   const bool is_mesh = suffix == ".stl" || suffix == ".obj" || suffix == ".ply";
-  const bool is_step = cad_format_of_name(out) == CadFormat::kStep;
+  const bool is_step = records::cad_format_of_name(out) == records::CadFormat::kStep;
   if (is_mesh || (allows_step && is_step)) return;
   throw UsageError("--out " + out + ": can't be written as \"" + suffix + "\"; allowed are " +
                    allowed);

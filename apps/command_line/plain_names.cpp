@@ -29,7 +29,7 @@ struct DofParts {
   std::string_view digit, joint, motion;
 };
 
-DofParts parts_of(Dof dof) {
+DofParts parts_of(hand::Dof dof) {
   const std::string_view name = name_of(dof);
   const std::size_t first = name.find('_'), last = name.rfind('_');
   const std::string_view joint =
@@ -41,20 +41,20 @@ bool is_of_name(char c) { return std::islower(static_cast<unsigned char>(c)) != 
 
 /// "the tip of the middle finger"; the name itself if it names neither region nor angle.
 std::string plain_name(const std::string& name) {
-  static const Texts english(Language::kEnglish);
-  if (region_named(name)) {
+  static const report::Texts english(Language::kEnglish);
+  if (hand::region_named(name)) {
     const std::string place = english("region_at." + name);
     return place.substr(place.find(' ') + 1);  // without "at"
   }
-  if (const auto dof = dof_named(name)) return joint_words(*dof);
+  if (const auto dof = hand::dof_named(name)) return joint_words(*dof);
   return name;
 }
 
 }  // namespace
 
-std::string finger_words(Finger finger) { return digit_words(name_of(finger)); }
+std::string finger_words(hand::Finger finger) { return digit_words(name_of(finger)); }
 
-std::string joint_words(Dof dof) {
+std::string joint_words(hand::Dof dof) {
   const DofParts parts = parts_of(dof);
   if (parts.motion == "deviation") return "bending of the wrist to the thumb's side";
   if (parts.motion == "pronation") return "turning of the forearm";
@@ -64,11 +64,11 @@ std::string joint_words(Dof dof) {
                      joint_name(parts.joint));
 }
 
-std::string posture_text(const Posture& posture) {
+std::string posture_text(const hand::Posture& posture) {
   std::string text = "joint angles in degrees; bent and spread to the thumb's side are positive";
   std::string_view digit, joint;
-  for (int d = 0; d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
     const DofParts parts = parts_of(dof);
     const bool is_new_digit = parts.digit != digit;
     if (is_new_digit) {

@@ -26,18 +26,18 @@ void ReportArguments::add_to(CLI::App& verb) {
 
 Language ReportArguments::language() const { return language_named(language_); }
 
-std::optional<Paper> ReportArguments::pdf() const {
-  const Paper paper = paper_named(paper_);
+std::optional<report::Paper> ReportArguments::pdf() const {
+  const report::Paper paper = report::paper_named(paper_);
   return pdf_ ? std::optional(paper) : std::nullopt;
 }
 
-ReportExtras ReportArguments::extras() const {
-  ReportExtras extras{.units = units_named(units_),
-                      .project = {},
-                      .excel = excel_,
-                      .rounded_csv = rounded_csv_,
-                      .slides = slides_};
-  if (!project_.empty()) extras.project = read_project(project_);
+report::ReportExtras ReportArguments::extras() const {
+  report::ReportExtras extras{.units = report::units_named(units_),
+                              .project = {},
+                              .excel = excel_,
+                              .rounded_csv = rounded_csv_,
+                              .slides = slides_};
+  if (!project_.empty()) extras.project = records::read_project(project_);
   return extras;
 }
 

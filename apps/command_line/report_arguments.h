@@ -17,8 +17,8 @@ class ReportArguments {
  public:
   void add_to(CLI::App& verb);
   Language language() const;
-  std::optional<Paper> pdf() const;  ///< nothing if no PDF is asked for
-  ReportExtras extras() const;       ///< reads the project's file
+  std::optional<report::Paper> pdf() const;  ///< nothing if no PDF is asked for
+  report::ReportExtras extras() const;       ///< reads the project's file
 
  private:
   std::string language_ = "en", paper_ = "a4", units_ = "metric", project_;

@@ -221,18 +221,20 @@ std::string element(const Parameter& one, const std::string& name, const std::st
   std::string text = fmt::format(
       "    <{}{}>\n      <name>{}</name>\n      {}\n      <description>{}</description>\n"
       "      <label>{}</label>\n",
-      tag, attributes, name, place, xml_escaped(about), xml_escaped(label_of(name)));
+      tag, attributes, name, place, formats::xml_escaped(about),
+      formats::xml_escaped(label_of(name)));
   std::string initial = default_of(*one.option);
   if (one.kind == Kind::kFlag) initial = "false";
   if (one.kind == Kind::kChoice && initial.empty()) initial = kAsUsual;
-  if (!initial.empty()) text += fmt::format("      <default>{}</default>\n", xml_escaped(initial));
+  if (!initial.empty())
+    text += fmt::format("      <default>{}</default>\n", formats::xml_escaped(initial));
   if (one.kind == Kind::kFile || one.kind == Kind::kFolder) {
     text += fmt::format("      <channel>{}</channel>\n", one.is_output ? "output" : "input");
   }
   if (one.kind == Kind::kChoice) {
     if (initial == kAsUsual) text += fmt::format("      <element>{}</element>\n", kAsUsual);
     for (const std::string& choice : one.choices) {
-      text += fmt::format("      <element>{}</element>\n", xml_escaped(choice));
+      text += fmt::format("      <element>{}</element>\n", formats::xml_escaped(choice));
     }
   }
   if (one.range) {
@@ -274,7 +276,8 @@ std::string group_element(const std::string& label, bool is_advanced, const std:
   return fmt::format(
       "  <parameters{}>\n    <label>{}</label>\n    <description>{}</description>\n{}"
       "  </parameters>\n",
-      is_advanced ? " advanced=\"true\"" : "", xml_escaped(label), xml_escaped(label), elements);
+      is_advanced ? " advanced=\"true\"" : "", formats::xml_escaped(label),
+      formats::xml_escaped(label), elements);
 }
 
 std::string title_of(std::string words) {
@@ -291,7 +294,8 @@ std::string module_description(const CLI::App& verb) {
       "  <description>{}</description>\n  <version>{}</version>\n"
       "  <documentation-url></documentation-url>\n  <license>Apache-2.0</license>\n"
       "  <contributor>The Palmar authors</contributor>\n",
-      xml_escaped(title_of(full_name(verb))), xml_escaped(verb.get_description()), version());
+      formats::xml_escaped(title_of(full_name(verb))), formats::xml_escaped(verb.get_description()),
+      version());
   text += group_element("What it works on", false, elements_of_arguments(verb));
   for (const std::string& group : option_groups(verb)) {
     std::string elements;
@@ -357,7 +361,7 @@ void print_panel_progress(double share, const std::string& activity) {
     std::printf(
         "<filter-start><filter-name>palmar</filter-name><filter-comment>%s</filter-comment>"
         "</filter-start>\n",
-        xml_escaped(activity).c_str());
+        formats::xml_escaped(activity).c_str());
     is_panel_open = true;
   }
   std::printf("<filter-progress>%.4f</filter-progress>\n", share);

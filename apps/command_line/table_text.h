@@ -10,9 +10,9 @@ namespace palmar::cli {
 
 // Results of tables of subjects as people read them in a terminal.
 
-std::string descriptions_text(const Descriptions& descriptions);
+std::string descriptions_text(const records::Descriptions& descriptions);
 /// p values below 0.05 carry a star, below 0.05 after Holm's adjustment two.
-std::string correlations_text(const Correlations& correlations);
-std::string regressions_text(const Regressions& regressions);
+std::string correlations_text(const records::Correlations& correlations);
+std::string regressions_text(const records::Regressions& regressions);
 
 }  // namespace palmar::cli

@@ -15,18 +15,18 @@
 
 namespace palmar::cad_worker {
 
-CadFile read_request(const Json& request, const Progress& progress) {
-  ReadCadOptions read;
+cad::CadFile read_request(const Json& request, const Progress& progress) {
+  cad::ReadCadOptions read;
   if (request.contains("millimetres_per_unit")) {
     read.millimetres_per_unit = request.at("millimetres_per_unit").get<double>();
   }
   const std::string object = request.at("file").get<std::string>();
-  return on_file(object, [&] { return read_cad(object, read, progress); });
+  return on_file(object, [&] { return cad::read_cad(object, read, progress); });
 }
 
 Json check(const Json& request, const std::filesystem::path&, const Progress& progress) {
-  const CadFile file = read_request(request, progress);
-  const CadCheck result = check_cad(file.model);
+  const cad::CadFile file = read_request(request, progress);
+  const cad::CadCheck result = cad::check_cad(file.model);
   return {{"format", file.format},         {"unit", file.unit},
           {"is_good", result.is_good()},   {"is_valid", result.is_valid},
           {"is_closed", result.is_closed}, {"bodies", result.bodies},
@@ -38,16 +38,16 @@ Json check(const Json& request, const std::filesystem::path&, const Progress& pr
 
 Json convert(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
   const std::string object = request.at("file").get<std::string>();
-  const CadFile file = read_request(request, progress);
-  write_step(folder / "product.step", file.model);
-  const double before = volume_of(file.model);
-  const double after = volume_of(read_step(folder / "product.step").model);
+  const cad::CadFile file = read_request(request, progress);
+  cad::write_step(folder / "product.step", file.model);
+  const double before = cad::volume_of(file.model);
+  const double after = cad::volume_of(cad::read_step(folder / "product.step").model);
   constexpr double kSame = 1e-3;
   if (std::abs(after - before) > kSame * std::abs(before)) {
     throw NumericalError(object + ": written as STEP and read back its volume is " +
                          std::to_string(after) + " mm3; it was " + std::to_string(before) + " mm3");
   }
-  return {{"bodies", body_names(file.model)}, {"faces", file.model.face_count()}};
+  return {{"bodies", cad::body_names(file.model)}, {"faces", file.model.face_count()}};
 }
 
 Json version(const Json&, const std::filesystem::path&, const Progress&) {

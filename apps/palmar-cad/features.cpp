@@ -31,8 +31,8 @@
 namespace palmar::cad_worker {
 namespace {
 
-FeatureEdits edits_of(const Json& list) {
-  FeatureEdits edits;
+cad::FeatureEdits edits_of(const Json& list) {
+  cad::FeatureEdits edits;
   for (const Json& one : list) {
     const std::string feature = one.at("feature").get<std::string>();
     if (feature == "fillet") {
@@ -42,12 +42,12 @@ FeatureEdits edits_of(const Json& list) {
       edits.offsets.push_back(
           {one.at("faces").get<std::string>(), one.at("offset_mm").get<double>()});
     } else if (feature == "taper") {
-      TaperEdit taper;
+      cad::TaperEdit taper;
       taper.faces = one.value("faces", taper.faces);
       taper.angle = one.at("taper_deg").get<double>() * std::numbers::pi / 180;
       edits.tapers.push_back(taper);
     } else if (feature == "groove") {
-      GrooveEdit groove;
+      cad::GrooveEdit groove;
       if (one.contains("ring_at_mm")) groove.ring_at = one.at("ring_at_mm").get<double>();
       for (const Json& point : one.value("points_mm", Json::array())) {
         groove.points.push_back(
@@ -70,22 +70,23 @@ FeatureEdits edits_of(const Json& list) {
 
 Json features(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
   Json notes = Json::array();
-  const CadModel source = model_of(request.at("source"), notes);
+  const cad::CadModel source = model_of(request.at("source"), notes);
   progress.update(0.2, "read the product");
-  const FeatureEdits edits = edits_of(request.value("edits", Json::array()));
+  const cad::FeatureEdits edits = edits_of(request.value("edits", Json::array()));
   Json fillets = Json::array();
-  for (const FilletEdit& fillet : edits.fillets) {
-    const EdgeChoice choice = choose_edges(source, fillet.edges);
-    fillets.push_back({{"text", words_of(choice)}, {"radius_mm", mean_radius(source, choice)}});
+  for (const cad::FilletEdit& fillet : edits.fillets) {
+    const cad::EdgeChoice choice = cad::choose_edges(source, fillet.edges);
+    fillets.push_back(
+        {{"text", cad::words_of(choice)}, {"radius_mm", cad::mean_radius(source, choice)}});
   }
   if (request.value("describe_only", false)) {
-    for (const OffsetEdit& offset : edits.offsets) choose_faces(source, offset.faces);
-    for (const TaperEdit& taper : edits.tapers) choose_faces(source, taper.faces);
+    for (const cad::OffsetEdit& offset : edits.offsets) cad::choose_faces(source, offset.faces);
+    for (const cad::TaperEdit& taper : edits.tapers) cad::choose_faces(source, taper.faces);
     const std::string keep_out = request.value("keep_out", std::string());
-    if (!keep_out.empty()) choose_faces(source, keep_out);
+    if (!keep_out.empty()) cad::choose_faces(source, keep_out);
     return {{"fillets", std::move(fillets)}};
   }
-  const EditedModel edited = edit_features(source, edits);
+  const cad::EditedModel edited = cad::edit_features(source, edits);
   for (const std::string& note : edited.notes) notes.push_back(note);
   progress.update(0.5, "changed its features");
 
@@ -96,30 +97,30 @@ Json features(const Json& request, const std::filesystem::path& folder, const Pr
                 {"solids", edited.model.solid_count()}};
   if (request.value("change", true)) {
     Json none = Json::array();
-    const CadModel before =
+    const cad::CadModel before =
         request.contains("reference") ? model_of(request.at("reference"), none) : source;
     const std::string keep_out = request.value("keep_out", std::string());
-    const SurfaceChange change =
-        surface_change(before, edited.model,
-                       keep_out.empty() ? std::vector<int>() : choose_faces(before, keep_out));
-    reply["volume_before_mm3"] = volume_of(before);
+    const cad::SurfaceChange change = cad::surface_change(
+        before, edited.model,
+        keep_out.empty() ? std::vector<int>() : cad::choose_faces(before, keep_out));
+    reply["volume_before_mm3"] = cad::volume_of(before);
     reply["largest_change_mm"] = change.largest;
     reply["keep_out_change_mm"] = change.of_faces;
   }
   progress.update(0.7, "measured the change");
   if (request.value("step", false)) {
-    write_step(folder / "product.step", edited.model);
+    cad::write_step(folder / "product.step", edited.model);
     require_same(folder / "product.step", "the changed product", edited.volume);
   }
   if (request.value("mesh", true)) {
-    TessellationOptions options;
+    cad::TessellationOptions options;
     if (request.contains("chordal_error_mm")) {
       options.chordal_error = request.at("chordal_error_mm").get<double>();
     }
-    Tessellation mesh = tessellate(edited.model, options);
+    cad::Tessellation mesh = cad::tessellate(edited.model, options);
     for (const std::string& note : mesh.notes) notes.push_back(note);
     reply["chordal_error_mm"] = mesh.chordal_error;
-    write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
+    records::write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
   }
   reply["notes"] = std::move(notes);
   progress.update(1.0, "made");

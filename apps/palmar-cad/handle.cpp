@@ -19,29 +19,30 @@
 namespace palmar::cad_worker {
 
 Json handle(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
-  const HandleShape shape = handle_shape_from(request.at("shape"));
-  const CadModel model = make_handle_solid(shape);
+  const redesign::HandleShape shape = records::handle_shape_from(request.at("shape"));
+  const cad::CadModel model = cad::make_handle_solid(shape);
   progress.update(0.4, "made the handle");
-  write_step(folder / "product.step", model);
-  require_same(folder / "product.step", "the handle", volume_of(model));
+  cad::write_step(folder / "product.step", model);
+  require_same(folder / "product.step", "the handle", cad::volume_of(model));
   progress.update(0.7, "wrote and read back the handle");
-  TessellationOptions options;
+  cad::TessellationOptions options;
   options.chordal_error = request.at("chordal_error_mm").get<double>();
-  Tessellation mesh = tessellate(model, options, progress);
-  Json reply = {{"volume_mm3", volume_of(model)},
+  cad::Tessellation mesh = cad::tessellate(model, options, progress);
+  Json reply = {{"volume_mm3", cad::volume_of(model)},
                 {"faces", model.face_count()},
-                {"poles", most_poles(model)},
+                {"poles", cad::most_poles(model)},
                 {"triangles", mesh.mesh.triangle_count()}};
-  write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
+  records::write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
   if (request.contains("source")) {
     try {
       Json notes = Json::array();
-      const CadModel whole = replace_handle(model_of(request.at("source"), notes), shape);
-      write_step(folder / "whole.step", whole);
-      require_same(folder / "whole.step", "the product", volume_of(whole));
-      Tessellation of_whole = tessellate(whole, {}, progress);
-      write_face_mesh(folder / "whole.bin", {std::move(of_whole.mesh), std::move(of_whole.faces)});
-      reply["whole"] = {{"volume_mm3", volume_of(whole)}, {"faces", whole.face_count()}};
+      const cad::CadModel whole = cad::replace_handle(model_of(request.at("source"), notes), shape);
+      cad::write_step(folder / "whole.step", whole);
+      require_same(folder / "whole.step", "the product", cad::volume_of(whole));
+      cad::Tessellation of_whole = cad::tessellate(whole, {}, progress);
+      records::write_face_mesh(folder / "whole.bin",
+                               {std::move(of_whole.mesh), std::move(of_whole.faces)});
+      reply["whole"] = {{"volume_mm3", cad::volume_of(whole)}, {"faces", whole.face_count()}};
     } catch (const NumericalError& error) {
       reply["whole_failure"] = error.what();
     }

@@ -22,9 +22,9 @@ namespace {
 
 /// The parent judges the size with care; this one keeps triangles from being made of what is no
 /// product in any unit.
-void check_size(const CadFile& file, const std::string& object) {
+void check_size(const cad::CadFile& file, const std::string& object) {
   constexpr double kLargest = 20'000.0;  // mm
-  const Box3 box = box_of(file.model);
+  const Box3 box = cad::box_of(file.model);
   const double size = box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
   if (size <= kLargest) return;
   char text[32];
@@ -36,8 +36,8 @@ void check_size(const CadFile& file, const std::string& object) {
 }
 
 /// Geometry with numbers that are none gives triangles that are none.
-void check_numbers(const Tessellation& mesh, const std::string& object) {
-  for (const ProductFace& face : mesh.faces.face) {
+void check_numbers(const cad::Tessellation& mesh, const std::string& object) {
+  for (const product::ProductFace& face : mesh.faces.face) {
     if (std::isfinite(face.area) && std::isfinite(face.radius)) continue;
     throw InputError(object + ": the size of face " + std::to_string(face.number) +
                      " is no finite number; the file is damaged");
@@ -55,7 +55,7 @@ void check_numbers(const Tessellation& mesh, const std::string& object) {
 }  // namespace
 
 Json import(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
-  TessellationOptions options;
+  cad::TessellationOptions options;
   if (request.contains("chordal_error_mm")) {
     options.chordal_error = request.at("chordal_error_mm").get<double>();
   }
@@ -66,13 +66,13 @@ Json import(const Json& request, const std::filesystem::path& folder, const Prog
   options.check();
 
   const std::string object = request.at("file").get<std::string>();
-  const CadFile file = read_request(request, part_of(progress, 0.0, 0.5));
-  Tessellation mesh = on_file(object, [&] {
+  const cad::CadFile file = read_request(request, part_of(progress, 0.0, 0.5));
+  cad::Tessellation mesh = on_file(object, [&] {
     check_size(file, object);
-    const std::string crossing = self_crossing(file.model);
+    const std::string crossing = cad::self_crossing(file.model);
     if (!crossing.empty()) throw InputError(object + ": " + crossing);
     try {
-      return tessellate(file.model, options, part_of(progress, 0.5, 0.95));
+      return cad::tessellate(file.model, options, part_of(progress, 0.5, 0.95));
     } catch (const InputError& error) {
       throw InputError(object + ": " + error.what());
     }
@@ -81,7 +81,7 @@ Json import(const Json& request, const std::filesystem::path& folder, const Prog
   Json notes = file.notes;
   for (const std::string& note : mesh.notes) notes.push_back(note);
   Json bodies = Json::array();
-  for (const auto& name : body_names(file.model)) bodies.push_back(name);
+  for (const auto& name : cad::body_names(file.model)) bodies.push_back(name);
   const Json reply = {{"format", file.format},
                       {"unit", file.unit},
                       {"millimetres_per_unit", file.millimetres_per_unit},
@@ -93,9 +93,9 @@ Json import(const Json& request, const std::filesystem::path& folder, const Prog
                       {"chordal_error_mm", mesh.chordal_error},
                       {"chordal_reason", mesh.chordal_reason},
                       {"triangles", mesh.mesh.triangle_count()},
-                      {"volume_mm3", volume_of(file.model)},
+                      {"volume_mm3", cad::volume_of(file.model)},
                       {"notes", std::move(notes)}};
-  write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
+  records::write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
   progress.update(1.0, "imported");
   return reply;
 }

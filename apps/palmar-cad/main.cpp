@@ -31,7 +31,7 @@ palmar::worker::Verb named_failures(const palmar::worker::Verb& verb) {
     try {
       return verb(request, folder, progress);
     } catch (const Standard_OutOfMemory&) {
-      ::_exit(palmar::kWorkerOutOfMemory);
+      ::_exit(palmar::formats::kWorkerOutOfMemory);
     } catch (const Standard_Failure& failure) {
       const char* const text = failure.GetMessageString();
       throw palmar::NumericalError(
@@ -55,6 +55,6 @@ int main(int argc, char** argv) {
   }
   Message::DefaultMessenger()->ChangePrinters().Clear();
   // In whatever thread it happens, and whoever would catch it: the parent says it by name.
-  std::set_new_handler([] { ::_exit(palmar::kWorkerOutOfMemory); });
+  std::set_new_handler([] { ::_exit(palmar::formats::kWorkerOutOfMemory); });
   return palmar::worker::answer(argv[2], named_failures(verbs.at(argv[1])));
 }

@@ -19,34 +19,35 @@
 namespace palmar::cad_worker {
 
 Json make(const Json& request, const std::filesystem::path& folder, const Progress& progress) {
-  const ParametricKind& kind = parametric_kind(request.at("kind").get<std::string>());
+  const product::ParametricKind& kind =
+      product::parametric_kind(request.at("kind").get<std::string>());
   std::vector<std::pair<std::string, double>> given;
   if (request.contains("parameters")) {
     for (const auto& [name, value] : request.at("parameters").items()) {
       given.emplace_back(name, value.get<double>());
     }
   }
-  const CadModel model = make_kind_solid(kind, complete_values(kind, given));
+  const cad::CadModel model = cad::make_kind_solid(kind, product::complete_values(kind, given));
   progress.update(0.4, "made " + kind.name);
-  Json reply = {{"volume_mm3", volume_of(model)},
+  Json reply = {{"volume_mm3", cad::volume_of(model)},
                 {"faces", model.face_count()},
                 {"edges", model.edge_count()},
                 {"notes", Json::array()}};
   if (request.value("step", false)) {
-    write_step(folder / "product.step", model);
-    require_same(folder / "product.step", kind.name, volume_of(model));
+    cad::write_step(folder / "product.step", model);
+    require_same(folder / "product.step", kind.name, cad::volume_of(model));
     progress.update(0.7, "wrote and read back " + kind.name);
   }
   if (request.value("mesh", false)) {
-    TessellationOptions options;
+    cad::TessellationOptions options;
     if (request.contains("chordal_error_mm")) {
       options.chordal_error = request.at("chordal_error_mm").get<double>();
     }
-    Tessellation mesh = tessellate(model, options, progress);
+    cad::Tessellation mesh = cad::tessellate(model, options, progress);
     for (const std::string& note : mesh.notes) reply["notes"].push_back(note);
     reply["chordal_error_mm"] = mesh.chordal_error;
     reply["triangles"] = mesh.mesh.triangle_count();
-    write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
+    records::write_face_mesh(folder / "mesh.bin", {std::move(mesh.mesh), std::move(mesh.faces)});
   }
   progress.update(1.0, "made " + kind.name);
   return reply;

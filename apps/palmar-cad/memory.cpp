@@ -22,19 +22,19 @@ void* __libc_realloc(void* old, std::size_t size);
 
 void* malloc(std::size_t size) {
   void* const memory = __libc_malloc(size);
-  if (memory == nullptr) _exit(palmar::kWorkerOutOfMemory);
+  if (memory == nullptr) _exit(palmar::formats::kWorkerOutOfMemory);
   return memory;
 }
 
 void* calloc(std::size_t count, std::size_t size) {
   void* const memory = __libc_calloc(count, size);
-  if (memory == nullptr) _exit(palmar::kWorkerOutOfMemory);
+  if (memory == nullptr) _exit(palmar::formats::kWorkerOutOfMemory);
   return memory;
 }
 
 void* realloc(void* old, std::size_t size) {
   void* const memory = __libc_realloc(old, size);
-  if (memory == nullptr && size > 0) _exit(palmar::kWorkerOutOfMemory);
+  if (memory == nullptr && size > 0) _exit(palmar::formats::kWorkerOutOfMemory);
   return memory;
 }
 

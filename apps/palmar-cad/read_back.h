@@ -19,7 +19,7 @@ namespace palmar::cad_worker {
 inline void require_same(const std::filesystem::path& path, const std::string& what,
                          double volume) {
   constexpr double kSameVolume = 1e-3;  // of the volume
-  const CadCheck again = check_cad(read_step(path).model);
+  const cad::CadCheck again = cad::check_cad(cad::read_step(path).model);
   if (again.is_good() && std::abs(again.volume - volume) <= kSameVolume * volume) return;
   throw NumericalError(fmt::format(
       "the STEP of {} doesn't read back as it is: {}, {:.6g} mm3 instead of {:.6g} mm3", what,

@@ -13,7 +13,7 @@
 namespace palmar::cad_worker {
 
 /// The CAD file that a request names: {file, millimetres_per_unit?}.
-CadFile read_request(const Json& request, const Progress& progress);
+cad::CadFile read_request(const Json& request, const Progress& progress);
 
 /// Does the work on a file; what the kernel can't do with it is the file's fault, by name. Memory
 /// that is refused stays what it is.

@@ -14,22 +14,23 @@
 
 namespace palmar::cad_worker {
 
-CadModel model_of(const Json& source, Json& notes) {
+cad::CadModel model_of(const Json& source, Json& notes) {
   if (source.contains("kind")) {
-    const ParametricKind& kind = parametric_kind(source.at("kind").get<std::string>());
+    const product::ParametricKind& kind =
+        product::parametric_kind(source.at("kind").get<std::string>());
     std::vector<std::pair<std::string, double>> given;
     const Json parameters = source.value("parameters", Json::object());
     for (const auto& [name, value] : parameters.items()) {
       given.emplace_back(name, value.get<double>());
     }
-    return make_kind_solid(kind, complete_values(kind, given));
+    return cad::make_kind_solid(kind, product::complete_values(kind, given));
   }
-  ReadCadOptions options;
+  cad::ReadCadOptions options;
   if (source.contains("millimetres_per_unit")) {
     options.millimetres_per_unit = source.at("millimetres_per_unit").get<double>();
   }
   const std::string file = source.at("file").get<std::string>();
-  CadFile read = read_cad(file, options);
+  cad::CadFile read = cad::read_cad(file, options);
   if (read.solids == 0) {
     throw InputError(
         fmt::format("{}: no solid, only open surfaces; features of a solid can change", file));

@@ -9,6 +9,6 @@ namespace palmar::cad_worker {
 
 /// The solid of a source: {file, millimetres_per_unit?} or {kind, parameters}. What was found in a
 /// file is added to `notes`. Throws InputError if there is no solid.
-CadModel model_of(const Json& source, Json& notes);
+cad::CadModel model_of(const Json& source, Json& notes);
 
 }  // namespace palmar::cad_worker

@@ -26,9 +26,9 @@
 #include <string_view>
 
 #include "../worker/worker_main.h"
+#include "hands/images/dicom_slice.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "hands/images/dicom_slice.h"
 #include "palmar/formats/process/worker.h"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -51,7 +51,7 @@ std::string unpacked(const Json& frame, gdcm::TransferSyntax syntax, std::string
   const auto rows = frame.at("rows").get<unsigned int>();
   const auto bits = frame.at("bits_allocated").get<std::uint16_t>();
   const auto stored = frame.at("bits_stored").get<std::uint16_t>();
-  palmar::check_image_size(name, columns, rows, 1.0);
+  palmar::images::check_image_size(name, columns, rows, 1.0);
 
   gdcm::Image image;
   image.SetTransferSyntax(syntax);
@@ -92,7 +92,7 @@ Json unpack(const Json& request, const fs::path& folder, const Progress& progres
   const auto syntax =
       gdcm::TransferSyntax::GetTSType(request.at("transfer_syntax").get<std::string>().c_str());
   if (syntax == gdcm::TransferSyntax::TS_END) throw InputError("the transfer syntax isn't known");
-  const std::string packed = palmar::read_file(folder / "packed.bin");
+  const std::string packed = palmar::formats::read_file(folder / "packed.bin");
   std::string_view rest = packed;
   std::string pixels;
   const Json& frames = request.at("frames");
@@ -104,8 +104,8 @@ Json unpack(const Json& request, const fs::path& folder, const Progress& progres
     pixels += unpacked(frames[f], gdcm::TransferSyntax(syntax), rest.substr(0, bytes));
     rest.remove_prefix(bytes);
   }
-  palmar::write_file(folder / "pixels.bin", pixels);
-  return Json::object();
+  palmar::formats::write_file(folder / "pixels.bin", pixels);
+  return palmar::worker::Json::object();
 }
 
 }  // namespace

@@ -35,14 +35,14 @@ namespace fs = std::filesystem;
 using palmar::Progress;
 using palmar::worker::Json;
 
-palmar::BoardPattern pattern_of(const Json& request) {
+palmar::capture::BoardPattern pattern_of(const Json& request) {
   const Json& pattern = request.at("pattern");
   return {.squares = pattern.at("squares").get<int>(),
           .square = pattern.at("square_mm").get<double>(),
           .marker = pattern.at("marker_mm").get<double>()};
 }
 
-std::vector<std::uint8_t> grey_of(const palmar::RgbImage& image) {
+std::vector<std::uint8_t> grey_of(const palmar::geometry::RgbImage& image) {
   std::vector<std::uint8_t> grey(image.rgb.size() / 3);
   for (std::size_t p = 0; p < grey.size(); ++p) {
     // Rec. 601 luma, in 256ths.
@@ -74,23 +74,27 @@ double sharpness_of(const std::vector<std::uint8_t>& grey, int width) {
 }
 
 Json board(const Json& request, const fs::path& folder, const Progress&) {
-  const palmar::BoardPicture picture =
-      palmar::CharucoFinder(pattern_of(request)).draw(request.at("pixels_per_square").get<int>());
-  palmar::write_file(folder / "board.bin", std::string(picture.grey.begin(), picture.grey.end()));
+  const palmar::capture::BoardPicture picture =
+      palmar::board::CharucoFinder(pattern_of(request))
+          .draw(request.at("pixels_per_square").get<int>());
+  palmar::formats::write_file(folder / "board.bin",
+                              std::string(picture.grey.begin(), picture.grey.end()));
   return {{"pixels", picture.pixels}};
 }
 
 Json corners(const Json& request, const fs::path&, const Progress& progress) {
-  const palmar::CharucoFinder finder(pattern_of(request));
+  const palmar::board::CharucoFinder finder(pattern_of(request));
   const auto files = request.at("files").get<std::vector<std::string>>();
   std::vector<Json> found(files.size());
   std::atomic<int> done{0};
   palmar::parallel_for(static_cast<int>(files.size()), [&](int i) {
     const std::string& file = files[static_cast<std::size_t>(i)];
-    const palmar::RgbImage image = palmar::read_texture(palmar::read_file(file), file);
+    const palmar::geometry::RgbImage image =
+        palmar::formats::read_texture(palmar::formats::read_file(file), file);
     const std::vector<std::uint8_t> grey = grey_of(image);
-    Json list = Json::array();
-    for (const palmar::BoardCorner& corner : finder.find(grey, image.width, image.height)) {
+    Json list = palmar::worker::Json::array();
+    for (const palmar::capture::BoardCorner& corner :
+         finder.find(grey, image.width, image.height)) {
       list.push_back(
           {corner.id, corner.pixel.x(), corner.pixel.y(), corner.world.x(), corner.world.y()});
     }
@@ -104,11 +108,11 @@ Json corners(const Json& request, const fs::path&, const Progress& progress) {
 }
 
 Json match(const Json& request, const fs::path& folder, const Progress& progress) {
-  const std::string bytes = palmar::read_file(folder / "pictures.bin");
-  std::vector<palmar::MaskedPicture> pictures;
+  const std::string bytes = palmar::formats::read_file(folder / "pictures.bin");
+  std::vector<palmar::board::MaskedPicture> pictures;
   std::size_t at = 0;
   for (const Json& one : request.at("pictures")) {
-    palmar::MaskedPicture picture;
+    palmar::board::MaskedPicture picture;
     picture.width = one.at("width").get<int>();
     picture.height = one.at("height").get<int>();
     const auto size =
@@ -122,9 +126,9 @@ Json match(const Json& request, const fs::path& folder, const Progress& progress
     pictures.push_back(std::move(picture));
   }
   const auto pairs = request.at("pairs").get<std::vector<std::array<int, 2>>>();
-  const palmar::PictureMatches matches =
-      palmar::match_pictures(pictures, pairs, request.value("ratio", 0.85), 3000, progress);
-  Json lists = Json::array();
+  const palmar::board::PictureMatches matches =
+      palmar::board::match_pictures(pictures, pairs, request.value("ratio", 0.85), 3000, progress);
+  Json lists = palmar::worker::Json::array();
   for (const auto& pair : matches.pairs) lists.push_back(pair.match);
   return {{"points", matches.point}, {"pairs", std::move(lists)}};
 }
@@ -139,9 +143,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   const palmar::worker::Verb& verb = verbs.at(argv[1]);
-  return palmar::worker::answer(
-      argv[2], [&](const Json& request, const fs::path& folder, const Progress& progress) {
-        palmar::set_thread_count(request.value("threads", 0));
-        return verb(request, folder, progress);
-      });
+  return palmar::worker::answer(argv[2],
+                                [&](const palmar::worker::Json& request, const fs::path& folder,
+                                    const palmar::Progress& progress) {
+                                  palmar::set_thread_count(request.value("threads", 0));
+                                  return verb(request, folder, progress);
+                                });
 }

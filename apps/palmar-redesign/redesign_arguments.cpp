@@ -14,20 +14,21 @@ namespace palmar::cli {
 namespace {
 
 /// Comparison and gains, as JSON.
-void add_judgement(const RedesignOutcome& outcome, const StudyAnswerOptions& options,
-                   nlohmann::ordered_json& object) {
-  if (outcome.gains) object["gains"] = nlohmann::ordered_json::parse(gains_json(*outcome.gains));
-  const std::optional<RedesignComparison>& comparison = outcome.comparison;
+void add_judgement(const workflow::RedesignOutcome& outcome,
+                   const report::StudyAnswerOptions& options, nlohmann::ordered_json& object) {
+  if (outcome.gains)
+    object["gains"] = nlohmann::ordered_json::parse(workflow::gains_json(*outcome.gains));
+  const std::optional<workflow::RedesignComparison>& comparison = outcome.comparison;
   if (!comparison) return;
-  object["comparison"] =
-      comparison_object(compare_results(comparison->results, comparison->quantities, options), {});
+  object["comparison"] = comparison_object(
+      workflow::compare_results(comparison->results, comparison->quantities, options), {});
   object["comparison"]["in_other_hands"] = comparison->is_in_other_hands;
-  for (const HoldChange& change : comparison->changes) {
+  for (const workflow::HoldChange& change : comparison->changes) {
     object["comparison"]["hold_changes"].push_back(
         {{"redesign", change.redesign},
          {"hands", change.hands},
-         {"turn_deg", change.turn * kDegreesPerRadian},
-         {"largest_turn_deg", change.largest_turn * kDegreesPerRadian},
+         {"turn_deg", change.turn * geometry::kDegreesPerRadian},
+         {"largest_turn_deg", change.largest_turn * geometry::kDegreesPerRadian},
          {"shift_mm", change.shift},
          {"largest_shift_mm", change.largest_shift},
          {"is_other_hold", change.is_other_hold()}});
@@ -35,14 +36,15 @@ void add_judgement(const RedesignOutcome& outcome, const StudyAnswerOptions& opt
 }
 
 /// The same as text.
-void print_judgement(const RedesignOutcome& outcome, const StudyAnswerOptions& options,
-                     const Context& context) {
-  const std::optional<RedesignComparison>& comparison = outcome.comparison;
+void print_judgement(const workflow::RedesignOutcome& outcome,
+                     const report::StudyAnswerOptions& options, const Context& context) {
+  const std::optional<workflow::RedesignComparison>& comparison = outcome.comparison;
   if (!comparison) return;
-  print(comparison_text(compare_results(comparison->results, comparison->quantities, options)));
+  print(comparison_text(
+      workflow::compare_results(comparison->results, comparison->quantities, options)));
   note(context.common,
        "report: " + comparison->report.string() + "; study: " + comparison->study.string());
-  if (outcome.gains) print(gains_text(*outcome.gains));
+  if (outcome.gains) print(workflow::gains_text(*outcome.gains));
 }
 
 }  // namespace
@@ -83,14 +85,14 @@ void RedesignArguments::add_to(CLI::App& verb) {
       ->capture_default_str();
 }
 
-RedesignRequest RedesignArguments::read(const Context& context) const {
-  RedesignRequest result = request;
-  result.posture = redesign_posture(posture);
+workflow::RedesignRequest RedesignArguments::read(const Context& context) const {
+  workflow::RedesignRequest result = request;
+  result.posture = workflow::redesign_posture(posture);
   result.unit = parse_unit(unit);
   result.language = language_named(language);
-  for (const std::string& name : grips) result.grips.push_back(asked_grip_named(name));
-  if (!at.empty()) result.at = parse_vector("--at", at);
-  if (!axis.empty()) result.axis = parse_vector("--axis", axis);
+  for (const std::string& name : grips) result.grips.push_back(records::asked_grip_named(name));
+  if (!at.empty()) result.at = workflow::parse_vector("--at", at);
+  if (!axis.empty()) result.axis = workflow::parse_vector("--axis", axis);
   result.holding = holds.request();
   result.out = out;
   result.seed = context.common.seed;
@@ -109,7 +111,7 @@ void add_kept_boxes(CLI::App& verb, std::vector<std::string>& texts) {
 std::vector<Box3> kept_boxes(const std::vector<std::string>& texts) {
   std::vector<Box3> boxes;
   for (const std::string& text : texts) {
-    const std::vector<double> v = parse_list("--keep-box", text);
+    const std::vector<double> v = workflow::parse_list("--keep-box", text);
     if (v.size() != 6) {
       throw UsageError("--keep-box is \"" + text +
                        "\"; two corners X0,Y0,Z0,X1,Y1,Z1 in mm are required");
@@ -120,10 +122,10 @@ std::vector<Box3> kept_boxes(const std::vector<std::string>& texts) {
   return boxes;
 }
 
-void print_redesign(const RedesignOutcome& outcome, const Context& context,
+void print_redesign(const workflow::RedesignOutcome& outcome, const Context& context,
                     const std::vector<NamedOutcome>& others) {
   finish_progress();
-  StudyAnswerOptions options;
+  report::StudyAnswerOptions options;
   options.command = context.command_line;
   if (outcome.comparison) options.language = outcome.comparison->language;
   if (context.common.json) {

@@ -21,16 +21,16 @@ void add_redesign_shape_command(CLI::App& noun, Context& context);     ///< shap
 
 /// What every redesign starts from, as typed.
 struct RedesignArguments {
-  RedesignRequest request;  ///< with what needs no reading
+  workflow::RedesignRequest request;  ///< with what needs no reading
   std::string unit, at, axis, out;
   std::vector<std::string> grips;
   HoldArguments holds;
   std::string language = "en";
-  std::string posture = name_of(RedesignRequest{}.posture);
+  std::string posture = name_of(workflow::RedesignRequest{}.posture);
 
   void add_to(CLI::App& verb);
   /// Read; notes go to stderr. Throws UsageError.
-  RedesignRequest read(const Context& context) const;
+  workflow::RedesignRequest read(const Context& context) const;
 };
 
 /// --keep-box, which may be repeated.
@@ -42,12 +42,12 @@ std::vector<Box3> kept_boxes(const std::vector<std::string>& texts);
 struct NamedOutcome {
   std::string name;
   double weight = 0.0;  ///< share
-  const RedesignOutcome& outcome;
+  const workflow::RedesignOutcome& outcome;
 };
 
 /// What a redesign prints in the end: comparison and gains in words and where they were written, or
 /// with --json the one object, with both in it; those of `others`, too.
-void print_redesign(const RedesignOutcome& outcome, const Context& context,
+void print_redesign(const workflow::RedesignOutcome& outcome, const Context& context,
                     const std::vector<NamedOutcome>& others = {});
 
 }  // namespace palmar::cli

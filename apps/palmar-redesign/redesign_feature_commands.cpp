@@ -12,24 +12,25 @@ namespace {
 
 struct FeatureArguments {
   RedesignArguments redesign;
-  RedesignFeatureRequest request;
-  std::string optimiser = name_of(SearchOptions{}.method);
+  workflow::RedesignFeatureRequest request;
+  std::string optimiser = name_of(redesign::SearchOptions{}.method);
   std::string edges = "long", radius = "1:15";  // of the verb fillet
   bool no_compare = false;
 };
 
 int run_features(const FeatureArguments& a, const Context& context) {
-  RedesignFeatureRequest request = a.request;
-  request.search.method = search_method(a.optimiser);
+  workflow::RedesignFeatureRequest request = a.request;
+  request.search.method = redesign::search_method(a.optimiser);
   request.redesign = a.redesign.read(context);
   request.compares = !a.no_compare;
-  request.on_search = [&context](const RedesignFeatureOutcome& outcome) {
+  request.on_search = [&context](const workflow::RedesignFeatureOutcome& outcome) {
     finish_progress();
     if (context.common.json) return;
     print(outcome.story ? search_text(*outcome.story)
                         : proposals_text(outcome.proposals, outcome.goal));
   };
-  const RedesignFeatureOutcome outcome = redesign_features(request, make_progress(context.common));
+  const workflow::RedesignFeatureOutcome outcome =
+      workflow::redesign_features(request, make_progress(context.common));
   print_redesign(outcome, context);
   return 0;
 }

@@ -10,8 +10,8 @@ namespace {
 
 struct PressArguments {
   RedesignArguments redesign;
-  RedesignPressRequest request;
-  std::string over = name_of(CombineOptions{});
+  workflow::RedesignPressRequest request;
+  std::string over = workflow::name_of(redesign::CombineOptions{});
   std::string align = "none";
   std::vector<std::string> keep_boxes;
   bool no_pictures = false;
@@ -19,18 +19,19 @@ struct PressArguments {
 };
 
 int run_press(const PressArguments& a, const Context& context) {
-  RedesignPressRequest request = a.request;
-  request.shape.combine = combine_options(a.over);
+  workflow::RedesignPressRequest request = a.request;
+  request.shape.combine = workflow::combine_options(a.over);
   request.shape.keep_out.boxes = kept_boxes(a.keep_boxes);
   request.redesign = a.redesign.read(context);
   request.aligns = a.align == "axis";
   request.draws = !a.no_pictures;
   request.compares = !a.no_compare;
-  request.on_shape = [&context](const RedesignPressOutcome& outcome) {
+  request.on_shape = [&context](const workflow::RedesignPressOutcome& outcome) {
     finish_progress();
     if (!context.common.json) print(press_text(outcome));
   };
-  const RedesignPressOutcome outcome = redesign_press(request, make_progress(context.common));
+  const workflow::RedesignPressOutcome outcome =
+      workflow::redesign_press(request, make_progress(context.common));
   print_redesign(outcome, context);
   return 0;
 }
@@ -45,7 +46,7 @@ void add_redesign_press_command(CLI::App& noun, Context& context) {
                "palmar redesign press handle.step --hands 30 --overlap-share 0.5 --keep-face 4 "
                "--out pressed");
   a->redesign.add_to(*verb);
-  PressedShapeOptions& o = a->request.shape;
+  redesign::PressedShapeOptions& o = a->request.shape;
   verb->add_option("--overlap-share", o.share,
                    "Share of the overlap of undeformed skin and product that is removed, 0 to 1")
       ->capture_default_str();

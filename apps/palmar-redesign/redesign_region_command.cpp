@@ -17,12 +17,12 @@ std::string words_of_share(double share) {
 
 struct RegionArguments {
   RedesignArguments redesign;
-  RedesignRegionRequest request;
-  std::string share = words_of_share(RedesignRegionRequest{}.region.share);
-  std::string relief_share = words_of_share(RedesignRegionRequest{}.relief_share);
+  workflow::RedesignRegionRequest request;
+  std::string share = words_of_share(workflow::RedesignRegionRequest{}.region.share);
+  std::string relief_share = words_of_share(workflow::RedesignRegionRequest{}.relief_share);
   bool no_relief = false;
   bool no_pictures = false;
-  double threshold_kpa = 1000.0 * RedesignRegionRequest{}.threshold;
+  double threshold_kpa = 1000.0 * workflow::RedesignRegionRequest{}.threshold;
   bool no_compare = false;
 };
 
@@ -30,7 +30,7 @@ struct RegionArguments {
 double share_from(const std::string& option, const std::string& text) {
   if (text == "any") return 0.0;
   if (text == "half") return 0.5;
-  const std::vector<double> numbers = parse_list(option, text);
+  const std::vector<double> numbers = workflow::parse_list(option, text);
   if (numbers.size() == 1 && numbers.front() >= 0.0 && numbers.front() <= 1.0) {
     return numbers.front();
   }
@@ -38,7 +38,7 @@ double share_from(const std::string& option, const std::string& text) {
 }
 
 int run_region(const RegionArguments& a, const Context& context) {
-  RedesignRegionRequest request = a.request;
+  workflow::RedesignRegionRequest request = a.request;
   request.threshold = a.threshold_kpa / 1000.0;
   request.region.share = share_from("--hands-share", a.share);
   request.relief_share = share_from("--relief-share", a.relief_share);
@@ -46,11 +46,12 @@ int run_region(const RegionArguments& a, const Context& context) {
   request.relieves = !a.no_relief;
   request.draws = !a.no_pictures;
   request.compares = !a.no_compare;
-  request.on_region = [&context](const RedesignRegionOutcome& outcome) {
+  request.on_region = [&context](const workflow::RedesignRegionOutcome& outcome) {
     finish_progress();
     if (!context.common.json) print(region_text(outcome));
   };
-  const RedesignRegionOutcome outcome = redesign_region(request, make_progress(context.common));
+  const workflow::RedesignRegionOutcome outcome =
+      workflow::redesign_region(request, make_progress(context.common));
   print_redesign(outcome, context);
   return 0;
 }

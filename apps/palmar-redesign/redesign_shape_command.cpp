@@ -13,33 +13,34 @@ namespace {
 
 struct ShapeArguments {
   RedesignArguments redesign;
-  RedesignShapeRequest request;
+  workflow::RedesignShapeRequest request;
   std::string features;
   std::vector<std::string> keep_boxes;
   std::string pull;
   double draft_deg = 2.0;
-  double spread_deg = HoldSpread{}.turn / kDegree;
+  double spread_deg = workflow::HoldSpread{}.turn / geometry::kDegree;
   bool no_pictures = false;
   bool no_compare = false;
 };
 
 int run_shape(const ShapeArguments& a, const Context& context) {
-  RedesignShapeRequest request = a.request;
+  workflow::RedesignShapeRequest request = a.request;
   request.redesign = a.redesign.read(context);
   request.features = a.features;
   request.limits.kept_boxes = kept_boxes(a.keep_boxes);
-  request.spread.turn = a.spread_deg * kDegree;
-  if (!a.pull.empty()) request.limits.pull = parse_vector("--pull", a.pull);
-  request.limits.draft = a.draft_deg * kDegree;
+  request.spread.turn = a.spread_deg * geometry::kDegree;
+  if (!a.pull.empty()) request.limits.pull = workflow::parse_vector("--pull", a.pull);
+  request.limits.draft = a.draft_deg * geometry::kDegree;
   request.draws = !a.no_pictures;
   request.compares = !a.no_compare;
-  request.on_shape = [&context](const RedesignShapeOutcome& outcome) {
+  request.on_shape = [&context](const workflow::RedesignShapeOutcome& outcome) {
     finish_progress();
     if (!context.common.json) print(search_text(outcome.story) + shape_text(outcome));
   };
-  const RedesignShapeOutcome outcome = redesign_shape(request, make_progress(context.common));
+  const workflow::RedesignShapeOutcome outcome =
+      workflow::redesign_shape(request, make_progress(context.common));
   std::vector<NamedOutcome> others;
-  for (const JudgedUse& one : outcome.other_uses) {
+  for (const workflow::JudgedUse& one : outcome.other_uses) {
     others.push_back({one.name, one.weight, one.outcome});
   }
   print_redesign(outcome, context, others);
@@ -55,7 +56,7 @@ void add_redesign_shape_command(CLI::App& noun, Context& context) {
       "Shape the handle anew by few named features, for hands that lie a little differently",
       "palmar redesign shape handle.step --hands 30 --grip-force-n 60 --goal peak --out shaped");
   a->redesign.add_to(*verb);
-  RedesignShapeRequest& r = a->request;
+  workflow::RedesignShapeRequest& r = a->request;
   verb->add_option("--vary", r.vary,
                    "Feature that may vary, its range (width=28:40) or its value (width=34): width, "
                    "depth, squareness, taper, swell, waist, egg, palm_swell, finger_swell, "

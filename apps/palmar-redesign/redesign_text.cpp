@@ -17,8 +17,8 @@ std::string named(const std::string& name, const std::string& unit) {
 
 }  // namespace
 
-std::string press_text(const RedesignPressOutcome& outcome) {
-  const PressedShape& shape = outcome.shape;
+std::string press_text(const workflow::RedesignPressOutcome& outcome) {
+  const redesign::PressedShape& shape = outcome.shape;
   std::string text = fmt::format(
       "{}: pressed over {} hand{}: deepest {:.2f} mm at ({:.1f}, {:.1f}, {:.1f}), {:.0f} mm2 "
       "pressed, {:.0f} mm3 removed ({:.2f} %)\n",
@@ -30,7 +30,7 @@ std::string press_text(const RedesignPressOutcome& outcome) {
     text += fmt::format("thinnest wall under it {:.1f} mm\n", shape.thinnest_wall);
   }
   if (outcome.solid) {
-    const PressedSolid& solid = *outcome.solid;
+    const workflow::PressedSolid& solid = *outcome.solid;
     text += fmt::format(
         "{}: a valid solid, its handle one surface of {} poles, {:.2f} mm from the mesh (root mean "
         "square; at most {:.2f} mm{})\n",
@@ -54,33 +54,33 @@ std::string press_text(const RedesignPressOutcome& outcome) {
   return text;
 }
 
-std::string region_text(const RedesignRegionOutcome& outcome) {
-  const RegionFindings& findings = outcome.findings;
-  const Product& product = *outcome.product;
+std::string region_text(const workflow::RedesignRegionOutcome& outcome) {
+  const workflow::RegionFindings& findings = outcome.findings;
+  const product::Product& product = *outcome.product;
   std::string text;
-  for (const ContactRegion& region : findings.regions) {
+  for (const redesign::ContactRegion& region : findings.regions) {
     text +=
         fmt::format("{}{}: {:.0f} mm2 in {} patch{}\n", region.part ? "" : "hand, ", region.title,
                     region.area, region.patches.size(), region.patches.size() == 1 ? "" : "es");
     if (region.part || product.faces == nullptr || findings.map.face_of_triangle.empty()) continue;
     int shown = 0;
-    for (const FaceShare& share :
-         face_shares(findings.map.mesh, findings.map.face_of_triangle,
-                     static_cast<int>(product.faces->face.size()), findings.count, region)) {
+    for (const redesign::FaceShare& share : redesign::face_shares(
+             findings.map.mesh, findings.map.face_of_triangle,
+             static_cast<int>(product.faces->face.size()), findings.count, region)) {
       if (++shown > 12) break;
       text += fmt::format("  {}: {:.0f} % of its area, {:.0f} mm2\n",
                           title_of(product.faces->face[static_cast<std::size_t>(share.face)]),
                           100.0 * share.share, share.area);
     }
   }
-  for (const FittedPatch& one : findings.patches) {
+  for (const workflow::FittedPatch& one : findings.patches) {
     text +=
         fmt::format("{}: {} (rms {:.2f} mm); pressed {} (rms {:.2f} mm)\n", name_of(findings, one),
                     title_of(one.product.best().surface), one.product.best().rms,
                     title_of(one.target.best().surface), one.target.best().rms);
   }
   if (findings.plan) {
-    for (const RidgeRelief& one : findings.plan->reliefs) {
+    for (const redesign::RidgeRelief& one : findings.plan->reliefs) {
       text += fmt::format(
           "{}: ridge of r {:.1f} mm becomes r {:.1f} mm over {:.0f} mm, {:.2f} mm deep\n", one.name,
           one.radius_before, one.radius, (one.end - one.start).norm(), one.depth);
@@ -89,10 +89,10 @@ std::string region_text(const RedesignRegionOutcome& outcome) {
   return text;
 }
 
-std::string shape_text(const RedesignShapeOutcome& outcome) {
+std::string shape_text(const workflow::RedesignShapeOutcome& outcome) {
   std::string text = outcome.file.string() + ":";
-  const HandleFeatures nothing{.width = 0.0, .depth = 0.0};
-  for (const HandleFeature& one : handle_features()) {
+  const redesign::HandleFeatures nothing{.width = 0.0, .depth = 0.0};
+  for (const redesign::HandleFeature& one : redesign::handle_features()) {
     const double value = outcome.shape.features.*one.value;
     if (value == nothing.*one.value) continue;
     text += fmt::format(" {} {:.3g}{}{},", one.name, one.scale * value, one.unit.empty() ? "" : " ",
@@ -111,23 +111,24 @@ std::string shape_text(const RedesignShapeOutcome& outcome) {
   return text;
 }
 
-std::string search_text(const SearchStory& story) {
-  const SearchResult& result = story.result;
+std::string search_text(const workflow::SearchStory& story) {
+  const redesign::SearchResult& result = story.result;
   const std::string unit = story.goal.unit.empty() ? "" : " " + story.goal.unit;
   int failed = 0;
-  for (const SearchTrial& trial : result.history) failed += trial.outcome.failure.empty() ? 0 : 1;
+  for (const redesign::SearchTrial& trial : result.history)
+    failed += trial.outcome.failure.empty() ? 0 : 1;
   std::string text = fmt::format("{}: {} candidates, {}, {}\n", story.goal.name,
                                  result.history.size(), result.method, result.ending);
   text += "  candidate";
-  for (const SearchVariable& variable : story.problem.variables) {
+  for (const redesign::SearchVariable& variable : story.problem.variables) {
     text += "  " + named(variable.name, variable.unit);
   }
   text += fmt::format("  goal{}  within constraints\n", unit.empty() ? "" : "," + unit);
   for (size_t i = 0; i < result.history.size(); ++i) {
-    const SearchTrial& trial = result.history[i];
+    const redesign::SearchTrial& trial = result.history[i];
     text += fmt::format("  {:<9}", i + 1);
     for (size_t k = 0; k < trial.values.size(); ++k) {
-      const SearchVariable& variable = story.problem.variables[k];
+      const redesign::SearchVariable& variable = story.problem.variables[k];
       text +=
           fmt::format("  {:<{}.4g}", trial.values[k], named(variable.name, variable.unit).size());
     }
@@ -137,8 +138,8 @@ std::string search_text(const SearchStory& story) {
     }
     text += fmt::format("  {:.4f}  {}", trial.outcome.goal, trial.is_feasible ? "yes" : "no:");
     for (size_t k = 0; k < story.problem.constraints.size() && !trial.is_feasible; ++k) {
-      const SearchConstraint& constraint = story.problem.constraints[k];
-      if (excess(constraint, trial.outcome.constraint[k]) <= 0.0) continue;
+      const redesign::SearchConstraint& constraint = story.problem.constraints[k];
+      if (redesign::excess(constraint, trial.outcome.constraint[k]) <= 0.0) continue;
       text += fmt::format(" {} {:.4g} {}", constraint.name, trial.outcome.constraint[k],
                           constraint.unit);
     }
@@ -150,7 +151,7 @@ std::string search_text(const SearchStory& story) {
   if (failed > 0) text += fmt::format("{} candidates can't be made or held\n", failed);
   if (!result.best) return text + "no candidate is within the constraints\n";
   const auto best = static_cast<size_t>(*result.best);
-  const SearchTrial& trial = result.history[best];
+  const redesign::SearchTrial& trial = result.history[best];
   text += fmt::format("best: {}{:.4f}{}",
                       story.settings.empty() ? "" : words_of(story.settings, trial.values) + ": ",
                       trial.outcome.goal, unit);
@@ -161,12 +162,12 @@ std::string search_text(const SearchStory& story) {
   }
   text += "\n";
   for (size_t k = 0; k < story.problem.constraints.size(); ++k) {
-    const SearchConstraint& constraint = story.problem.constraints[k];
+    const redesign::SearchConstraint& constraint = story.problem.constraints[k];
     text += fmt::format("  {}: {:.4g} {} ({} {:.4g})\n", constraint.name,
                         trial.outcome.constraint[k], constraint.unit,
                         constraint.is_highest ? "at most" : "at least", constraint.limit);
   }
-  const SearchStory::Beside& beside = story.beside[best];
+  const workflow::SearchStory::Beside& beside = story.beside[best];
   text += fmt::format(
       "  grip force {:.0f} % and volume {:.1f} % of the original's, {} of {} hands "
       "lose hold\n",
@@ -174,12 +175,13 @@ std::string search_text(const SearchStory& story) {
   return text;
 }
 
-std::string proposals_text(const std::vector<TriedProposal>& tried, const FeatureGoal& goal) {
+std::string proposals_text(const std::vector<workflow::TriedProposal>& tried,
+                           const redesign::FeatureGoal& goal) {
   if (tried.empty()) return "no face is touched by a tenth of hands or more\n";
   std::string text = goal.name + ", each change tried once, best per millimetre first:\n";
   bool says_leave = false;
-  for (const TriedProposal& one : tried) {
-    if (one.verdict != ProposalVerdict::kChange && !says_leave) {
+  for (const workflow::TriedProposal& one : tried) {
+    if (one.verdict != workflow::ProposalVerdict::kChange && !says_leave) {
       says_leave = true;
       text += &one == &tried.front() ? "no change shows a gain in these hands; nothing should "
                                        "change for it:\n"
@@ -192,7 +194,8 @@ std::string proposals_text(const std::vector<TriedProposal>& tried, const Featur
     text += fmt::format(
         "  {:<28} {:+6.1f} % (SE {:.1f}) for {:.2f} mm, {:+.1f} % per mm{}; {}\n", one.words,
         100 * one.gain, 100 * one.gain_error, one.largest_change, 100 * one.gain_per_mm(),
-        one.verdict == ProposalVerdict::kNotAllowed ? ", beyond the constraints" : "", one.reason);
+        one.verdict == workflow::ProposalVerdict::kNotAllowed ? ", beyond the constraints" : "",
+        one.reason);
   }
   return text +
          "+ is better; --vary takes these words; give a range instead of the value to search it\n";

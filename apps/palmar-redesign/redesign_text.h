@@ -13,10 +13,11 @@
 namespace palmar::cli {
 
 // What redesigns found, in a few lines for people.
-std::string press_text(const RedesignPressOutcome& outcome);
-std::string region_text(const RedesignRegionOutcome& outcome);
-std::string shape_text(const RedesignShapeOutcome& outcome);
-std::string search_text(const SearchStory& story);
-std::string proposals_text(const std::vector<TriedProposal>& tried, const FeatureGoal& goal);
+std::string press_text(const workflow::RedesignPressOutcome& outcome);
+std::string region_text(const workflow::RedesignRegionOutcome& outcome);
+std::string shape_text(const workflow::RedesignShapeOutcome& outcome);
+std::string search_text(const workflow::SearchStory& story);
+std::string proposals_text(const std::vector<workflow::TriedProposal>& tried,
+                           const redesign::FeatureGoal& goal);
 
 }  // namespace palmar::cli

@@ -11,13 +11,13 @@ namespace palmar::cli {
 namespace {
 
 struct ValidateArguments {
-  ValidateRequest request;
+  workflow::ValidateRequest request;
   bool is_markdown = false, is_list = false;
 };
 
 std::string list_text() {
   std::string text;
-  for (const ValidationCaseName& name : validation_cases()) {
+  for (const validation::ValidationCaseName& name : validation::validation_cases()) {
     text += name.id + std::string(11 - std::min<std::size_t>(10, name.id.size()), ' ') +
             name.title + (name.is_slow ? " (not with --quick)" : "") + "\n";
   }
@@ -32,17 +32,19 @@ int run_validate(const ValidateArguments& arguments, const CommonOptions& common
   if (common.json && arguments.is_markdown) {
     throw UsageError("--json and --markdown exclude each other");
   }
-  ValidateRequest request = arguments.request;
+  workflow::ValidateRequest request = arguments.request;
   request.note = [&common](const std::string& text) { note(common, text); };
   request.check();
-  const ValidationReport report = run_validation(request, make_progress(common));
+  const validation::ValidationReport report =
+      workflow::run_validation(request, make_progress(common));
   finish_progress();
   if (common.json) {
-    print(validation_json(report) + "\n");
+    print(records::validation_json(report) + "\n");
   } else {
-    print(arguments.is_markdown ? validation_markdown(report) : validation_text(report));
+    print(arguments.is_markdown ? validation::validation_markdown(report)
+                                : validation::validation_text(report));
   }
-  const int missed = report.count(Verdict::kMissed);
+  const int missed = report.count(validation::Verdict::kMissed);
   if (missed == 0) return 0;
   throw CheckFailed(std::to_string(missed) + (missed == 1 ? " row is" : " rows are") +
                     " missed; docs/method/limits.md says what that means");

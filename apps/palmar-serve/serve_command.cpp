@@ -21,7 +21,7 @@ namespace {
 struct ServeArguments {
   std::vector<std::string> files;
   std::string unit;
-  std::string listen = HttpServerOptions{}.address;
+  std::string listen = server::HttpServerOptions{}.address;
   int port = 0;
   bool no_browser = false;
 };
@@ -38,7 +38,7 @@ bool has_desktop() {
 /// Small meshes are read at once, so that what is wrong with them is said here and not in the page.
 bool is_read_fast(const std::filesystem::path& file) {
   constexpr std::uintmax_t kSmall = std::uintmax_t{1} << 19U;  // bytes; some 0.1 s
-  return std::filesystem::file_size(file) <= kSmall && !is_cad_file(file);
+  return std::filesystem::file_size(file) <= kSmall && !records::is_cad_file(file);
 }
 
 int run_serve(const ServeArguments& arguments, const Context& context) {
@@ -56,32 +56,33 @@ int run_serve(const ServeArguments& arguments, const Context& context) {
       throw InputError(file + ": there is no such file");
     }
   }
-  const auto data = user_data_folder();
+  const auto data = server::user_data_folder();
   const auto in_data = [&](const char* name) -> std::optional<std::filesystem::path> {
     return data ? std::optional(*data / name) : std::nullopt;
   };
   // Children say where they stand in lines (make_progress()).
   ::setenv("PALMAR_PROGRESS", "lines", 1);
-  const KeptData kept{std::make_shared<ProjectDrawer>(in_data("projects")),
-                      std::make_shared<JobShelf>(in_data("jobs"), program_folder() / "palmar")};
-  const auto shelf = std::make_shared<ProductShelf>();
-  const auto service = std::make_shared<Service>(random_token(), shelf, kept);
+  const server::KeptData kept{
+      std::make_shared<server::ProjectDrawer>(in_data("projects")),
+      std::make_shared<server::JobShelf>(in_data("jobs"), program_folder() / "palmar")};
+  const auto shelf = std::make_shared<server::ProductShelf>();
+  const auto service = std::make_shared<server::Service>(server::random_token(), shelf, kept);
   for (const std::string& file : arguments.files) {
     const std::string key = service->give(file, parse_unit(arguments.unit));
-    read_ends(file, 1);  // whether it can be read at all
+    formats::read_ends(file, 1);  // whether it can be read at all
     if (is_read_fast(file)) shelf->open(key);
   }
-  HttpServerOptions options;
+  server::HttpServerOptions options;
   options.address = arguments.listen;
   options.port = static_cast<unsigned short>(arguments.port);
   options.stops_on_signals = true;
-  HttpServer server(service, options);
+  server::HttpServer server(service, options);
   if (!is_loopback(arguments.listen)) {
     note(context.common, "warning: --listen " + arguments.listen +
                              " lets other machines in; whoever has the URL can use this server, "
                              "and what is sent can be read on the way (no encryption)");
   }
-  const ServedAt at = server.place();
+  const server::ServedAt at = server.place();
   const bool is_any = at.address == "0.0.0.0" || at.address == "::";
   const std::string host = is_any                                    ? "127.0.0.1"
                            : at.address.find(':') != at.address.npos ? "[" + at.address + "]"
@@ -89,8 +90,8 @@ int run_serve(const ServeArguments& arguments, const Context& context) {
   const std::string url = fmt::format("http://{}:{}/?token={}", host, at.port, service->token());
   print(context.common.json ? fmt::format("{{\"url\": \"{}\"}}\n", url) : url + "\n");
   if (!arguments.no_browser && has_desktop()) {
-    const auto opener = find_program("xdg-open");
-    if (opener) start_detached(*opener, {url});
+    const auto opener = formats::find_program("xdg-open");
+    if (opener) formats::start_detached(*opener, {url});
   }
   note(context.common, "the workbench runs until Ctrl-C");
   server.run();

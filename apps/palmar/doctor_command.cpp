@@ -40,22 +40,22 @@ Finding examine(const std::string& what, const std::function<std::string()>& loo
 }
 
 std::string template_state() {
-  const auto hand = load_hand("template");
+  const auto hand = workflow::load_hand("template");
   return fmt::format("{} vertices, {} bones", hand->skin.vertex_count(), hand->bones.size());
 }
 
 std::string asset_state() {
-  const std::string path = share_folder() + "/generic-hand-right.glb";
-  return fmt::format("{} ({} bytes)", path, read_file(path).size());
+  const std::string path = workflow::share_folder() + "/generic-hand-right.glb";
+  return fmt::format("{} ({} bytes)", path, formats::read_file(path).size());
 }
 
 std::string compliance_state() {
-  const std::string path = template_compliance_file();
+  const std::string path = workflow::template_compliance_file();
   return fmt::format("{} ({:.0f} MB)", path, static_cast<double>(fs::file_size(path)) / 1e6);
 }
 
 std::string distance_state() {
-  const MeshDistance sphere(make_icosphere(30.0, 4));
+  const geometry::MeshDistance sphere(geometry::make_icosphere(30.0, 4));
   const double distance = sphere.at(Vec3(0, 0, 10)).distance;  // -20 mm but for the chords
   if (std::abs(distance + 20.0) > 0.1) {
     throw NumericalError(
@@ -67,13 +67,13 @@ std::string distance_state() {
 std::string temporary_state() {
   const fs::path folder = fs::temp_directory_path();
   const fs::path probe = folder / fmt::format("palmar-doctor-{}", getpid());
-  write_file(probe.string(), "probe");
+  formats::write_file(probe.string(), "probe");
   fs::remove(probe);
   return folder.string() + " is writable";
 }
 
 std::string slurm_state() {
-  const auto sbatch = find_program("sbatch");
+  const auto sbatch = formats::find_program("sbatch");
   return sbatch ? sbatch->string() + " (optional)"
                 : "not installed; only `palmar study submit` needs it (optional)";
 }
@@ -95,8 +95,8 @@ int run_doctor(const CommonOptions& common) {
       examine("nearest points", distance_state),
       examine("temporary folder", temporary_state),
       examine("memory", memory_state),
-      examine("CAD (palmar-cad)", [] { return "OpenCASCADE " + cad_kernel_version(); }),
-      examine("study stores", [] { return "SQLite " + sqlite_version(); }),
+      examine("CAD (palmar-cad)", [] { return "OpenCASCADE " + records::cad_kernel_version(); }),
+      examine("study stores", [] { return "SQLite " + records::sqlite_version(); }),
       examine("Slurm", slurm_state),
       examine("threads", [] {
         return fmt::format("{} of {} cores", thread_count(), std::thread::hardware_concurrency());

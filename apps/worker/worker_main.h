@@ -42,7 +42,8 @@ inline Progress line_progress() {
 
 /// Leaves error.json; returns the code.
 inline int fail(const std::filesystem::path& folder, const std::string& message, int code) {
-  write_file(folder / "error.json", Json{{"message", message}, {"exit_code", code}}.dump());
+  formats::write_file(folder / "error.json",
+                      Json{{"message", message}, {"exit_code", code}}.dump());
   return code;
 }
 
@@ -66,13 +67,13 @@ inline void end_with_parent(const std::filesystem::path& folder) {
 inline int answer(const std::filesystem::path& folder, const Verb& verb) {
   end_with_parent(folder);
   try {
-    const Json request = Json::parse(read_file(folder / "request.json"));
-    write_file(folder / "reply.json", verb(request, folder, line_progress()).dump());
+    const Json request = Json::parse(formats::read_file(folder / "request.json"));
+    formats::write_file(folder / "reply.json", verb(request, folder, line_progress()).dump());
     return 0;
   } catch (const Error& error) {
     return fail(folder, error.what(), error.exit_code());
   } catch (const std::bad_alloc&) {
-    ::_exit(kWorkerOutOfMemory);
+    ::_exit(formats::kWorkerOutOfMemory);
   } catch (const std::exception& error) {
     return fail(folder, error.what(), 1);
   }

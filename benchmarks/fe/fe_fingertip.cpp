@@ -39,7 +39,7 @@ namespace {
 using namespace palmar;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::array<Rgb, 3> kColours = {{{40, 40, 40}, {70, 110, 150}, {190, 90, 50}}};
+constexpr std::array<report::Rgb, 3> kColours = {{{40, 40, 40}, {70, 110, 150}, {190, 90, 50}}};
 
 struct Arguments {
   std::string asset, out = "fe_fingertip";
@@ -56,19 +56,19 @@ double seconds_since(Clock::time_point start) {
 }
 
 std::filesystem::path require_program(const std::string& name, const std::string& package) {
-  if (const auto found = find_program(name)) return *found;
-  throw ProgramMissing("fe_fingertip: the program " + name + " is not installed (Debian: apt-get " +
-                       "install " + package + ")");
+  if (const auto found = formats::find_program(name)) return *found;
+  throw formats::ProgramMissing("fe_fingertip: the program " + name +
+                                " is not installed (Debian: apt-get " + "install " + package + ")");
 }
 
-std::vector<CcxStep> solve(const std::filesystem::path& ccx, const std::filesystem::path& folder,
-                           const std::string& job) {
-  const int code = run_program(ccx, {"-i", job}, folder, job + ".log");
+std::vector<records::CcxStep> solve(const std::filesystem::path& ccx,
+                                    const std::filesystem::path& folder, const std::string& job) {
+  const int code = formats::run_program(ccx, {"-i", job}, folder, job + ".log");
   if (code != 0) {
     throw NumericalError(
         fmt::format("ccx ended with code {}; see {}", code, (folder / (job + ".log")).string()));
   }
-  return read_ccx((folder / job).string());
+  return records::read_ccx((folder / job).string());
 }
 
 /// Bonded incompressible layer under a sphere: force over Hertz' against the tabulated solution of
@@ -83,8 +83,8 @@ void against_closed_forms(const std::filesystem::path& ccx, const std::filesyste
   press.fine_edge = 0.3;
   press.fine_radius = 9.0;
   press.depths = {0.003125, 0.0125};
-  write_file(folder / "layer.inp", axisymmetric_deck(press));
-  const std::vector<CcxStep> steps = solve(ccx, folder, "layer");
+  formats::write_file(folder / "layer.inp", fe::axisymmetric_deck(press));
+  const std::vector<records::CcxStep> steps = solve(ccx, folder, "layer");
   std::cout << "bonded layer, sphere: force over Hertz\n";
   for (std::size_t k = 0; k < std::min<std::size_t>(2, steps.size()); ++k) {
     const double hertz =
@@ -109,10 +109,10 @@ struct Curve {
 };
 
 /// Solid above z = 0.
-class Plate : public DistanceField {
+class Plate : public geometry::DistanceField {
  public:
   void sample(std::span<const Vec3> points, double range,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3& q = points[i];
       samples[i] = {-q.z(), {q.x(), q.y(), 0.0}, -Vec3::UnitZ(), -1};
@@ -124,15 +124,16 @@ class Plate : public DistanceField {
 };
 
 /// What press() finds, vertex by vertex.
-Pressures field_of(const PreparedHand& prepared, const PressOptions& options, double depth) {
-  Rigid3 hand_from_plate = indenter_at_first_touch(options, prepared);
+Pressures field_of(const contact::PreparedHand& prepared, const contact::PressOptions& options,
+                   double depth) {
+  geometry::Rigid3 hand_from_plate = contact::indenter_at_first_touch(options, prepared);
   hand_from_plate.translation -= depth * (hand_from_plate.rotation * Vec3::UnitZ());
-  ContactOptions contact_options;
+  contact::ContactOptions contact_options;
   contact_options.swelling = false;
   contact_options.shear_modulus = options.shear_modulus;
-  const ContactResult result =
-      solve_region_contact(prepared, prepared.hand().skin.vertices, hand_from_plate.inverse(),
-                           Plate(), contact_options, options.specimen.region);
+  const contact::ContactResult result = contact::solve_region_contact(
+      prepared, prepared.hand().skin.vertices, hand_from_plate.inverse(), Plate(), contact_options,
+      options.specimen.region);
   Pressures field;
   for (std::size_t v = 0; v < result.pressure.size(); ++v) {
     if (prepared.hand().region[v] != options.specimen.region) continue;
@@ -168,15 +169,15 @@ std::vector<Eigen::Vector2d> profile_of(const Pressures& field) {
   return profile;
 }
 
-Curve press_with(TissueModel tissue, const std::shared_ptr<const Hand>& hand,
-                 const PressOptions& options) {
+Curve press_with(contact::TissueModel tissue, const std::shared_ptr<const hand::Hand>& hand,
+                 const contact::PressOptions& options) {
   Curve curve;
   curve.name = "Palmar " + std::string(name_of(tissue));
   const auto start = Clock::now();
-  const PreparedHand prepared(hand, ContactModel{.tissue = tissue});
+  const contact::PreparedHand prepared(hand, contact::ContactModel{.tissue = tissue});
   curve.prepare_seconds = seconds_since(start);
   const auto begin = Clock::now();
-  for (const PressStep& step : press(options, &prepared)) {
+  for (const contact::PressStep& step : contact::press(options, &prepared)) {
     curve.force.push_back(step.force);
     curve.area.push_back(step.area);
   }
@@ -187,14 +188,14 @@ Curve press_with(TissueModel tissue, const std::shared_ptr<const Hand>& hand,
   return curve;
 }
 
-LineChart chart_of(const std::vector<Curve>& curves, const std::vector<double>& depths,
-                   const std::string& title, bool is_area) {
-  LineChart chart{.title = title,
-                  .x_label = "Depth, mm",
-                  .y_label = is_area ? "Area, mm2" : "Force, N",
-                  .series = {}};
+report::LineChart chart_of(const std::vector<Curve>& curves, const std::vector<double>& depths,
+                           const std::string& title, bool is_area) {
+  report::LineChart chart{.title = title,
+                          .x_label = "Depth, mm",
+                          .y_label = is_area ? "Area, mm2" : "Force, N",
+                          .series = {}};
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    LineSeries& series = chart.series.emplace_back();
+    report::LineSeries& series = chart.series.emplace_back();
     series.name = curves[c].name;
     series.colour = kColours[c % kColours.size()];
     series.points.emplace_back(0.0, 0.0);
@@ -205,11 +206,11 @@ LineChart chart_of(const std::vector<Curve>& curves, const std::vector<double>& 
   return chart;
 }
 
-LineChart profile_chart(const std::vector<Curve>& curves, std::size_t k, double depth) {
-  LineChart chart{.title = fmt::format("Pressure at {} mm depth, mean of rings", depth),
-                  .x_label = "Distance from the centre of pressure, mm",
-                  .y_label = "Pressure, kPa",
-                  .series = {}};
+report::LineChart profile_chart(const std::vector<Curve>& curves, std::size_t k, double depth) {
+  report::LineChart chart{.title = fmt::format("Pressure at {} mm depth, mean of rings", depth),
+                          .x_label = "Distance from the centre of pressure, mm",
+                          .y_label = "Pressure, kPa",
+                          .series = {}};
   for (std::size_t c = 0; c < curves.size(); ++c) {
     chart.series.push_back(
         {curves[c].name, profile_of(curves[c].field[k]), kColours[c % kColours.size()]});
@@ -218,7 +219,7 @@ LineChart profile_chart(const std::vector<Curve>& curves, std::size_t k, double 
 }
 
 /// Corners and middles of a side of a tetrahedron.
-std::array<int, 6> nodes_of(const TetMesh& mesh, const TetSide& side) {
+std::array<int, 6> nodes_of(const records::TetMesh& mesh, const records::TetSide& side) {
   constexpr std::array<std::array<int, 6>, 4> kNodes = {
       {{0, 1, 2, 4, 5, 6}, {0, 3, 1, 7, 8, 4}, {1, 3, 2, 8, 9, 5}, {2, 3, 0, 9, 7, 6}}};
   std::array<int, 6> nodes{};
@@ -233,54 +234,56 @@ int run(const Arguments& arguments) {
   const std::filesystem::path ccx = require_program("ccx", "calculix-ccx");
   require_program("tetgen", "tetgen");
   const std::filesystem::path folder(arguments.out);
-  create_folder(folder);
+  formats::create_folder(folder);
   set_thread_count(1);
   if (!arguments.skips_closed_forms) against_closed_forms(ccx, folder);
 
-  const auto hand = std::make_shared<const Hand>(
-      build_template(read_hand_asset(arguments.asset), {.edge_length = arguments.edge}));
-  PressOptions options;
-  options.specimen.kind = PressSpecimen::Kind::kHandRegion;
-  options.indenter.kind = PressIndenter::Kind::kPlane;
+  const auto hand = std::make_shared<const hand::Hand>(hand::build_template(
+      records::read_hand_asset(arguments.asset), {.edge_length = arguments.edge}));
+  contact::PressOptions options;
+  options.specimen.kind = contact::PressSpecimen::Kind::kHandRegion;
+  options.indenter.kind = contact::PressIndenter::Kind::kPlane;
   options.tilt = arguments.tilt_deg * std::numbers::pi / 180.0;
   options.depths = {0.5, 1.0, 1.5, 2.0};
   options.shear_modulus = 0.01;
   std::vector<Curve> curves(1);
-  curves.push_back(press_with(TissueModel::kHalfSpace, hand, options));
-  curves.push_back(press_with(TissueModel::kLayered, hand, options));
-  curves.push_back(press_with(TissueModel::kBone, hand, options));
+  curves.push_back(press_with(contact::TissueModel::kHalfSpace, hand, options));
+  curves.push_back(press_with(contact::TissueModel::kLayered, hand, options));
+  curves.push_back(press_with(contact::TissueModel::kBone, hand, options));
 
-  PressDeck deck;
+  records::PressDeck deck;
   deck.title = fmt::format("middle_distal on a plate at {} deg", arguments.tilt_deg);
-  const Rigid3 frame = indenter_at_first_touch(options, PreparedHand(hand));
-  deck.indenter = indenter_surface(options.indenter, frame);
+  const geometry::Rigid3 frame =
+      contact::indenter_at_first_touch(options, contact::PreparedHand(hand));
+  deck.indenter = records::indenter_surface(options.indenter, frame);
   deck.direction = -(frame.rotation * Vec3::UnitZ());
   deck.depths = options.depths;
   deck.shear_modulus = *options.shear_modulus;
   deck.poisson = arguments.poisson;
-  deck.material = arguments.is_large_strain ? DeckMaterial::kNeoHooke : DeckMaterial::kLinear;
+  deck.material =
+      arguments.is_large_strain ? records::DeckMaterial::kNeoHooke : records::DeckMaterial::kLinear;
   Curve& elements = curves.front();
   elements.name = arguments.is_large_strain ? "CalculiX, large strain" : "CalculiX";
   auto start = Clock::now();
-  deck.block = mesh_by_tetgen(
-      make_tissue_block(*hand,
-                        {.region = Region::kMiddleDistal, .cut_offset = {}, .cut_normal = {}}),
+  deck.block = records::mesh_by_tetgen(
+      hand::make_tissue_block(
+          *hand, {.region = hand::Region::kMiddleDistal, .cut_offset = {}, .cut_normal = {}}),
       folder, arguments.largest_tet);
-  write_file(folder / "fingertip.inp", inp_deck(deck));
+  formats::write_file(folder / "fingertip.inp", records::inp_deck(deck));
   elements.prepare_seconds = seconds_since(start);
   start = Clock::now();
-  const std::vector<CcxStep> steps = solve(ccx, folder, "fingertip");
+  const std::vector<records::CcxStep> steps = solve(ccx, folder, "fingertip");
   elements.solve_seconds = seconds_since(start);
   if (steps.size() != options.depths.size()) {
     throw NumericalError(fmt::format("ccx solved {} of {} steps; see {}", steps.size(),
                                      options.depths.size(), folder.string()));
   }
-  const Rigid3 indenter_from_hand = frame.inverse();
+  const geometry::Rigid3 indenter_from_hand = frame.inverse();
   std::set<int> skin_nodes;
-  for (const TetSide& side : deck.block.pressed) {
+  for (const records::TetSide& side : deck.block.pressed) {
     for (const int n : nodes_of(deck.block.mesh, side)) skin_nodes.insert(n);
   }
-  for (const CcxStep& step : steps) {
+  for (const records::CcxStep& step : steps) {
     elements.force.push_back(step.force.dot(deck.direction));
     elements.area.push_back(step.area);
     std::map<int, double> pressure;
@@ -331,15 +334,15 @@ int run(const Arguments& arguments) {
     }
     std::cout << '\n';
   }
-  write_file(folder / "fe_fingertip.csv", csv);
-  write_file(folder / "profile.csv", profile);
-  std::vector<LineChart> charts = {
+  formats::write_file(folder / "fe_fingertip.csv", csv);
+  formats::write_file(folder / "profile.csv", profile);
+  std::vector<report::LineChart> charts = {
       chart_of(curves, options.depths, "Fingertip on a plate: force", false),
       chart_of(curves, options.depths, "Fingertip on a plate: area", true)};
   for (const std::size_t k : {std::size_t{1}, std::size_t{3}}) {
     charts.push_back(profile_chart(curves, k, options.depths[k]));
   }
-  write_file(folder / "fe_fingertip.svg", svg_stack(charts));
+  formats::write_file(folder / "fe_fingertip.svg", report::svg_stack(charts));
   return 0;
 }
 

@@ -144,10 +144,10 @@ bool Arguments::take(const char* name, Box3& value) {
   return static_cast<bool>(given);
 }
 
-bool Arguments::take(const char* name, LengthUnit& value) {
+bool Arguments::take(const char* name, geometry::LengthUnit& value) {
   std::string text;
   if (!take(name, text)) return false;
-  value = length_unit(text);
+  value = geometry::length_unit(text);
   return true;
 }
 

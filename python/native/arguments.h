@@ -32,7 +32,7 @@ class Arguments {
   bool take(const char* name, std::uint64_t& value);
   bool take(const char* name, Vec3& value);                      ///< three numbers
   bool take(const char* name, Box3& value);                      ///< two corners: six numbers
-  bool take(const char* name, LengthUnit& value);                ///< "mm", "cm", "m", "inch"
+  bool take(const char* name, geometry::LengthUnit& value);      ///< "mm", "cm", "m", "inch"
   bool take(const char* name, Language& value);                  ///< "en", "de"
   bool take(const char* name, std::vector<double>& value);       ///< or one number
   bool take(const char* name, std::vector<std::string>& value);  ///< or one string

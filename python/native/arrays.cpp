@@ -30,9 +30,9 @@ std::optional<py::array> numbers_of(const std::vector<std::vector<std::string>>&
   for (const std::vector<std::string>& row : rows) {
     const std::string& cell = row[column];
     const std::optional<double> value =
-        cell.empty() ? std::numeric_limits<double>::quiet_NaN() : parse_double(cell);
+        cell.empty() ? std::numeric_limits<double>::quiet_NaN() : formats::parse_double(cell);
     if (!value) return std::nullopt;
-    is_whole = is_whole && parse_integer(cell).has_value();
+    is_whole = is_whole && formats::parse_integer(cell).has_value();
     has_value = has_value || !cell.empty();
     values.push_back(*value);
   }
@@ -40,7 +40,7 @@ std::optional<py::array> numbers_of(const std::vector<std::vector<std::string>>&
   if (!is_whole) return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
   py::array_t<std::int64_t> whole(static_cast<py::ssize_t>(values.size()));
   for (std::size_t i = 0; i < values.size(); ++i) {
-    whole.mutable_at(static_cast<py::ssize_t>(i)) = *parse_integer(rows[i][column]);
+    whole.mutable_at(static_cast<py::ssize_t>(i)) = *formats::parse_integer(rows[i][column]);
   }
   return whole;
 }
@@ -64,7 +64,7 @@ py::array view(const std::vector<int>& values, py::handle owner) {
   return read_only(py::array_t<int>(static_cast<py::ssize_t>(values.size()), values.data(), owner));
 }
 
-py::dict table(const CsvTable& cells) {
+py::dict table(const records::CsvTable& cells) {
   py::dict columns;
   for (std::size_t c = 0; c < cells.header.size(); ++c) {
     const py::str name(cells.header[c]);

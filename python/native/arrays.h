@@ -22,7 +22,7 @@ py::array view(const std::vector<double>& values, py::handle owner);    ///< n
 py::array view(const std::vector<int>& values, py::handle owner);       ///< n, int32
 
 /// A table as dict of columns: numbers where all cells are (empty ones: nan), else text.
-py::dict table(const CsvTable& cells);
+py::dict table(const records::CsvTable& cells);
 
 /// A JSON text as Python has it.
 py::object from_json(const std::string& text);

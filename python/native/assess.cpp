@@ -15,20 +15,20 @@
 namespace palmar::python {
 namespace {
 
-using OutcomeValue = std::shared_ptr<AssessOutcome>;
+using OutcomeValue = std::shared_ptr<workflow::AssessOutcome>;
 
 /// One product of an outcome, which it keeps alive.
 struct OneAssessed {
   OutcomeValue outcome;
   std::size_t index = 0;
-  const AssessedProduct& get() const { return outcome->set.assessments[index]; }
-  const Assessment& assessment() const { return get().assessment; }
-  const ContactResult& contact() const { return assessment().contact; }
+  const study::AssessedProduct& get() const { return outcome->set.assessments[index]; }
+  const study::Assessment& assessment() const { return get().assessment; }
+  const contact::ContactResult& contact() const { return assessment().contact; }
 };
 
-AssessRequest assess_request(Arguments& arguments) {
-  AssessRequest request;
-  const LoadProductOptions reading = reading_of(arguments);
+workflow::AssessRequest assess_request(Arguments& arguments) {
+  workflow::AssessRequest request;
+  const records::LoadProductOptions reading = reading_of(arguments);
   for (const py::handle product : arguments.get("products")) {
     request.products.push_back(product_choice(product, reading));
   }
@@ -51,7 +51,7 @@ AssessRequest assess_request(Arguments& arguments) {
   arguments.take("pictures", request.pictures);
   arguments.take("language", request.language);
   std::string project;
-  if (arguments.take("project", project)) request.extras.project = read_project(project);
+  if (arguments.take("project", project)) request.extras.project = records::read_project(project);
   arguments.take("excel", request.extras.excel);
   arguments.take("seed", request.seed);
   arguments.take("command_line", request.command_line);
@@ -61,11 +61,11 @@ AssessRequest assess_request(Arguments& arguments) {
 
 OutcomeValue assess(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  AssessRequest request = assess_request(arguments);
-  AssessOutcome outcome =
-      run_task({progress, note}, [&](const Progress& watch, const NoteSink& notes) {
+  workflow::AssessRequest request = assess_request(arguments);
+  workflow::AssessOutcome outcome =
+      run_task({progress, note}, [&](const Progress& watch, const workflow::NoteSink& notes) {
         request.note = notes;
-        return assess_products(request, watch);
+        return workflow::assess_products(request, watch);
       });
   return for_python(std::move(outcome));
 }
@@ -89,7 +89,8 @@ void bind_one(py::module_& module) {
       .def_property_readonly(
           "product",
           [](const OneAssessed& one) {
-            return for_python(std::shared_ptr<const Product>(one.outcome, &one.get().product));
+            return for_python(
+                std::shared_ptr<const product::Product>(one.outcome, &one.get().product));
           },
           "The product.")
       .def_property_readonly(
@@ -104,9 +105,9 @@ void bind_one(py::module_& module) {
       .def_property_readonly(
           "hold", [](const OneAssessed& one) { return one.assessment().grasp.hold_words; },
           "How it is held: \"medium wrap of the handle, 40 % along it\".")
-      .def_property_readonly("grip_force_n",
-                             number([](const auto& one) { return grip_force_of(one.get()); }),
-                             "Grip force as a dynamometer reads it, N.")
+      .def_property_readonly(
+          "grip_force_n", number([](const auto& one) { return study::grip_force_of(one.get()); }),
+          "Grip force as a dynamometer reads it, N.")
       .def_property_readonly("force_n",
                              number([](const auto& one) { return one.contact().total.force; }),
                              "Sum of the normal forces of the skin, N.")
@@ -167,29 +168,41 @@ void bind_one(py::module_& module) {
 
 void bind_assess(py::module_& module) {
   bind_one(module);
-  py::class_<AssessOutcome, OutcomeValue>(module, "AssessOutcome")
-      .def("__len__", [](const AssessOutcome& outcome) { return outcome.set.assessments.size(); })
+  py::class_<workflow::AssessOutcome, OutcomeValue>(module, "AssessOutcome")
+      .def("__len__",
+           [](const workflow::AssessOutcome& outcome) { return outcome.set.assessments.size(); })
       .def(
           "one",
           [](const OutcomeValue& outcome, std::size_t index) {
             return OneAssessed{outcome, index};
           },
           py::arg("index"))
-      .def_property_readonly("record",
-                             [](const AssessOutcome& outcome) {
-                               return from_json(assessment_json(outcome.set, outcome.words));
-                             })
-      .def_property_readonly("sentence",
-                             [](const AssessOutcome& outcome) { return outcome.words.sentence; })
-      .def_property_readonly("reasons",
-                             [](const AssessOutcome& outcome) { return outcome.words.reasons; })
-      .def_readonly("folder", &AssessOutcome::folder)
-      .def_readonly("has_converged", &AssessOutcome::has_converged)
-      .def("regions", [](const AssessOutcome& outcome) { return table(region_table(outcome.set)); })
-      .def("indices", [](const AssessOutcome& outcome) { return table(index_table(outcome.set)); })
-      .def("faces", [](const AssessOutcome& outcome) { return table(face_table(outcome.set)); })
-      .def("sensors",
-           [](const AssessOutcome& outcome) { return table(sensor_table(outcome.set)); });
+      .def_property_readonly(
+          "record",
+          [](const workflow::AssessOutcome& outcome) {
+            return from_json(records::assessment_json(outcome.set, outcome.words));
+          })
+      .def_property_readonly(
+          "sentence", [](const workflow::AssessOutcome& outcome) { return outcome.words.sentence; })
+      .def_property_readonly(
+          "reasons", [](const workflow::AssessOutcome& outcome) { return outcome.words.reasons; })
+      .def_readonly("folder", &workflow::AssessOutcome::folder)
+      .def_readonly("has_converged", &workflow::AssessOutcome::has_converged)
+      .def("regions",
+           [](const workflow::AssessOutcome& outcome) {
+             return table(records::region_table(outcome.set));
+           })
+      .def("indices",
+           [](const workflow::AssessOutcome& outcome) {
+             return table(records::index_table(outcome.set));
+           })
+      .def("faces",
+           [](const workflow::AssessOutcome& outcome) {
+             return table(records::face_table(outcome.set));
+           })
+      .def("sensors", [](const workflow::AssessOutcome& outcome) {
+        return table(records::sensor_table(outcome.set));
+      });
   module.def("assess", &assess, py::arg("arguments"), py::arg("progress"), py::arg("note"));
 }
 

@@ -46,21 +46,22 @@ std::shared_ptr<Value> for_python(Value value) {
 
 /// A Product, or the path of a file with `unit`, `chordal_error_mm`, `time_limit_s` and
 /// `memory_limit_mb`.
-ProductChoice product_choice(py::handle product, const LoadProductOptions& reading);
-LoadProductOptions reading_of(Arguments& arguments);
+workflow::ProductChoice product_choice(py::handle product,
+                                       const records::LoadProductOptions& reading);
+records::LoadProductOptions reading_of(Arguments& arguments);
 /// `hand` (a Hand, "template" or a path), `tissue`, `left` and, of `person`, the size.
-HandChoice hand_choice(Arguments& arguments, const std::string& person = {});
+workflow::HandChoice hand_choice(Arguments& arguments, const std::string& person = {});
 /// `hold`, `part`, `along`, `toward`, `up`, `purpose`.
-HoldRequest holding_of(Arguments& arguments);
+grasp::HoldRequest holding_of(Arguments& arguments);
 /// How the hand is placed and closed: `grip` and the depths, `at`, `axis` ... and holding_of().
-GraspSettings grasp_of(Arguments& arguments);
+grasp::GraspSettings grasp_of(Arguments& arguments);
 /// `preset`, `kernel`, `tissue_model`, `coupling`.
-ContactModel model_of(Arguments& arguments);
+contact::ContactModel model_of(Arguments& arguments);
 /// `swelling`, `shear_modulus_kpa`, `coating` ..., over `usual`.
-ContactOptions contact_of(Arguments& arguments, ContactOptions usual);
+contact::ContactOptions contact_of(Arguments& arguments, contact::ContactOptions usual);
 /// `friction`, `mass_kg`, `weight_n`, `density_g_cm3`, `acceleration_g`, `gravity`, loads.
-FrictionSettings friction_of(Arguments& arguments);
+grasp::FrictionSettings friction_of(Arguments& arguments);
 /// `balance`, `limit_depths`, `grip_force_n`, `strength_share`, `strength_n`, and the person's own.
-RestSettings rest_of(Arguments& arguments, const std::string& person);
+grasp::RestSettings rest_of(Arguments& arguments, const std::string& person);
 
 }  // namespace palmar::python

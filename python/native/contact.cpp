@@ -13,21 +13,21 @@ namespace {
 
 constexpr double kMegapascalsPerKilopascal = 1e-3;
 
-PressRequest press_request(Arguments& arguments) {
-  PressRequest request;
-  PressOptions& test = request.test;
+workflow::PressRequest press_request(Arguments& arguments) {
+  workflow::PressRequest request;
+  contact::PressOptions& test = request.test;
   std::string specimen = "plane", indenter, level, cover, hand;
   arguments.take("specimen", specimen);
-  test.specimen = parse_specimen(specimen, hand);
+  test.specimen = workflow::parse_specimen(specimen, hand);
   arguments.take("indenter", indenter);
-  test.indenter = parse_indenter(indenter);
+  test.indenter = workflow::parse_indenter(indenter);
   const bool has_depths = arguments.take("depth_mm", test.depths);
   const bool has_forces = arguments.take("force_n", test.forces);
   if (has_depths == has_forces) {
     throw UsageError(
         "either setting \"depth\" or setting \"force\" is needed, and only one of them");
   }
-  arguments.take("tilt_deg", test.tilt, kDegree);
+  arguments.take("tilt_deg", test.tilt, geometry::kDegree);
   arguments.take("spacing_mm", test.spacing);
   double cell = 0.0;
   if (arguments.take("cell_mm", cell)) {
@@ -39,14 +39,15 @@ PressRequest press_request(Arguments& arguments) {
   }
   arguments.take("layer_mm", test.layer_thickness);
   arguments.take("poisson", test.poisson);
-  if (arguments.take("coating", cover)) test.coating = parse_cover(cover);
-  if (arguments.take("tissue_level", level)) test.tissue_level = parse_tissue_level(level);
+  if (arguments.take("coating", cover)) test.coating = workflow::parse_cover(cover);
+  if (arguments.take("tissue_level", level))
+    test.tissue_level = workflow::parse_tissue_level(level);
   arguments.take("shear_modulus_kpa", test.shear_modulus, kMegapascalsPerKilopascal);
-  ContactModelWords words;
+  workflow::ContactModelWords words;
   arguments.take("preset", words.preset);
   arguments.take("kernel", words.kernel);
   arguments.take("tissue_model", words.tissue_model);
-  request.model = press_model(words, test.layer_thickness, !hand.empty());
+  request.model = workflow::press_model(words, test.layer_thickness, !hand.empty());
   request.hand.name = hand;
   arguments.take("tissue", request.hand.tissue);
   arguments.take("out", request.out);
@@ -56,10 +57,10 @@ PressRequest press_request(Arguments& arguments) {
 
 py::dict press(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  PressRequest request = press_request(arguments);
-  return table(run_task({progress, note}, [&](const Progress&, const NoteSink& notes) {
+  workflow::PressRequest request = press_request(arguments);
+  return table(run_task({progress, note}, [&](const Progress&, const workflow::NoteSink& notes) {
     request.note = notes;
-    return press_table(run_press(request).steps);
+    return records::press_table(workflow::run_press(request).steps);
   }));
 }
 

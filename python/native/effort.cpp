@@ -15,28 +15,28 @@
 namespace palmar::python {
 namespace {
 
-WristPosture wrist_of(Arguments& arguments) {
+hand::WristPosture wrist_of(Arguments& arguments) {
   double flexion = -30.0, deviation = 0.0;  // degrees; as on the command line
   arguments.take("wrist_flexion_deg", flexion);
   arguments.take("wrist_deviation_deg", deviation);
-  return {flexion * kDegree, deviation * kDegree};
+  return {flexion * geometry::kDegree, deviation * geometry::kDegree};
 }
 
-TendonModel tendons_of(Arguments& arguments) {
+hand::TendonModel tendons_of(Arguments& arguments) {
   std::string points = "synek2019", hood = "synek2019";
   arguments.take("tendon_points", points);
   arguments.take("hood", hood);
-  return parse_tendon_model(points, hood);
+  return workflow::parse_tendon_model(points, hood);
 }
 
 py::object grasp(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  EffortRequest request;
+  workflow::EffortRequest request;
   request.product = product_choice(arguments.get("product"), reading_of(arguments));
   std::string person;
   arguments.take("person", person);
   request.grasp = grasp_of(arguments);
-  request.contact = contact_of(arguments, refined_contact_with_band());
+  request.contact = contact_of(arguments, workflow::refined_contact_with_band());
   request.model = model_of(arguments);
   request.friction = friction_of(arguments);
   request.rest = rest_of(arguments, person);
@@ -47,33 +47,33 @@ py::object grasp(py::dict given, const py::object& progress, const py::object& n
   request.effort.tendons = tendons_of(arguments);
   request.effort.wrist = wrist_of(arguments);
   arguments.finish();
-  const EffortResult result =
-      run_task({progress, note}, [&](const Progress& watch, const NoteSink& notes) {
+  const effort::EffortResult result =
+      run_task({progress, note}, [&](const Progress& watch, const workflow::NoteSink& notes) {
         request.note = notes;
-        return effort_of_grasp(request, watch);
+        return workflow::effort_of_grasp(request, watch);
       });
-  return from_json(effort_json(result));
+  return from_json(records::effort_json(result));
 }
 
 py::dict capacity(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  CapacityRequest request;
+  workflow::CapacityRequest request;
   request.product = product_choice(arguments.get("product"), reading_of(arguments));
   request.grasp = grasp_of(arguments);
-  request.contact = contact_of(arguments, refined_contact_with_band());
+  request.contact = contact_of(arguments, workflow::refined_contact_with_band());
   request.model = model_of(arguments);
   request.hand = hand_choice(arguments);
   arguments.take("friction", request.friction.friction);
   arguments.take("strength_n", request.strength);
   std::string person;
-  if (arguments.take("person", person)) request.person = parse_person(person);
+  if (arguments.take("person", person)) request.person = workflow::parse_person(person);
   arguments.take("about", request.torque_axis);
   request.wrist = wrist_of(arguments);
   arguments.finish();
-  const Capacity found =
-      run_task({progress, note}, [&](const Progress& watch, const NoteSink& notes) {
+  const workflow::Capacity found =
+      run_task({progress, note}, [&](const Progress& watch, const workflow::NoteSink& notes) {
         request.note = notes;
-        return capacity_of_grip(request, watch);
+        return workflow::capacity_of_grip(request, watch);
       });
   const auto vector = [](const Vec3& v) { return py::make_tuple(v.x(), v.y(), v.z()); };
   return py::dict(py::arg("grip_force_n") = found.grip_force, py::arg("torque_n_mm") = found.torque,
@@ -88,7 +88,7 @@ py::dict capacity(py::dict given, const py::object& progress, const py::object& 
 
 py::object fingertip(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  FingertipRequest request;
+  workflow::FingertipRequest request;
   std::string finger = "index", tendon = "all", posture;
   arguments.take("finger", finger);
   arguments.take("tendon", tendon);
@@ -98,17 +98,18 @@ py::object fingertip(py::dict given, const py::object& progress, const py::objec
                  py::str(angle).cast<std::string>();
     }
   }
-  request.finger = parse_finger(finger);
-  request.tendons = parse_tendons(request.finger, tendon);
-  request.posture = parse_digit_posture(request.finger, posture);
+  request.finger = workflow::parse_finger(finger);
+  request.tendons = workflow::parse_tendons(request.finger, tendon);
+  request.posture = workflow::parse_digit_posture(request.finger, posture);
   arguments.take("force_n", request.force);
   request.model = tendons_of(arguments);
   request.hand = hand_choice(arguments);
   arguments.finish();
-  const FingertipOutcome outcome =
-      run_task({progress, note},
-               [&](const Progress&, const NoteSink&) { return fingertip_forces(request); });
-  return from_json(fingertip_json(outcome.forces, outcome.posture));
+  const workflow::FingertipOutcome outcome =
+      run_task({progress, note}, [&](const Progress&, const workflow::NoteSink&) {
+        return workflow::fingertip_forces(request);
+      });
+  return from_json(records::fingertip_json(outcome.forces, outcome.posture));
 }
 
 }  // namespace

@@ -17,24 +17,26 @@
 namespace palmar::python {
 namespace {
 
-std::shared_ptr<Hand> load(py::dict given, const py::object& progress, const py::object& note) {
+std::shared_ptr<hand::Hand> load(py::dict given, const py::object& progress,
+                                 const py::object& note) {
   Arguments arguments(std::move(given));
   std::string person;
   arguments.take("person", person);
-  const HandChoice choice = hand_choice(arguments, person);
+  const workflow::HandChoice choice = hand_choice(arguments, person);
   arguments.finish();
-  return for_python(run_task({progress, note},
-                             [&](const Progress&, const NoteSink&) { return load_hand(choice); }));
+  return for_python(run_task({progress, note}, [&](const Progress&, const workflow::NoteSink&) {
+    return workflow::load_hand(choice);
+  }));
 }
 
 py::dict sample(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  PopulationSampleRequest request;
-  SamplingOptions& sampling = request.sampling;
+  workflow::PopulationSampleRequest request;
+  population::SamplingOptions& sampling = request.sampling;
   arguments.take("population", request.population);
   std::string design = name_of(sampling.design);
   arguments.take("design", design);
-  const auto named = sampling_design_named(design);
+  const auto named = population::sampling_design_named(design);
   if (!named) {
     throw UsageError("setting \"design\": \"" + design +
                      "\" is not known; random, latin_hypercube, boundary or percentiles is "
@@ -49,16 +51,16 @@ py::dict sample(py::dict given, const py::object& progress, const py::object& no
   arguments.take("percentiles", sampling.percentiles);
   arguments.take("out", request.out);
   arguments.finish();
-  const PopulationSampleOutcome outcome =
-      run_task({progress, note}, [&](const Progress&, const NoteSink& notes) {
+  const workflow::PopulationSampleOutcome outcome =
+      run_task({progress, note}, [&](const Progress&, const workflow::NoteSink& notes) {
         request.note = notes;
-        return sample_population(request);
+        return workflow::sample_population(request);
       });
-  return table(hand_sample_table(outcome.hands));
+  return table(records::hand_sample_table(outcome.hands));
 }
 
-TableChoice table_choice(Arguments& arguments) {
-  TableChoice choice;
+workflow::TableChoice table_choice(Arguments& arguments) {
+  workflow::TableChoice choice;
   arguments.take("file", choice.file);
   arguments.take("unit", choice.unit);
   arguments.take("where", choice.conditions);
@@ -69,30 +71,30 @@ TableChoice table_choice(Arguments& arguments) {
 
 py::dict describe(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  TableDescribeRequest request{.table = table_choice(arguments)};
+  workflow::TableDescribeRequest request{.table = table_choice(arguments)};
   arguments.take("out", request.out);
   arguments.finish();
-  return table(run_task({progress, note}, [&](const Progress&, const NoteSink& notes) {
+  return table(run_task({progress, note}, [&](const Progress&, const workflow::NoteSink& notes) {
     request.note = notes;
-    return descriptions_csv(describe_table(request));
+    return records::descriptions_csv(workflow::describe_table(request));
   }));
 }
 
 py::dict correlate(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  TableCorrelateRequest request{.table = table_choice(arguments)};
+  workflow::TableCorrelateRequest request{.table = table_choice(arguments)};
   arguments.take("confidence", request.level);
   arguments.take("out", request.out);
   arguments.finish();
-  return table(run_task({progress, note}, [&](const Progress&, const NoteSink& notes) {
+  return table(run_task({progress, note}, [&](const Progress&, const workflow::NoteSink& notes) {
     request.note = notes;
-    return correlations_csv(correlate_table(request));
+    return records::correlations_csv(workflow::correlate_table(request));
   }));
 }
 
 py::dict regress(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  TableRegressRequest request{.table = table_choice(arguments)};
+  workflow::TableRegressRequest request{.table = table_choice(arguments)};
   arguments.take("on", request.predictors);
   arguments.take("confidence", request.level);
   arguments.take("out", request.out);
@@ -100,9 +102,9 @@ py::dict regress(py::dict given, const py::object& progress, const py::object& n
   arguments.take("name", request.name);
   arguments.take("title", request.title);
   arguments.finish();
-  return table(run_task({progress, note}, [&](const Progress&, const NoteSink& notes) {
+  return table(run_task({progress, note}, [&](const Progress&, const workflow::NoteSink& notes) {
     request.note = notes;
-    return regressions_csv(regress_table(request).regressions);
+    return records::regressions_csv(workflow::regress_table(request).regressions);
   }));
 }
 
@@ -112,13 +114,14 @@ void bind_hands(py::module_& module) {
   module.def("hand_load", &load, py::arg("arguments"), py::arg("progress"), py::arg("note"));
   module.def("population_names", [] {
     py::dict names;
-    for (const Population& one : built_in_populations()) names[py::str(one.name)] = one.title;
+    for (const population::Population& one : population::built_in_populations())
+      names[py::str(one.name)] = one.title;
     return names;
   });
   module.def(
       "population_show",
       [](const std::string& name_or_path) {
-        return from_json(population_json(load_population(name_or_path)));
+        return from_json(records::population_json(records::load_population(name_or_path)));
       },
       py::arg("name_or_path"));
   module.def("population_sample", &sample, py::arg("arguments"), py::arg("progress"),

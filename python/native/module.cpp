@@ -36,7 +36,7 @@ void translate(std::exception_ptr thrown) {
     raise("CheckFailed", error);
   } catch (const OutputError& error) {
     raise("OutputError", error);
-  } catch (const ProgramMissing& error) {
+  } catch (const formats::ProgramMissing& error) {
     raise("ProgramMissing", error);
   } catch (const Error& error) {
     raise("Error", error);
@@ -48,7 +48,7 @@ void translate(std::exception_ptr thrown) {
 
 PYBIND11_MODULE(_native, module) {
   using namespace palmar::python;
-  py::register_exception_translator(&translate);
+  py::register_exception_translator(&palmar::python::translate);
   module.def("version", &palmar::version);
   module.def("build_description", &palmar::build_description);
   module.def("set_thread_count", &palmar::set_thread_count, py::arg("count"));
@@ -56,12 +56,12 @@ PYBIND11_MODULE(_native, module) {
   module.def(
       "set_program_folder", [](const std::string& folder) { palmar::set_program_folder(folder); },
       py::arg("folder"));
-  bind_values(module);
-  bind_assess(module);
-  bind_products(module);
-  bind_hands(module);
-  bind_contact(module);
-  bind_effort(module);
-  bind_studies(module);
-  bind_redesigns(module);
+  palmar::python::bind_values(module);
+  palmar::python::bind_assess(module);
+  palmar::python::bind_products(module);
+  palmar::python::bind_hands(module);
+  palmar::python::bind_contact(module);
+  palmar::python::bind_effort(module);
+  palmar::python::bind_studies(module);
+  palmar::python::bind_redesigns(module);
 }

@@ -13,21 +13,24 @@
 namespace palmar::python {
 namespace {
 
-std::shared_ptr<Product> read(py::dict given, const py::object& progress, const py::object& note) {
+std::shared_ptr<product::Product> read(py::dict given, const py::object& progress,
+                                       const py::object& note) {
   Arguments arguments(std::move(given));
-  const LoadProductOptions reading = reading_of(arguments);
-  const ProductChoice choice = product_choice(arguments.get("file"), reading);
+  const records::LoadProductOptions reading = reading_of(arguments);
+  const workflow::ProductChoice choice = product_choice(arguments.get("file"), reading);
   arguments.finish();
-  return for_python(run_task({progress, note}, [&](const Progress& watch, const NoteSink& notes) {
-    Product product = load_product(choice, watch);
-    for (const std::string& text : product.notes) notes(product.name + ": " + text);
-    return product;
-  }));
+  return for_python(
+      run_task({progress, note}, [&](const Progress& watch, const workflow::NoteSink& notes) {
+        product::Product product = load_product(choice, watch);
+        for (const std::string& text : product.notes) notes(product.name + ": " + text);
+        return product;
+      }));
 }
 
-std::shared_ptr<Product> make(py::dict given, const py::object& progress, const py::object& note) {
+std::shared_ptr<product::Product> make(py::dict given, const py::object& progress,
+                                       const py::object& note) {
   Arguments arguments(std::move(given));
-  MadeProduct made;
+  records::MadeProduct made;
   arguments.take("kind", made.kind);
   const py::dict parameters = arguments.get("parameters");
   for (const auto& [name, value] : parameters) {
@@ -36,37 +39,39 @@ std::shared_ptr<Product> make(py::dict given, const py::object& progress, const 
     const std::string key = name.cast<std::string>();
     if (one.take(key.c_str(), number)) made.given.emplace_back(key, number);
   }
-  ProductVariantsRequest files;
+  workflow::ProductVariantsRequest files;
   arguments.take("chordal_error_mm", files.chordal_error);
-  ProductVariantsRequest::Entry entry{
+  workflow::ProductVariantsRequest::Entry entry{
       .name = title_of(made), .family = "", .product = made, .files = {}};
   arguments.take("out", entry.files);
   arguments.finish();
-  complete_values(parametric_kind(made.kind), made.given);
-  return for_python(run_task({progress, note}, [&](const Progress& watch, const NoteSink&) {
-    if (!entry.files.empty()) {
-      files.products.push_back(entry);
-      write_variants(files, watch);
-    }
-    return make_solid(made, {.chordal_error = files.chordal_error});
-  }));
+  product::complete_values(product::parametric_kind(made.kind), made.given);
+  return for_python(
+      run_task({progress, note}, [&](const Progress& watch, const workflow::NoteSink&) {
+        if (!entry.files.empty()) {
+          files.products.push_back(entry);
+          workflow::write_variants(files, watch);
+        }
+        return records::make_solid(made, {.chordal_error = files.chordal_error});
+      }));
 }
 
 py::dict check(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  InspectRequest request;
+  workflow::InspectRequest request;
   request.reading = reading_of(arguments);
   arguments.take("file", request.file);
   arguments.finish();
-  const InspectOutcome outcome = run_task(
-      {progress, note},
-      [&](const Progress& watch, const NoteSink&) { return inspect_product(request, watch); });
-  const ProductCheck& found = outcome.check;
+  const workflow::InspectOutcome outcome =
+      run_task({progress, note}, [&](const Progress& watch, const workflow::NoteSink&) {
+        return workflow::inspect_product(request, watch);
+      });
+  const product::ProductCheck& found = outcome.check;
   py::dict result;
   result["product"] = for_python(outcome.product);
   result["verdict"] = name_of(found.verdict);
   py::list findings;
-  for (const Finding& one : found.findings) {
+  for (const product::Finding& one : found.findings) {
     findings.append(py::make_tuple(name_of(one.severity), one.text));
   }
   result["findings"] = findings;
@@ -84,9 +89,9 @@ py::dict check(py::dict given, const py::object& progress, const py::object& not
 
 py::list kinds() {
   py::list all;
-  for (const ParametricKind& kind : parametric_kinds()) {
+  for (const product::ParametricKind& kind : product::parametric_kinds()) {
     py::list parameters;
-    for (const KindParameter& one : kind.parameters) {
+    for (const product::KindParameter& one : kind.parameters) {
       parameters.append(py::dict(py::arg("name") = one.name, py::arg("default") = one.fallback,
                                  py::arg("lowest") = one.lowest, py::arg("highest") = one.highest,
                                  py::arg("meaning") = one.meaning));

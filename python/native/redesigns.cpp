@@ -18,8 +18,8 @@
 namespace palmar::python {
 namespace {
 
-RedesignRequest redesign_of(Arguments& arguments) {
-  RedesignRequest request;
+workflow::RedesignRequest redesign_of(Arguments& arguments) {
+  workflow::RedesignRequest request;
   arguments.take("product", request.product);
   arguments.take("out", request.out);
   arguments.take("unit", request.unit);
@@ -29,49 +29,50 @@ RedesignRequest redesign_of(Arguments& arguments) {
   arguments.take("left", request.is_left);
   std::vector<std::string> grips;
   arguments.take("grip", grips);
-  for (const std::string& name : grips) request.grips.push_back(asked_grip_named(name));
+  for (const std::string& name : grips) request.grips.push_back(records::asked_grip_named(name));
   request.holding = holding_of(arguments);
   arguments.take("at", request.at);
   arguments.take("axis", request.axis);
   arguments.take("language", request.language);
   std::string posture;
-  if (arguments.take("hold_posture", posture)) request.posture = redesign_posture(posture);
+  if (arguments.take("hold_posture", posture))
+    request.posture = workflow::redesign_posture(posture);
   arguments.take("grip_force_n", request.grip_force);
   arguments.take("seed", request.seed);
   arguments.take("command_line", request.command);
   return request;
 }
 
-py::dict result_of(const RedesignOutcome& outcome) {
+py::dict result_of(const workflow::RedesignOutcome& outcome) {
   py::dict result;
   result["record"] = from_json(outcome.json);
-  if (outcome.gains) result["record"]["gains"] = from_json(gains_json(*outcome.gains));
+  if (outcome.gains) result["record"]["gains"] = from_json(workflow::gains_json(*outcome.gains));
   result["notes"] = outcome.notes;
   const auto& comparison = outcome.comparison;
   if (!comparison) return result;
-  StudyAnswerOptions options;
+  report::StudyAnswerOptions options;
   options.language = comparison->language;
-  const StudyAnswer answer = study_answer(comparison->results, options);
+  const report::StudyAnswer answer = report::study_answer(comparison->results, options);
   result["sentence"] = answer.sentence;
   result["reasons"] = answer.reasons;
   result["study"] = comparison->study.string();
   result["report"] = comparison->report.string();
   result["comparison"] =
-      table(comparison_csv(comparison->results, analyse_study(comparison->results)));
+      table(report::comparison_csv(comparison->results, study::analyse_study(comparison->results)));
   return result;
 }
 
 /// Runs a redesign; `task` is called with its request and Progress.
 template <typename Request, typename Task>
 auto run(const Listeners& listeners, Request& request, const Task& task) {
-  return run_task(listeners, [&](const Progress& progress, const NoteSink& note) {
+  return run_task(listeners, [&](const Progress& progress, const workflow::NoteSink& note) {
     request.redesign.on_note = note;
     return task(request, progress);
   });
 }
 
-void take_mesh(py::dict& result, const TriangleMesh& mesh) {
-  Product made;
+void take_mesh(py::dict& result, const geometry::TriangleMesh& mesh) {
+  product::Product made;
   made.mesh = mesh;
   const py::object owner = py::cast(for_python(std::move(made)));
   result["vertices_mm"] = owner.attr("vertices_mm");
@@ -80,13 +81,13 @@ void take_mesh(py::dict& result, const TriangleMesh& mesh) {
 
 py::dict shape(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  RedesignShapeRequest request;
+  workflow::RedesignShapeRequest request;
   request.redesign = redesign_of(arguments);
   arguments.take("vary", request.vary);
   arguments.take("features", request.features);
   arguments.take("goal", request.goal);
   arguments.take("spread_mm", request.spread.along);
-  arguments.take("spread_deg", request.spread.turn, kDegree);
+  arguments.take("spread_deg", request.spread.turn, geometry::kDegree);
   arguments.take("use", request.uses);
   arguments.take("places", request.spread.places);
   arguments.take("largest_change_mm", request.limits.largest_change);
@@ -95,8 +96,8 @@ py::dict shape(py::dict given, const py::object& progress, const py::object& not
   arguments.take("largest_volume", request.limits.largest_volume);
   arguments.take("smallest_radius_mm", request.limits.smallest_radius);
   arguments.take("pull", request.limits.pull);
-  request.limits.draft = 2.0 * kDegree;  // as on the command line
-  arguments.take("draft_deg", request.limits.draft, kDegree);
+  request.limits.draft = 2.0 * geometry::kDegree;  // as on the command line
+  arguments.take("draft_deg", request.limits.draft, geometry::kDegree);
   arguments.take("draft_land_mm", request.limits.land);
   arguments.take("lost_hands", request.limits.lost_hands);
   arguments.take("both_hands", request.limits.suits_both_hands);
@@ -109,7 +110,8 @@ py::dict shape(py::dict given, const py::object& progress, const py::object& not
   arguments.take("pictures", request.draws);
   arguments.take("compare", request.compares);
   arguments.finish();
-  const RedesignShapeOutcome outcome = run({progress, note}, request, &redesign_shape);
+  const workflow::RedesignShapeOutcome outcome =
+      run({progress, note}, request, &workflow::redesign_shape);
   py::dict result = result_of(outcome);
   result["file"] = outcome.file.string();
   return result;
@@ -117,12 +119,12 @@ py::dict shape(py::dict given, const py::object& progress, const py::object& not
 
 py::dict press(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  RedesignPressRequest request;
+  workflow::RedesignPressRequest request;
   request.redesign = redesign_of(arguments);
-  PressedShapeOptions& options = request.shape;
+  redesign::PressedShapeOptions& options = request.shape;
   arguments.take("overlap_share", options.share);
   std::string over;
-  if (arguments.take("over", over)) options.combine = combine_options(over);
+  if (arguments.take("over", over)) options.combine = workflow::combine_options(over);
   arguments.take("align", request.aligns);
   arguments.take("largest_depth_mm", options.depth_limit);
   arguments.take("wall_mm", options.wall);
@@ -136,7 +138,8 @@ py::dict press(py::dict given, const py::object& progress, const py::object& not
   arguments.take("pictures", request.draws);
   arguments.take("compare", request.compares);
   arguments.finish();
-  const RedesignPressOutcome outcome = run({progress, note}, request, &redesign_press);
+  const workflow::RedesignPressOutcome outcome =
+      run({progress, note}, request, &workflow::redesign_press);
   py::dict result = result_of(outcome);
   result["file"] = outcome.file.string();
   take_mesh(result, outcome.shape.mesh);
@@ -161,7 +164,7 @@ void take_share(Arguments& arguments, const char* name, double& share) {
 
 py::dict region(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  RedesignRegionRequest request;
+  workflow::RedesignRegionRequest request;
   request.redesign = redesign_of(arguments);
   take_share(arguments, "hands_share", request.region.share);
   arguments.take("threshold_kpa", request.threshold, 1e-3);
@@ -178,12 +181,12 @@ py::dict region(py::dict given, const py::object& progress, const py::object& no
   arguments.take("pictures", request.draws);
   arguments.take("compare", request.compares);
   arguments.finish();
-  return result_of(run({progress, note}, request, &redesign_region));
+  return result_of(run({progress, note}, request, &workflow::redesign_region));
 }
 
 py::dict features(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  RedesignFeatureRequest request;
+  workflow::RedesignFeatureRequest request;
   request.redesign = redesign_of(arguments);
   arguments.take("vary", request.vary);
   arguments.take("goal", request.goal);
@@ -201,10 +204,12 @@ py::dict features(py::dict given, const py::object& progress, const py::object& 
   arguments.take("evaluations", request.search.evaluations);
   arguments.take("step_mm", request.step);
   std::string optimiser;
-  if (arguments.take("optimiser", optimiser)) request.search.method = search_method(optimiser);
+  if (arguments.take("optimiser", optimiser))
+    request.search.method = redesign::search_method(optimiser);
   arguments.take("compare", request.compares);
   arguments.finish();
-  const RedesignFeatureOutcome outcome = run({progress, note}, request, &redesign_features);
+  const workflow::RedesignFeatureOutcome outcome =
+      run({progress, note}, request, &workflow::redesign_features);
   py::dict result = result_of(outcome);
   if (outcome.redesign) result["file"] = outcome.redesign->step.string();
   return result;

@@ -32,8 +32,9 @@ std::string words_in(Arguments& arguments, const char* name) {
 
 }  // namespace
 
-ProductChoice product_choice(py::handle product, const LoadProductOptions& reading) {
-  if (py::isinstance<Product>(product)) return product.cast<const Product&>();
+workflow::ProductChoice product_choice(py::handle product,
+                                       const records::LoadProductOptions& reading) {
+  if (py::isinstance<product::Product>(product)) return product.cast<const product::Product&>();
   py::dict one;
   one["product"] = product;
   std::filesystem::path file;
@@ -41,8 +42,8 @@ ProductChoice product_choice(py::handle product, const LoadProductOptions& readi
   return {file, reading};
 }
 
-LoadProductOptions reading_of(Arguments& arguments) {
-  LoadProductOptions reading;
+records::LoadProductOptions reading_of(Arguments& arguments) {
+  records::LoadProductOptions reading;
   arguments.take("unit", reading.unit);
   arguments.take("chordal_error_mm", reading.chordal_error);
   arguments.take("time_limit_s", reading.limits.seconds);
@@ -51,43 +52,43 @@ LoadProductOptions reading_of(Arguments& arguments) {
   return reading;
 }
 
-HandChoice hand_choice(Arguments& arguments, const std::string& person) {
-  HandChoice choice;
+workflow::HandChoice hand_choice(Arguments& arguments, const std::string& person) {
+  workflow::HandChoice choice;
   const py::object given = arguments.get("hand");
-  if (given && py::isinstance<Hand>(given)) {
-    choice.value = given.cast<std::shared_ptr<Hand>>();
+  if (given && py::isinstance<hand::Hand>(given)) {
+    choice.value = given.cast<std::shared_ptr<hand::Hand>>();
   } else if (given) {
     arguments.take("hand", choice.name);
   }
   arguments.take("tissue", choice.tissue);
   arguments.take("left", choice.is_left);
-  choice.person = parse_person_size(person);
+  choice.person = workflow::parse_person_size(person);
   return choice;
 }
 
-HoldRequest holding_of(Arguments& arguments) {
-  HoldWords words;
+grasp::HoldRequest holding_of(Arguments& arguments) {
+  workflow::HoldWords words;
   words.hold = words_in(arguments, "hold");
   words.part = words_in(arguments, "part");
   arguments.take("along", words.along);
   words.toward = words_in(arguments, "toward");
   words.up = words_in(arguments, "up");
   arguments.take("purpose", words.purpose);
-  return hold_request(words);
+  return workflow::hold_request(words);
 }
 
-GraspSettings grasp_of(Arguments& arguments) {
-  GraspSettings settings;
+grasp::GraspSettings grasp_of(Arguments& arguments) {
+  grasp::GraspSettings settings;
   std::string grip = "any";
   arguments.take("grip", grip);
-  settings.grip = parse_grip(grip);
+  settings.grip = workflow::parse_grip(grip);
   settings.is_power_only = grip == "power";
   settings.holding = holding_of(arguments);
   arguments.take("at", settings.placement.at);
   arguments.take("axis", settings.placement.axis);
   arguments.take("box", settings.placement.region);
   double turn = 0.0;
-  if (arguments.take("turn_deg", turn, kDegree)) settings.placement.turn = turn;
+  if (arguments.take("turn_deg", turn, geometry::kDegree)) settings.placement.turn = turn;
   arguments.take("place_per_hand", settings.is_place_per_hand);
   arguments.take("palm_limit_depth_mm", settings.palm_limit_depth);
   arguments.take("finger_limit_depth_mm", settings.finger_limit_depth);
@@ -95,14 +96,14 @@ GraspSettings grasp_of(Arguments& arguments) {
   if (const py::object given = arguments.get("fingertips")) {
     for (const auto& [name, point] : given.cast<py::dict>()) {
       const std::string finger = py::str(name).cast<std::string>();
-      const std::optional<Finger> known = finger_named(finger);
+      const std::optional<hand::Finger> known = hand::finger_named(finger);
       if (!known) {
         throw UsageError("setting \"fingertips\": \"" + finger +
                          "\" is not known; thumb, index, middle, ring or little is allowed");
       }
       py::dict one;
       one["fingertips"] = point;
-      FingertipTarget target{*known, Vec3::Zero()};
+      grasp::FingertipTarget target{*known, Vec3::Zero()};
       Arguments(one).take("fingertips", target.point);
       settings.fingertips.push_back(target);
     }
@@ -111,16 +112,16 @@ GraspSettings grasp_of(Arguments& arguments) {
   return settings;
 }
 
-ContactModel model_of(Arguments& arguments) {
-  ContactModelWords words;
+contact::ContactModel model_of(Arguments& arguments) {
+  workflow::ContactModelWords words;
   arguments.take("preset", words.preset);
   arguments.take("kernel", words.kernel);
   arguments.take("tissue_model", words.tissue_model);
   arguments.take("coupling", words.coupling);
-  return contact_model(words);
+  return workflow::contact_model(words);
 }
 
-ContactOptions contact_of(Arguments& arguments, ContactOptions usual) {
+contact::ContactOptions contact_of(Arguments& arguments, contact::ContactOptions usual) {
   arguments.take("swelling", usual.swelling);
   arguments.take("skin_on_skin", usual.skin_on_skin);
   arguments.take("refine", usual.refine);
@@ -128,13 +129,14 @@ ContactOptions contact_of(Arguments& arguments, ContactOptions usual) {
   arguments.take("shear_modulus_kpa", usual.shear_modulus, 1e-3);
   std::vector<std::string> coatings;
   arguments.take("coating", coatings);
-  for (const std::string& words : coatings) usual.coatings.push_back(parse_coating(words));
+  for (const std::string& words : coatings)
+    usual.coatings.push_back(workflow::parse_coating(words));
   usual.check();
   return usual;
 }
 
-FrictionSettings friction_of(Arguments& arguments) {
-  FrictionSettings settings;
+grasp::FrictionSettings friction_of(Arguments& arguments) {
+  grasp::FrictionSettings settings;
   arguments.take("friction", settings.friction);
   arguments.take("mass_kg", settings.mass);
   arguments.take("weight_n", settings.weight);
@@ -149,14 +151,14 @@ FrictionSettings friction_of(Arguments& arguments) {
   return settings;
 }
 
-RestSettings rest_of(Arguments& arguments, const std::string& person) {
-  RestSettings settings;
+grasp::RestSettings rest_of(Arguments& arguments, const std::string& person) {
+  grasp::RestSettings settings;
   arguments.take("balance", settings.is_balanced);
   arguments.take("limit_depths", settings.limit_depths);
   arguments.take("grip_force_n", settings.grip_force);
   arguments.take("strength_share", settings.strength_share);
   arguments.take("strength_n", settings.strength);
-  settings = held_by(person, settings);
+  settings = workflow::held_by(person, settings);
   settings.check();
   return settings;
 }

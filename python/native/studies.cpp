@@ -22,8 +22,8 @@ namespace {
 constexpr const char* kSaidByFile = "a study file says it";
 
 /// A study file, or products and who holds them.
-StudyRequest study_request(Arguments& arguments) {
-  StudyRequest request;
+records::StudyRequest study_request(Arguments& arguments) {
+  records::StudyRequest request;
   std::string file;
   if (arguments.take("file", file)) {
     std::vector<std::string> products;
@@ -31,9 +31,9 @@ StudyRequest study_request(Arguments& arguments) {
     if (!products.empty()) {
       throw UsageError("setting \"products\" doesn't go with the others: a study file says it");
     }
-    request = read_study_file(file);
+    request = records::read_study_file(file);
   } else {
-    QuickStudy quick;
+    workflow::QuickStudy quick;
     arguments.take("products", quick.products);
     if (quick.products.empty()) {
       throw UsageError("what is to be studied is not said: a study file or a product is required");
@@ -49,14 +49,14 @@ StudyRequest study_request(Arguments& arguments) {
     arguments.take("grip_force_n", quick.grip_force);
     arguments.take("strength_share", quick.strength_share);
     arguments.take("limit_depths", quick.limit_depths);
-    request = study_of(quick);
+    request = workflow::study_of(quick);
   }
   std::uint64_t seed = 0;
   if (arguments.take("seed", seed) && seed != 0) request.seed = seed;
   return request;
 }
 
-py::dict summary(const StudyRunOutcome& outcome) {
+py::dict summary(const workflow::StudyRunOutcome& outcome) {
   py::dict counts, reasons;
   for (const auto& [how, count] : outcome.outcomes) counts[py::str(name_of(how))] = count;
   for (const auto& [reason, count] : outcome.reasons) reasons[py::str(reason)] = count;
@@ -69,7 +69,7 @@ py::dict summary(const StudyRunOutcome& outcome) {
 
 py::dict run(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  StudyRunRequest request;
+  workflow::StudyRunRequest request;
   request.study = study_request(arguments);
   arguments.take("out", request.out);
   std::vector<double> shard;
@@ -78,31 +78,33 @@ py::dict run(py::dict given, const py::object& progress, const py::object& note)
     request.shard = {static_cast<int>(shard[0]), static_cast<int>(shard[1])};
   }
   arguments.finish(kSaidByFile);
-  return summary(run_task({progress, note}, [&](const Progress& watch, const NoteSink& notes) {
-    request.note = notes;
-    return run_study(request, watch);
-  }));
+  return summary(
+      run_task({progress, note}, [&](const Progress& watch, const workflow::NoteSink& notes) {
+        request.note = notes;
+        return run_study(request, watch);
+      }));
 }
 
 py::dict resume(const std::string& store, const py::object& progress, const py::object& note) {
-  return summary(run_task({progress, note}, [&](const Progress& watch, const NoteSink& notes) {
-    return resume_study(store, notes, watch);
-  }));
+  return summary(
+      run_task({progress, note}, [&](const Progress& watch, const workflow::NoteSink& notes) {
+        return workflow::resume_study(store, notes, watch);
+      }));
 }
 
 py::dict plan(py::dict given, const py::object& progress, const py::object& note) {
   Arguments arguments(std::move(given));
-  StudyPlanRequest request;
+  workflow::StudyPlanRequest request;
   request.study = study_request(arguments);
   arguments.take("sample", request.has_sample);
   arguments.finish(kSaidByFile);
-  const StudyPlanOutcome outcome =
-      run_task({progress, note}, [&](const Progress& watch, const NoteSink& notes) {
+  const workflow::StudyPlanOutcome outcome =
+      run_task({progress, note}, [&](const Progress& watch, const workflow::NoteSink& notes) {
         request.note = notes;
-        return plan_study(request, watch);
+        return workflow::plan_study(request, watch);
       });
-  py::dict result = from_json(format_plan(outcome.plan));
-  result["grasps"] = task_count(outcome.plan);
+  py::dict result = from_json(records::format_plan(outcome.plan));
+  result["grasps"] = study::task_count(outcome.plan);
   if (const auto& estimate = outcome.estimate) {
     const auto hands = static_cast<std::int64_t>(outcome.plan.hands.size());
     result["threads"] = outcome.threads;
@@ -115,20 +117,22 @@ py::dict plan(py::dict given, const py::object& progress, const py::object& note
 py::dict merge(const std::vector<std::string>& shards, const std::string& out,
                const py::object& progress) {
   const std::vector<std::filesystem::path> paths(shards.begin(), shards.end());
-  const StudyMergeOutcome outcome = run_task(
-      {progress, {}},
-      [&](const Progress& watch, const NoteSink&) { return merge_shards(paths, out, watch); });
+  const workflow::StudyMergeOutcome outcome =
+      run_task({progress, {}}, [&](const Progress& watch, const workflow::NoteSink&) {
+        return workflow::merge_shards(paths, out, watch);
+      });
   return py::dict(py::arg("study") = outcome.plan.name, py::arg("store") = out,
-                  py::arg("grasps") = task_count(outcome.plan), py::arg("shards") = outcome.shards,
-                  py::arg("results_sha256") = outcome.digest);
+                  py::arg("grasps") = study::task_count(outcome.plan),
+                  py::arg("shards") = outcome.shards, py::arg("results_sha256") = outcome.digest);
 }
 
 py::dict status(const std::vector<std::string>& stores) {
   const std::vector<std::filesystem::path> paths(stores.begin(), stores.end());
-  const StudyStatus found =
-      run_task({}, [&](const Progress&, const NoteSink&) { return study_status(paths); });
+  const workflow::StudyStatus found = run_task({}, [&](const Progress&, const workflow::NoteSink&) {
+    return workflow::study_status(paths);
+  });
   py::list all;
-  for (const StudyStoreState& one : found.stores) {
+  for (const workflow::StudyStoreState& one : found.stores) {
     all.append(py::dict(py::arg("store") = one.path.string(), py::arg("state") = one.state,
                         py::arg("detail") = one.detail, py::arg("shard") = name_of(one.shard),
                         py::arg("done") = one.done, py::arg("total") = one.total,
@@ -141,7 +145,7 @@ py::dict status(const std::vector<std::string>& stores) {
 
 py::str report(py::dict given, const py::object& progress) {
   Arguments arguments(std::move(given));
-  StudyReportRequest request;
+  workflow::StudyReportRequest request;
   arguments.take("store", request.store);
   arguments.take("out", request.folder);
   arguments.take("threshold_kpa", request.report.threshold, 1e-3);
@@ -152,19 +156,23 @@ py::str report(py::dict given, const py::object& progress) {
   arguments.take("figures", request.report.figure_files);
   arguments.take("excel", request.report.extras.excel);
   std::string project;
-  if (arguments.take("project", project)) request.report.extras.project = read_project(project);
+  if (arguments.take("project", project))
+    request.report.extras.project = records::read_project(project);
   arguments.finish();
-  return run_task({progress, {}}, [&](const Progress& watch,
-                                      const NoteSink&) { return report_study(request, watch); })
+  return run_task({progress, {}},
+                  [&](const Progress& watch, const workflow::NoteSink&) {
+                    return workflow::report_study(request, watch);
+                  })
       .string();
 }
 
 std::vector<std::string> export_tables(const std::string& store, const std::string& folder,
                                        bool with_fields, const py::object& progress) {
-  const StudyExportRequest request{store, folder, with_fields};
-  const StudyExportOutcome outcome = run_task(
-      {progress, {}},
-      [&](const Progress& watch, const NoteSink&) { return export_study(request, watch); });
+  const workflow::StudyExportRequest request{store, folder, with_fields};
+  const workflow::StudyExportOutcome outcome =
+      run_task({progress, {}}, [&](const Progress& watch, const workflow::NoteSink&) {
+        return workflow::export_study(request, watch);
+      });
   std::vector<std::string> files;
   for (const std::filesystem::path& one : outcome.files) files.push_back(one.string());
   return files;
@@ -173,37 +181,38 @@ std::vector<std::string> export_tables(const std::string& store, const std::stri
 /// The study's answer and statistics; everything that its report's tables hold.
 py::dict statistics(py::dict given) {
   Arguments arguments(std::move(given));
-  StudyCompareRequest request;
+  workflow::StudyCompareRequest request;
   arguments.take("store", request.store);
   arguments.take("quantities", request.quantities);
   arguments.take("significance", request.comparison.significance);
   arguments.take("language", request.language);
   arguments.finish();
   struct Found {
-    StudyCompareOutcome compared;
-    StudyAnalysis analysis;
+    workflow::StudyCompareOutcome compared;
+    study::StudyAnalysis analysis;
   };
-  const Found found = run_task({}, [&](const Progress&, const NoteSink&) {
-    Found one{compare_study(request), {}};
-    one.analysis = analyse_study(one.compared.results, request.comparison);
+  const Found found = run_task({}, [&](const Progress&, const workflow::NoteSink&) {
+    Found one{workflow::compare_study(request), {}};
+    one.analysis = study::analyse_study(one.compared.results, request.comparison);
     return one;
   });
   py::dict result;
-  const StudyAnswer& answer = found.compared.answer;
+  const report::StudyAnswer& answer = found.compared.answer;
   result["sentence"] = answer.sentence;
   result["reasons"] = answer.reasons;
-  for (const NamedTable& one : study_csv(found.compared.results, found.analysis)) {
+  for (const report::NamedTable& one : report::study_csv(found.compared.results, found.analysis)) {
     result[py::str(std::filesystem::path(one.name).stem().string())] = table(one.table);
   }
   return result;
 }
 
 py::dict grasps(const std::string& store) {
-  const StudyCompareOutcome outcome = run_task({}, [&](const Progress&, const NoteSink&) {
-    StudyCompareRequest request;
-    request.store = store;
-    return compare_study(request);
-  });
+  const workflow::StudyCompareOutcome outcome =
+      run_task({}, [&](const Progress&, const workflow::NoteSink&) {
+        workflow::StudyCompareRequest request;
+        request.store = store;
+        return workflow::compare_study(request);
+      });
   return grasp_table(outcome.results);
 }
 

@@ -13,26 +13,28 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A column made of every record.
 template <typename Value, typename Get>
-py::array_t<Value> column(const StudyResults& results, const Get& get) {
+py::array_t<Value> column(const study::StudyResults& results, const Get& get) {
   py::array_t<Value> values(static_cast<py::ssize_t>(results.records.size()));
   Value* next = values.mutable_data();
-  for (const StudyRecord& record : results.records) *next++ = get(record);
+  for (const study::StudyRecord& record : results.records) *next++ = get(record);
   return values;
 }
 
 template <typename Get>
-py::object texts(const StudyResults& results, const Get& get) {
+py::object texts(const study::StudyResults& results, const Get& get) {
   py::list values;
-  for (const StudyRecord& record : results.records) values.append(std::string(get(record)));
+  for (const study::StudyRecord& record : results.records) values.append(std::string(get(record)));
   return py::module_::import("numpy").attr("array")(values, py::arg("dtype") = "str");
 }
 
 }  // namespace
 
-py::dict grasp_table(const StudyResults& results) {
-  const StudyPlan& plan = results.plan;
-  const auto task = [&](const StudyRecord& record) { return task_at(plan, record.number); };
-  const auto hand = [&](const StudyRecord& record) -> const StudyHand& {
+py::dict grasp_table(const study::StudyResults& results) {
+  const study::StudyPlan& plan = results.plan;
+  const auto task = [&](const study::StudyRecord& record) {
+    return study::task_at(plan, record.number);
+  };
+  const auto hand = [&](const study::StudyRecord& record) -> const study::StudyHand& {
     return plan.hands[static_cast<std::size_t>(task(record).hand)];
   };
   py::dict table;
@@ -43,10 +45,12 @@ py::dict grasp_table(const StudyResults& results) {
     return plan.populations[static_cast<std::size_t>(hand(r).population)].population.name;
   });
   table["hand_length_mm"] = column<double>(results, [&](const auto& r) {
-    return size_of(hand(r), {DimensionKind::kHandLength, Segment::kPalm}).value_or(kNone);
+    return study::size_of(hand(r), {hand::DimensionKind::kHandLength, hand::Segment::kPalm})
+        .value_or(kNone);
   });
   table["hand_circumference_mm"] = column<double>(results, [&](const auto& r) {
-    return size_of(hand(r), {DimensionKind::kHandCircumference, Segment::kPalm}).value_or(kNone);
+    return study::size_of(hand(r), {hand::DimensionKind::kHandCircumference, hand::Segment::kPalm})
+        .value_or(kNone);
   });
   table["profile"] = texts(results, [&](const auto& r) {
     return plan.profiles[static_cast<std::size_t>(task(r).profile)].name;
@@ -61,9 +65,10 @@ py::dict grasp_table(const StudyResults& results) {
   table["grip"] = texts(results, [](const auto& r) { return name_of(r.grip); });
   table["hold"] =
       texts(results, [](const auto& r) { return r.hold ? r.hold->words : std::string(); });
-  for (const StudyQuantity& quantity : quantities_of(results)) {
-    table[py::str(quantity.key)] = column<double>(
-        results, [&](const auto& r) { return quantity_of(r, quantity.key).value_or(kNone); });
+  for (const study::StudyQuantity& quantity : study::quantities_of(results)) {
+    table[py::str(quantity.key)] = column<double>(results, [&](const auto& r) {
+      return study::quantity_of(r, quantity.key).value_or(kNone);
+    });
   }
   return table;
 }

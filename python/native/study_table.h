@@ -10,6 +10,6 @@ namespace palmar::python {
 
 /// One row per finished grasp as columns: whose hand, what product and how, how it ended, what the
 /// whole hand feels, and every index under its key (nan where it has no value).
-pybind11::dict grasp_table(const StudyResults& results);
+pybind11::dict grasp_table(const study::StudyResults& results);
 
 }  // namespace palmar::python

@@ -39,7 +39,7 @@ void tell(const Listeners& listeners, const News& news) {
 }  // namespace
 
 void run_watched(const Listeners& listeners,
-                 const std::function<void(const Progress&, const NoteSink&)>& work) {
+                 const std::function<void(const Progress&, const workflow::NoteSink&)>& work) {
   std::mutex mutex;
   std::condition_variable ended;
   bool is_done = false;
@@ -55,7 +55,7 @@ void run_watched(const Listeners& listeners,
     news.share = std::max(news.share, share);  // a part doesn't know where the whole stands
     news.activity = activity;
   };
-  const NoteSink note = [&](const std::string& text) {
+  const workflow::NoteSink note = [&](const std::string& text) {
     const std::scoped_lock lock(mutex);
     news.notes.push_back(text);
   };

@@ -24,13 +24,13 @@ struct Listeners {
 /// calls the listeners, some ten times a second. Ctrl-C, or an exception of a listener, asks the
 /// work to stop; once it has, that exception goes on. Else what `work` throws.
 void run_watched(const Listeners& listeners,
-                 const std::function<void(const Progress&, const NoteSink&)>& work);
+                 const std::function<void(const Progress&, const workflow::NoteSink&)>& work);
 
 /// The same with a result: `work` is called with Progress and NoteSink.
 template <typename Work>
 auto run_task(const Listeners& listeners, const Work& work) {
-  std::optional<decltype(work(Progress{}, NoteSink{}))> result;
-  run_watched(listeners, [&](const Progress& progress, const NoteSink& note) {
+  std::optional<decltype(work(Progress{}, workflow::NoteSink{}))> result;
+  run_watched(listeners, [&](const Progress& progress, const workflow::NoteSink& note) {
     result.emplace(work(progress, note));
   });
   return std::move(*result);

@@ -21,19 +21,19 @@
 
 namespace palmar::fuzz {
 
-void hand(std::string_view bytes) { parse_hand(std::string(bytes), kName); }
-void study_plan(std::string_view bytes) { parse_plan(std::string(bytes), kName); }
-void population(std::string_view bytes) { parse_population(std::string(bytes), kName); }
-void dimension_table(std::string_view bytes) { parse_dimension_table(bytes, kName); }
-void study(std::string_view bytes) { read_study_file(fuzzed_file(bytes, ".toml")); }
-void tissue(std::string_view bytes) { read_tissue(fuzzed_file(bytes, ".toml"), {}); }
-void hold(std::string_view bytes) { read_hold(fuzzed_file(bytes, ".toml")); }
-void project(std::string_view bytes) { read_project(fuzzed_file(bytes, ".toml")); }
-void sensors(std::string_view bytes) { read_sensor_layout(fuzzed_file(bytes, ".toml")); }
+void hand(std::string_view bytes) { records::parse_hand(std::string(bytes), kName); }
+void study_plan(std::string_view bytes) { records::parse_plan(std::string(bytes), kName); }
+void population(std::string_view bytes) { records::parse_population(std::string(bytes), kName); }
+void dimension_table(std::string_view bytes) { records::parse_dimension_table(bytes, kName); }
+void study(std::string_view bytes) { records::read_study_file(fuzzed_file(bytes, ".toml")); }
+void tissue(std::string_view bytes) { records::read_tissue(fuzzed_file(bytes, ".toml"), {}); }
+void hold(std::string_view bytes) { records::read_hold(fuzzed_file(bytes, ".toml")); }
+void project(std::string_view bytes) { records::read_project(fuzzed_file(bytes, ".toml")); }
+void sensors(std::string_view bytes) { records::read_sensor_layout(fuzzed_file(bytes, ".toml")); }
 void bench_project(std::string_view bytes) {
-  read_bench_project(fuzzed_file(bytes, ".palmar-project"));
+  records::read_bench_project(fuzzed_file(bytes, ".palmar-project"));
 }
-void curves(std::string_view bytes) { read_measured_curves(fuzzed_file(bytes, ".csv")); }
-void face_mesh(std::string_view bytes) { read_face_mesh(fuzzed_file(bytes, ".bin")); }
+void curves(std::string_view bytes) { records::read_measured_curves(fuzzed_file(bytes, ".csv")); }
+void face_mesh(std::string_view bytes) { records::read_face_mesh(fuzzed_file(bytes, ".bin")); }
 
 }  // namespace palmar::fuzz

@@ -9,10 +9,10 @@
 
 #include "made_products.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
-Sdf ring_of(const Vec3& middle, double along_x, double along_y, double radius) {
+product::Sdf ring_of(const Vec3& middle, double along_x, double along_y, double radius) {
   return sdf_bar(ellipse(middle, along_x, along_y), std::vector<double>(41, radius));
 }
 
@@ -20,15 +20,15 @@ Sdf ring_of(const Vec3& middle, double along_x, double along_y, double radius) {
 // neck of 30 mm, head 34 mm high and 24 mm wide; the trigger hangs from the head 30 mm before the
 // neck and is 14 mm wide.
 MadeShape spray_bottle() {
-  const Sdf bottle = sdf_lathe(
+  const product::Sdf bottle = sdf_lathe(
       {{0, 0}, {41, 0}, {43, 4}, {43, 110}, {34, 138}, {19, 158}, {15, 166}, {15, 205}, {0, 205}});
-  const Sdf head = sdf_rounded_box(Vec3(8, 0, 217), Vec3(86, 24, 34), 7.0);
-  const Sdf nozzle = sdf_bar({{50, 0, 221}, {62, 0, 221}}, {10, 9});
-  const Sdf trigger = sdf_stretched(
+  const product::Sdf head = sdf_rounded_box(Vec3(8, 0, 217), Vec3(86, 24, 34), 7.0);
+  const product::Sdf nozzle = sdf_bar({{50, 0, 221}, {62, 0, 221}}, {10, 9});
+  const product::Sdf trigger = sdf_stretched(
       sdf_bar({{40, 0, 206}, {38, 0, 186}, {42, 0, 168}, {48, 0, 152}}, {4.5, 4.5, 4.5, 4.5}), 1,
       1.55);
   return {"spray_bottle",
-          sdf_union(sdf_union(bottle, head), sdf_union(nozzle, trigger)),
+          product::sdf_union(product::sdf_union(bottle, head), product::sdf_union(nozzle, trigger)),
           {Box3(Vec3(-44, -44, 0), Vec3(72, 44, 235)), Vec3(2.8, 2.8, 3.4), {{2, 145, 236, 2.2}}}};
 }
 
@@ -36,40 +36,41 @@ MadeShape spray_bottle() {
 // 105 mm long, 36 x 28 mm thick and leans back by 15 degrees; the trigger stands 14 mm before its
 // upper half and is 12 mm wide.
 MadeShape glue_gun() {
-  const Sdf barrel = sdf_rounded_box(Vec3(20, 0, 0), Vec3(165, 38, 46), 14.0);
-  const Sdf nozzle = sdf_bar({{98, 0, 0}, {128, 0, 0}}, {11, 5});
-  const Sdf handle =
+  const product::Sdf barrel = sdf_rounded_box(Vec3(20, 0, 0), Vec3(165, 38, 46), 14.0);
+  const product::Sdf nozzle = sdf_bar({{98, 0, 0}, {128, 0, 0}}, {11, 5});
+  const product::Sdf handle =
       sdf_stretched(sdf_bar({{-12, 0, -10}, {-20, 0, -60}, {-36, 0, -116}}, {18, 17, 19}), 1, 0.78);
-  const Sdf trigger = sdf_rounded_box(Vec3(11, 0, -38), Vec3(22, 12, 34), 4.0);
-  return {"glue_gun",
-          sdf_union(sdf_union(barrel, nozzle), sdf_union(handle, trigger)),
-          {Box3(Vec3(-64, -20, -137), Vec3(134, 20, 24)), Vec3(2.8, 2.2, 2.8), {}}};
+  const product::Sdf trigger = sdf_rounded_box(Vec3(11, 0, -38), Vec3(22, 12, 34), 4.0);
+  return {
+      "glue_gun",
+      product::sdf_union(product::sdf_union(barrel, nozzle), product::sdf_union(handle, trigger)),
+      {Box3(Vec3(-64, -20, -137), Vec3(134, 20, 24)), Vec3(2.8, 2.2, 2.8), {}}};
 }
 
 // Tailor's shears, 260 mm, shut: blades to +x, pivot at 0; the thumb's ring (y > 0) is 34 x 26 mm
 // inside, the fingers' ring 78 x 30 mm.
 MadeShape tailors_shears() {
-  const Sdf blades = sdf_extruded(
+  const product::Sdf blades = sdf_extruded(
       {{-14, -13}, {20, -14}, {90, -9}, {140, 0}, {90, 9}, {20, 14}, {-14, 13}}, 0, 1, -3, 3);
-  const Sdf rings = sdf_union(ring_of(Vec3(-82, 28, 0), 22.5, 18.5, 5.5),
-                              ring_of(Vec3(-88, -30, 0), 44.5, 20.5, 5.5));
-  const Sdf shanks = sdf_blended(sdf_bar({{0, 0, 0}, {-62, 19, 0}}, {7, 6}),
-                                 sdf_bar({{0, 0, 0}, {-48, -21, 0}}, {7, 6}), 6.0);
+  const product::Sdf rings = product::sdf_union(ring_of(Vec3(-82, 28, 0), 22.5, 18.5, 5.5),
+                                                ring_of(Vec3(-88, -30, 0), 44.5, 20.5, 5.5));
+  const product::Sdf shanks = sdf_blended(sdf_bar({{0, 0, 0}, {-62, 19, 0}}, {7, 6}),
+                                          sdf_bar({{0, 0, 0}, {-48, -21, 0}}, {7, 6}), 6.0);
   return {"tailors_shears",
-          sdf_union(blades, sdf_union(rings, shanks)),
+          product::sdf_union(blades, product::sdf_union(rings, shanks)),
           {Box3(Vec3(-139, -57, -8), Vec3(141, 53, 8)), Vec3(1.9, 1.7, 1.6), {}}};
 }
 
 // Nail scissors, 100 mm, shut: blades to +x, pivot at 0; two like rings, 25 x 21 mm inside.
 MadeShape nail_scissors() {
-  const Sdf blades = sdf_extruded(
+  const product::Sdf blades = sdf_extruded(
       {{-5, -5}, {6, -5}, {28, -2.5}, {38, 0}, {28, 2.5}, {6, 5}, {-5, 5}}, 0, 1, -1.6, 1.6);
-  const Sdf rings = sdf_union(ring_of(Vec3(-46, 16.5, 0), 14.5, 12.5, 2.2),
-                              ring_of(Vec3(-46, -16.5, 0), 14.5, 12.5, 2.2));
-  const Sdf shanks = sdf_union(sdf_bar({{0, 0, 0}, {-34, 10, 0}}, {4, 2.6}),
-                               sdf_bar({{0, 0, 0}, {-34, -10, 0}}, {4, 2.6}));
+  const product::Sdf rings = product::sdf_union(ring_of(Vec3(-46, 16.5, 0), 14.5, 12.5, 2.2),
+                                                ring_of(Vec3(-46, -16.5, 0), 14.5, 12.5, 2.2));
+  const product::Sdf shanks = product::sdf_union(sdf_bar({{0, 0, 0}, {-34, 10, 0}}, {4, 2.6}),
+                                                 sdf_bar({{0, 0, 0}, {-34, -10, 0}}, {4, 2.6}));
   return {"nail_scissors",
-          sdf_union(blades, sdf_union(rings, shanks)),
+          product::sdf_union(blades, product::sdf_union(rings, shanks)),
           {Box3(Vec3(-64, -32, -4), Vec3(39, 32, 4)), Vec3(0.95, 0.85, 0.75), {}}};
 }
 
@@ -85,10 +86,11 @@ MadeShape pliers() {
                                  std::vector<double>(33, 8.0)),
                          2, 0.75);
   };
-  const Sdf head = sdf_rounded_box(Vec3(4, 0, 0), Vec3(34, 27, 11), 3.0);
-  const Sdf jaws = sdf_extruded({{10, -12}, {46, -6}, {46, 6}, {10, 12}}, 0, 1, -5, 5);
+  const product::Sdf head = sdf_rounded_box(Vec3(4, 0, 0), Vec3(34, 27, 11), 3.0);
+  const product::Sdf jaws = sdf_extruded({{10, -12}, {46, -6}, {46, 6}, {10, 12}}, 0, 1, -5, 5);
   return {"pliers",
-          sdf_union(sdf_union(head, jaws), sdf_union(handle(1.0), handle(-1.0))),
+          product::sdf_union(product::sdf_union(head, jaws),
+                             product::sdf_union(handle(1.0), handle(-1.0))),
           {Box3(Vec3(-147, -29, -7), Vec3(47, 29, 7)), Vec3(2.0, 1.8, 1.6), {}}};
 }
 
@@ -103,44 +105,44 @@ MadeShape tongs() {
     return sdf_stretched(sdf_bar(line, std::vector<double>(line.size(), 2.2)), 2, 4.2);
   };
   return {"tongs",
-          sdf_union(arm(1.0), arm(-1.0)),
+          product::sdf_union(arm(1.0), arm(-1.0)),
           {Box3(Vec3(-12, -34, -10), Vec3(229, 34, 10)), Vec3(2.2, 1.4, 1.7), {}}};
 }
 
 // Palm sander on a board (z = 0): pad 112 x 105 mm, waist, and a dome of 92 mm whose top is 135 mm
 // above the board; the cable leaves at -x.
 MadeShape palm_sander() {
-  const Sdf pad = sdf_rounded_box(Vec3(0, 0, 16), Vec3(112, 105, 32), 6.0);
-  const Sdf housing = sdf_lathe({{0, 20},
-                                 {46, 20},
-                                 {44, 60},
-                                 {40, 80},
-                                 {44, 96},
-                                 {46, 108},
-                                 {42, 122},
-                                 {30, 132},
-                                 {14, 135},
-                                 {0, 135}});
+  const product::Sdf pad = sdf_rounded_box(Vec3(0, 0, 16), Vec3(112, 105, 32), 6.0);
+  const product::Sdf housing = sdf_lathe({{0, 20},
+                                          {46, 20},
+                                          {44, 60},
+                                          {40, 80},
+                                          {44, 96},
+                                          {46, 108},
+                                          {42, 122},
+                                          {30, 132},
+                                          {14, 135},
+                                          {0, 135}});
   return {"palm_sander",
-          sdf_union(pad, housing),
+          product::sdf_union(pad, housing),
           {Box3(Vec3(-56, -53, 0), Vec3(56, 53, 136)), Vec3(3.4, 3.4, 3.4), {}}};
 }
 
 // Remote control of a television, 185 x 46 x 21 mm, buttons up (+z), the window at +x.
 MadeShape tv_remote() {
-  const Sdf shell = sdf_rounded_box(Vec3(0, 0, 0), Vec3(185, 46, 21), 8.0);
+  const product::Sdf shell = sdf_rounded_box(Vec3(0, 0, 0), Vec3(185, 46, 21), 8.0);
   return {
       "tv_remote", shell, {Box3(Vec3(-93, -23, -11), Vec3(93, 23, 11)), Vec3(2.8, 2.2, 2.0), {}}};
 }
 
 // Flat symmetric mouse 105 x 58 x 31 mm on a table (z = 0), buttons to +x; highest in its middle.
 MadeShape flat_mouse() {
-  const Sdf shell = [](const Vec3& p) {
+  const product::Sdf shell = [](const Vec3& p) {
     const double e = std::pow(std::abs(p.x() / 52.5), 3.2) + std::pow(std::abs(p.y() / 29.0), 3.2) +
                      std::pow(std::abs(p.z() / 31.0), 2.2);
     return 26.0 * (std::pow(e, 1.0 / 2.6) - 1.0);
   };
-  const Sdf table = [](const Vec3& p) { return -p.z(); };
+  const product::Sdf table = [](const Vec3& p) { return -p.z(); };
   return {"flat_mouse",
           sdf_common(shell, table),
           {Box3(Vec3(-53, -29, 0), Vec3(53, 29, 32)), Vec3(2.0, 2.0, 1.8), {}}};
@@ -148,10 +150,11 @@ MadeShape flat_mouse() {
 
 // Knob of a radio, 44 mm wide, 22 mm high (+z), on a panel of 140 x 110 x 8 mm.
 MadeShape rotary_knob() {
-  const Sdf panel = sdf_rounded_box(Vec3(0, 0, -4), Vec3(140, 110, 8), 1.0);
-  const Sdf knob = sdf_lathe({{0, -2}, {23, -2}, {22.5, 3}, {21.5, 20}, {20, 22}, {0, 22}});
+  const product::Sdf panel = sdf_rounded_box(Vec3(0, 0, -4), Vec3(140, 110, 8), 1.0);
+  const product::Sdf knob =
+      sdf_lathe({{0, -2}, {23, -2}, {22.5, 3}, {21.5, 20}, {20, 22}, {0, 22}});
   return {"rotary_knob",
-          sdf_union(panel, knob),
+          product::sdf_union(panel, knob),
           {Box3(Vec3(-70, -55, -8), Vec3(70, 55, 23)),
            Vec3(4.5, 4.5, 3.5),
            {{2, -2, 23, 1.8}, {0, -25, 25, 2.0}, {1, -25, 25, 2.0}}}};
@@ -160,12 +163,12 @@ MadeShape rotary_knob() {
 // Lever handle on a door leaf 40 mm thick (a piece of 260 x 200 mm): a neck of 20 mm holds the
 // lever 52 mm before the door (+z); the lever is 130 mm long (to -x) and 20 x 17 mm thick.
 MadeShape lever_handle() {
-  const Sdf leaf = sdf_rounded_box(Vec3(-30, 0, -20), Vec3(260, 200, 40), 1.0);
-  const Sdf rose = sdf_lathe({{0, -4}, {26, -4}, {26, 6}, {24, 8}, {0, 8}});
-  const Sdf neck = sdf_bar({{0, 0, 0}, {0, 0, 50}}, {10, 10});
-  const Sdf lever = sdf_stretched(sdf_bar({{0, 0, 52}, {-122, 0, 52}}, {10, 9}), 1, 0.9);
+  const product::Sdf leaf = sdf_rounded_box(Vec3(-30, 0, -20), Vec3(260, 200, 40), 1.0);
+  const product::Sdf rose = sdf_lathe({{0, -4}, {26, -4}, {26, 6}, {24, 8}, {0, 8}});
+  const product::Sdf neck = sdf_bar({{0, 0, 0}, {0, 0, 50}}, {10, 10});
+  const product::Sdf lever = sdf_stretched(sdf_bar({{0, 0, 52}, {-122, 0, 52}}, {10, 9}), 1, 0.9);
   return {"lever_handle",
-          sdf_union(sdf_union(leaf, rose), sdf_union(neck, lever)),
+          product::sdf_union(product::sdf_union(leaf, rose), product::sdf_union(neck, lever)),
           {Box3(Vec3(-160, -100, -40), Vec3(100, 100, 63)),
            Vec3(8, 8, 8),
            {{2, -2, 64, 2.6}, {0, -134, 30, 3.2}, {1, -30, 30, 2.8}}}};
@@ -173,10 +176,10 @@ MadeShape lever_handle() {
 
 // Housing 110 x 80 x 45 mm with a push button of 20 mm that stands out 6 mm from its top (+z).
 MadeShape push_button() {
-  const Sdf housing = sdf_rounded_box(Vec3(0, 0, -22.5), Vec3(110, 80, 45), 4.0);
-  const Sdf button = sdf_lathe({{0, -2}, {10, -2}, {10, 4.5}, {8.5, 6}, {0, 6}});
+  const product::Sdf housing = sdf_rounded_box(Vec3(0, 0, -22.5), Vec3(110, 80, 45), 4.0);
+  const product::Sdf button = sdf_lathe({{0, -2}, {10, -2}, {10, 4.5}, {8.5, 6}, {0, 6}});
   return {"push_button",
-          sdf_union(housing, button),
+          product::sdf_union(housing, button),
           {Box3(Vec3(-55, -40, -45), Vec3(55, 40, 7)),
            Vec3(3.6, 3.6, 3.6),
            {{2, -3, 7, 1.1}, {0, -13, 13, 1.3}, {1, -13, 13, 1.3}}}};
@@ -190,4 +193,4 @@ std::vector<MadeShape> made_moved() {
           flat_mouse(),   rotary_knob(), lever_handle(),   push_button()};
 }
 
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -4,7 +4,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::tests {
 
 const std::vector<MadeShape>& made_shapes() {
   static const std::vector<MadeShape> all = [] {
@@ -23,4 +23,4 @@ const MadeShape& made_shape(const std::string& name) {
   throw UsageError("made product \"" + name + "\" doesn't exist");
 }
 
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -7,13 +7,13 @@
 
 #include "solid_shapes.h"
 
-namespace palmar {
+namespace palmar::tests {
 
 /// An everyday product made from simple solids, of the size of such things. tests/holds/made.toml
 /// and moved.toml say how people take hold of it.
 struct MadeShape {
   std::string name;
-  Sdf solid;
+  product::Sdf solid;
   Lattice lattice;
 };
 
@@ -29,4 +29,4 @@ const std::vector<MadeShape>& made_shapes();
 /// By name. Throws UsageError for an unknown one.
 const MadeShape& made_shape(const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -15,7 +15,7 @@
 #include "palmar/formats/toml_section.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 constexpr double kHoldDeg = std::numbers::pi / 180.0;
@@ -94,13 +94,13 @@ double angle_to(const std::vector<Vec3>& directions, const Vec3& v) {
   return least;
 }
 
-bool is_round_grip(Grip grip) {
+bool is_round_grip(grasp::Grip grip) {
   return is_of_family(grip, "sphere") || is_of_family(grip, "precision_sphere");
 }
 
 }  // namespace
 
-bool is_of_family(Grip grip, const std::string& family) {
+bool is_of_family(grasp::Grip grip, const std::string& family) {
   const auto found = grip_families().find(family);
   if (found == grip_families().end()) {
     throw UsageError("family of grips \"" + family + "\" is not known");
@@ -114,11 +114,11 @@ std::vector<PeoplesHold> read_peoples_holds(const std::filesystem::path& file) {
   std::ostringstream text;
   text << in.rdbuf();
   if (!in) throw InputError(file.string() + " can't be read");
-  const toml::table all = parse_toml(text.str(), file.string());
-  const TomlSection section(file.string(), "", all);
+  const toml::table all = formats::parse_toml(text.str(), file.string());
+  const formats::TomlSection section(file.string(), "", all);
   section.allow({"hold"});
   std::vector<PeoplesHold> list;
-  for (const TomlSection& entry : section.tables("hold")) {
+  for (const formats::TomlSection& entry : section.tables("hold")) {
     entry.allow({"product", "use", "part", "grips", "centre_from_mm", "centre_to_mm",
                  "thumb_toward", "palm_faces", "palm_within_deg", "fingers_toward",
                  "index_fingertip_from_mm", "index_fingertip_to_mm", "source"});
@@ -130,7 +130,7 @@ std::vector<PeoplesHold> read_peoples_holds(const std::filesystem::path& file) {
     entry.need_text("source");
     hold.grips = entry.texts("grips");
     if (hold.grips.empty()) throw InputError(where + " has no grips");
-    for (const std::string& family : hold.grips) is_of_family(Grip::kMediumWrap, family);
+    for (const std::string& family : hold.grips) is_of_family(grasp::Grip::kMediumWrap, family);
     hold.centre = boxes_of(entry.values(), "centre", where);
     if (hold.centre.empty()) throw InputError(where + " has no box of the centre");
     hold.thumb_toward = vectors_of(entry.values(), "thumb_toward", where);
@@ -144,35 +144,36 @@ std::vector<PeoplesHold> read_peoples_holds(const std::filesystem::path& file) {
   return list;
 }
 
-Vec3 centre_of(const RankedHold& found) {
-  const Grasp& grasp = found.grasp;
-  if (is_power(grasp.grip) || grasp.fingertips.empty()) return grasp.grip_point;
+Vec3 centre_of(const grasp::RankedHold& found) {
+  const grasp::Grasp& grasp = found.grasp;
+  if (grasp::is_power(grasp.grip) || grasp.fingertips.empty()) return grasp.grip_point;
   // Between the thumb and the middle of the others, which press against each other as one (virtual
   // fingers: Iberall 1997, Int J Robotics Research 16:285-299).
   const auto count = static_cast<double>(grasp.fingertips.size());
   Vec3 mean = Vec3::Zero(), others = Vec3::Zero();
   std::optional<Vec3> thumb;
-  for (const FingertipContact& tip : grasp.fingertips) {
+  for (const grasp::FingertipContact& tip : grasp.fingertips) {
     mean += tip.target / count;
-    if (tip.finger == Finger::kThumb) {
+    if (tip.finger == hand::Finger::kThumb) {
       thumb = tip.target;
     } else {
       others += tip.target / std::max(1.0, count - 1.0);
     }
   }
-  return thumb && count > 1.0 && !is_non_prehensile(grasp.grip) ? Vec3(0.5 * (*thumb + others))
-                                                                : mean;
+  return thumb && count > 1.0 && !grasp::is_non_prehensile(grasp.grip)
+             ? Vec3(0.5 * (*thumb + others))
+             : mean;
 }
 
-Vec3 index_fingertip(const Hand& hand, const RankedHold& found) {
-  const PosedSkeleton pose = pose_skeleton(hand.skeleton, found.grasp.posture);
+Vec3 index_fingertip(const hand::Hand& hand, const grasp::RankedHold& found) {
+  const hand::PosedSkeleton pose = hand::pose_skeleton(hand.skeleton, found.grasp.posture);
   return found.grasp.product_from_hand *
-         (pose.segment[static_cast<std::size_t>(Segment::kIndexDistal)] *
-          hand.skeleton.fingertips[static_cast<std::size_t>(Finger::kIndex)]);
+         (pose.segment[static_cast<std::size_t>(hand::Segment::kIndexDistal)] *
+          hand.skeleton.fingertips[static_cast<std::size_t>(hand::Finger::kIndex)]);
 }
 
-std::string objection(const PeoplesHold& people, const RankedHold& found) {
-  const Grip grip = found.hold.grip;
+std::string objection(const PeoplesHold& people, const grasp::RankedHold& found) {
+  const grasp::Grip grip = found.hold.grip;
   const bool is_their_grip =
       std::any_of(people.grips.begin(), people.grips.end(),
                   [&](const std::string& family) { return is_of_family(grip, family); });
@@ -204,7 +205,7 @@ std::string objection(const PeoplesHold& people, const RankedHold& found) {
   return text;
 }
 
-std::string objection(const std::vector<PeoplesHold>& people, const RankedHold& found) {
+std::string objection(const std::vector<PeoplesHold>& people, const grasp::RankedHold& found) {
   std::string text;
   for (const PeoplesHold& way : people) {
     const std::string one = objection(way, found);
@@ -214,4 +215,4 @@ std::string objection(const std::vector<PeoplesHold>& people, const RankedHold& 
   return text;
 }
 
-}  // namespace palmar
+}  // namespace palmar::tests

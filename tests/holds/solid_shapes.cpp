@@ -9,7 +9,7 @@
 #include <numbers>
 #include <unordered_map>
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 double outline_distance(const std::vector<Vec2>& outline, const Vec2& p) {
@@ -94,7 +94,7 @@ std::array<int, 12> sheet_of_edges(const std::array<bool, 8>& is_inside) {
   return sheet;
 }
 
-Vec3 crossing(const Sdf& sdf, Vec3 in, Vec3 out, double value_in, double value_out) {
+Vec3 crossing(const product::Sdf& sdf, Vec3 in, Vec3 out, double value_in, double value_out) {
   for (int i = 0; i < 4; ++i) {
     const double t = std::clamp(value_in / (value_in - value_out), 0.05, 0.95);
     const Vec3 p = in + t * (out - in);
@@ -107,7 +107,7 @@ Vec3 crossing(const Sdf& sdf, Vec3 in, Vec3 out, double value_in, double value_o
 }
 
 // Towards the surface along the gradient, at most `most`.
-Vec3 on_surface(const Sdf& sdf, const Vec3& start, double most) {
+Vec3 on_surface(const product::Sdf& sdf, const Vec3& start, double most) {
   Vec3 p = start;
   for (int i = 0; i < 3; ++i) {
     const double value = sdf(p), h = 1e-4;
@@ -125,14 +125,14 @@ Vec3 on_surface(const Sdf& sdf, const Vec3& start, double most) {
 
 }  // namespace
 
-Sdf sdf_rounded_box(const Vec3& middle, const Vec3& size, double radius) {
+product::Sdf sdf_rounded_box(const Vec3& middle, const Vec3& size, double radius) {
   return [=](const Vec3& p) {
     const Vec3 d = (p - middle).cwiseAbs() - 0.5 * size + Vec3::Constant(radius);
     return d.cwiseMax(0.0).norm() + std::min(d.maxCoeff(), 0.0) - radius;
   };
 }
 
-Sdf sdf_lathe(std::vector<Vec2> outline, double rounding) {
+product::Sdf sdf_lathe(std::vector<Vec2> outline, double rounding) {
   for (Vec2& p : outline) {
     if (p.x() <= 0.0) p.x() = -100.0;  // the axis is no surface
   }
@@ -141,14 +141,14 @@ Sdf sdf_lathe(std::vector<Vec2> outline, double rounding) {
   };
 }
 
-Sdf sdf_extruded(std::vector<Vec2> outline, int u, int v, double low, double high) {
+product::Sdf sdf_extruded(std::vector<Vec2> outline, int u, int v, double low, double high) {
   return [=, outline = std::move(outline)](const Vec3& p) {
     const double across = p[3 - u - v];
     return std::max({outline_distance(outline, {p[u], p[v]}), low - across, across - high});
   };
 }
 
-Sdf sdf_bar(std::vector<Vec3> line, std::vector<double> radius) {
+product::Sdf sdf_bar(std::vector<Vec3> line, std::vector<double> radius) {
   return [line = std::move(line), radius = std::move(radius)](const Vec3& p) {
     double least = 1e18;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -161,14 +161,14 @@ Sdf sdf_bar(std::vector<Vec3> line, std::vector<double> radius) {
   };
 }
 
-Sdf sdf_stretched(const Sdf& shape, int axis, double factor) {
+product::Sdf sdf_stretched(const product::Sdf& shape, int axis, double factor) {
   return [=](Vec3 p) {
     p[axis] /= factor;
     return shape(p);
   };
 }
 
-Sdf sdf_blended(const Sdf& a, const Sdf& b, double radius) {
+product::Sdf sdf_blended(const product::Sdf& a, const product::Sdf& b, double radius) {
   return [=](const Vec3& p) {
     const double da = a(p), db = b(p);
     const double h = std::max(radius - std::abs(da - db), 0.0) / radius;
@@ -176,7 +176,7 @@ Sdf sdf_blended(const Sdf& a, const Sdf& b, double radius) {
   };
 }
 
-Sdf sdf_common(const Sdf& a, const Sdf& b) {
+product::Sdf sdf_common(const product::Sdf& a, const product::Sdf& b) {
   return [=](const Vec3& p) { return std::max(a(p), b(p)); };
 }
 
@@ -206,7 +206,8 @@ std::vector<Vec3> ellipse(const Vec3& middle, double along_x, double along_y, in
   return line;
 }
 
-TriangleMesh net_mesh_of(const Sdf& sdf, const Lattice& lattice, double refinement) {
+geometry::TriangleMesh net_mesh_of(const product::Sdf& sdf, const Lattice& lattice,
+                                   double refinement) {
   std::array<std::vector<double>, 3> planes;
   std::array<int, 3> n{};
   for (int a = 0; a < 3; ++a) {
@@ -226,7 +227,7 @@ TriangleMesh net_mesh_of(const Sdf& sdf, const Lattice& lattice, double refineme
     }
   }
 
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   // Vertex of each cell's edges that cross the surface; -1: none.
   std::unordered_map<std::size_t, std::array<int, 12>> vertex_of;
   for (int k = 0; k + 1 < n[2]; ++k) {
@@ -304,4 +305,4 @@ TriangleMesh net_mesh_of(const Sdf& sdf, const Lattice& lattice, double refineme
   return mesh;
 }
 
-}  // namespace palmar
+}  // namespace palmar::tests

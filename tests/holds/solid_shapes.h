@@ -8,26 +8,26 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/parts/sdf_mesh_for_test.h"
 
-namespace palmar {
+namespace palmar::tests {
 
 /// Solids for tests as functions that are negative inside. Near the surface they are about the
 /// distance to it, mm; only the sign is relied on.
 using Vec2 = Eigen::Vector2d;
 
 /// Box with edges rounded by `radius`.
-Sdf sdf_rounded_box(const Vec3& middle, const Vec3& size, double radius);
+product::Sdf sdf_rounded_box(const Vec3& middle, const Vec3& size, double radius);
 /// Solid of revolution about z from a closed outline of (radius, z); corners at radius 0 are on the
 /// axis. Corners of the outline are rounded by `rounding` outwards.
-Sdf sdf_lathe(std::vector<Vec2> outline, double rounding = 0.0);
+product::Sdf sdf_lathe(std::vector<Vec2> outline, double rounding = 0.0);
 /// Closed outline in the plane of the axes `u` and `v`, from `low` to `high` along the third.
-Sdf sdf_extruded(std::vector<Vec2> outline, int u, int v, double low, double high);
+product::Sdf sdf_extruded(std::vector<Vec2> outline, int u, int v, double low, double high);
 /// Bar along a polyline whose radius changes evenly along each piece: one radius per point.
-Sdf sdf_bar(std::vector<Vec3> line, std::vector<double> radius);
+product::Sdf sdf_bar(std::vector<Vec3> line, std::vector<double> radius);
 /// The shape stretched along an axis about 0: where it was at 1 mm, it is at `factor` mm.
-Sdf sdf_stretched(const Sdf& shape, int axis, double factor);
+product::Sdf sdf_stretched(const product::Sdf& shape, int axis, double factor);
 /// Both, with a fillet of about `radius` where they meet.
-Sdf sdf_blended(const Sdf& a, const Sdf& b, double radius);
-Sdf sdf_common(const Sdf& a, const Sdf& b);  ///< what is inside both
+product::Sdf sdf_blended(const product::Sdf& a, const product::Sdf& b, double radius);
+product::Sdf sdf_common(const product::Sdf& a, const product::Sdf& b);  ///< what is inside both
 
 /// Smooth curve through points (Catmull, Rom 1974), `pieces` lines between each two of them.
 std::vector<Vec3> curve_through(const std::vector<Vec3>& points, int pieces = 8);
@@ -48,6 +48,7 @@ struct Lattice {
 /// Closed mesh of {sdf < 0} by surface nets (Gibson 1998): a vertex for each sheet of the surface
 /// in a cell, on the surface, and two triangles round each edge that crosses it. Walls may be as
 /// thin as a cell. `refinement`: 2 halves all steps.
-TriangleMesh net_mesh_of(const Sdf& sdf, const Lattice& lattice, double refinement = 1.0);
+geometry::TriangleMesh net_mesh_of(const product::Sdf& sdf, const Lattice& lattice,
+                                   double refinement = 1.0);
 
-}  // namespace palmar
+}  // namespace palmar::tests

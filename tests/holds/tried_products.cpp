@@ -18,7 +18,7 @@
 #include "palmar/records/product/product_file.h"
 #include "peoples_holds.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 const std::filesystem::path& scan_folder() {
@@ -31,17 +31,17 @@ bool is_made(const std::string& name) {
                      [&](const MadeShape& shape) { return shape.name == name; });
 }
 
-Product product_of(const std::string& name, const TriangleMesh& mesh) {
-  return make_product(name, mesh, UnitDecision{}, "made for a test");
+product::Product product_of(const std::string& name, const geometry::TriangleMesh& mesh) {
+  return product::make_product(name, mesh, product::UnitDecision{}, "made for a test");
 }
 
 // Mean length of an edge of triangles of this number and area, were they equilateral, mm.
-double mean_edge(const TriangleMesh& mesh) {
-  return std::sqrt(surface_area(mesh) / mesh.triangle_count() * 4.0 / std::sqrt(3.0));
+double mean_edge(const geometry::TriangleMesh& mesh) {
+  return std::sqrt(geometry::surface_area(mesh) / mesh.triangle_count() * 4.0 / std::sqrt(3.0));
 }
 
-TriangleMesh cut_in_four(const TriangleMesh& mesh) {
-  TriangleMesh fine;
+geometry::TriangleMesh cut_in_four(const geometry::TriangleMesh& mesh) {
+  geometry::TriangleMesh fine;
   fine.vertices = mesh.vertices;
   std::map<std::array<int, 2>, int> middle;
   const auto between = [&](int a, int b) {
@@ -78,30 +78,30 @@ std::vector<std::string> tried_products() {
   return names;
 }
 
-Product tried_product(const std::string& name) {
+product::Product tried_product(const std::string& name) {
   if (is_made(name)) {
     const MadeShape& shape = made_shape(name);
     return product_of(name, net_mesh_of(shape.solid, shape.lattice));
   }
   const std::filesystem::path file = scan_folder() / (name + ".obj");
   if (!std::filesystem::exists(file)) throw UsageError("product \"" + name + "\" doesn't exist");
-  return load_product(file, {.unit = LengthUnit::kMillimetre});
+  return records::load_product(file, {.unit = geometry::LengthUnit::kMillimetre});
 }
 
-Product moved(const Product& product, const Rigid3& motion) {
-  TriangleMesh mesh = product.mesh;
+product::Product moved(const product::Product& product, const geometry::Rigid3& motion) {
+  geometry::TriangleMesh mesh = product.mesh;
   for (Vec3& p : mesh.vertices) p = motion * p;
   return product_of(product.name, mesh);
 }
 
-Product mirrored(const Product& product) {
-  TriangleMesh mesh = product.mesh;
+product::Product mirrored(const product::Product& product) {
+  geometry::TriangleMesh mesh = product.mesh;
   for (Vec3& p : mesh.vertices) p.x() = -p.x();
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   return product_of(product.name, mesh);
 }
 
-Product shuffled(const Product& product) {
+product::Product shuffled(const product::Product& product) {
   std::mt19937 random(20);  // NOLINT: the same order every time
   // Not std::shuffle, whose result the standard leaves open.
   const auto order = [&](int count) {
@@ -112,7 +112,7 @@ Product shuffled(const Product& product) {
     }
     return places;
   };
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   const std::vector<int> place = order(product.mesh.vertex_count());
   mesh.vertices.resize(place.size());
   for (std::size_t v = 0; v < place.size(); ++v) {
@@ -125,16 +125,16 @@ Product shuffled(const Product& product) {
   return product_of(product.name, mesh);
 }
 
-Product with_finer_mesh(const std::string& name) {
+product::Product with_finer_mesh(const std::string& name) {
   if (!is_made(name)) return product_of(name, cut_in_four(tried_product(name).mesh));
   const MadeShape& shape = made_shape(name);
   return product_of(name, net_mesh_of(shape.solid, shape.lattice, 2.0));
 }
 
-Product with_coarser_mesh(const std::string& name) {
-  const Product product = tried_product(name);
-  return product_of(name,
-                    remesh(product.mesh, {.edge_length = 2.0 * mean_edge(product.mesh)}).mesh);
+product::Product with_coarser_mesh(const std::string& name) {
+  const product::Product product = tried_product(name);
+  return product_of(
+      name, geometry::remesh(product.mesh, {.edge_length = 2.0 * mean_edge(product.mesh)}).mesh);
 }
 
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -8,7 +8,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::tests {
 
 /// The scanned products of ../shared are there.
 bool has_scans();
@@ -16,19 +16,19 @@ bool has_scans();
 std::vector<std::string> tried_products();
 
 /// A made or scanned product by name. Throws UsageError for an unknown one.
-Product tried_product(const std::string& name);
+product::Product tried_product(const std::string& name);
 
 // The same thing in another way.
 
-Product moved(const Product& product, const Rigid3& motion);
+product::Product moved(const product::Product& product, const geometry::Rigid3& motion);
 /// x -> -x, triangles turned so that they stay counter-clockwise seen from outside.
-Product mirrored(const Product& product);
+product::Product mirrored(const product::Product& product);
 /// Triangles and vertices in another order.
-Product shuffled(const Product& product);
+product::Product shuffled(const product::Product& product);
 /// Meshed with edges half as long: made products anew from their solid, scans by cutting each
 /// triangle into four.
-Product with_finer_mesh(const std::string& name);
+product::Product with_finer_mesh(const std::string& name);
 /// With edges twice as long (remesh()).
-Product with_coarser_mesh(const std::string& name);
+product::Product with_coarser_mesh(const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -16,10 +16,10 @@ class HoldArguments {
   void add_to(CLI::App& verb);
   /// What was given, the file of a hold read. Throws UsageError naming the option, InputError
   /// naming the file.
-  HoldRequest request() const { return hold_request(words_); }
+  grasp::HoldRequest request() const { return workflow::hold_request(words_); }
 
  private:
-  HoldWords words_;
+  workflow::HoldWords words_;
 };
 
 }  // namespace palmar::cli

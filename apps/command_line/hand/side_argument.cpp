@@ -6,11 +6,11 @@
 
 namespace palmar::cli {
 
-Side parse_side(const std::string& text) {
+hand::Side parse_side(const std::string& text) {
   if (text != "right" && text != "left") {
     throw UsageError("--side: \"" + text + "\" is neither right nor left");
   }
-  return text == "left" ? Side::kLeft : Side::kRight;
+  return text == "left" ? hand::Side::kLeft : hand::Side::kRight;
 }
 
 }  // namespace palmar::cli

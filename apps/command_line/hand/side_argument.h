@@ -9,6 +9,6 @@
 namespace palmar::cli {
 
 /// "right" or "left"; throws UsageError naming --side.
-Side parse_side(const std::string& text);
+hand::Side parse_side(const std::string& text);
 
 }  // namespace palmar::cli

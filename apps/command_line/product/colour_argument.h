@@ -10,6 +10,6 @@ namespace palmar::cli {
 
 /// "#1e7a3c", or green, blue, red, black, purple or orange as pens have them. Throws UsageError
 /// naming the option.
-Srgb parse_colour(const std::string& option, const std::string& text);
+geometry::Srgb parse_colour(const std::string& option, const std::string& text);
 
 }  // namespace palmar::cli

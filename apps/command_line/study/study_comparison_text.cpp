@@ -14,22 +14,22 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json interval_object(const Interval& interval) { return {interval.low, interval.high}; }
+Json interval_object(const statistics::Interval& interval) { return {interval.low, interval.high}; }
 
-Json pair_object(const StudyPlan& plan, const ProductPair& pair) {
+Json pair_object(const study::StudyPlan& plan, const study::ProductPair& pair) {
   const auto name = [&](int product) {
     return plan.products[static_cast<std::size_t>(product)].name;
   };
   Json left_out = Json::array();
-  for (const LeftOutHands& one : pair.left_out) {
+  for (const study::LeftOutHands& one : pair.left_out) {
     left_out.push_back(
         {{"product", name(one.product)}, {"cause", one.cause}, {"hands", one.hands}});
   }
   Json object = {{"first", name(pair.first)}, {"second", name(pair.second)},
                  {"hands", pair.hands},       {"pairs", pair.pairs},
                  {"left_out", left_out},      {"verdict", name_of(pair.verdict)}};
-  if (pair.verdict == DifferenceVerdict::kTooFewPairs) return object;
-  const PairedTest& t = pair.t_test;
+  if (pair.verdict == study::DifferenceVerdict::kTooFewPairs) return object;
+  const statistics::PairedTest& t = pair.t_test;
   object["lower_in_second"] = pair.lower_in_second;
   object["mean_first"] = pair.mean_first;
   object["mean_second"] = pair.mean_second;
@@ -46,16 +46,16 @@ Json pair_object(const StudyPlan& plan, const ProductPair& pair) {
   return object;
 }
 
-Json product_object(const StudyProduct& product, const StudyQuantity& quantity,
-                    const ProductStatistics& statistics) {
+Json product_object(const study::StudyProduct& product, const study::StudyQuantity& quantity,
+                    const study::ProductStatistics& statistics) {
   Json outcomes = Json::object();
-  for (int k = 0; k < kStudyOutcomes; ++k) {
+  for (int k = 0; k < study::kStudyOutcomes; ++k) {
     const int hands = statistics.outcomes.of[static_cast<std::size_t>(k)];
-    if (hands > 0) outcomes[name_of(static_cast<StudyOutcome>(k))] = hands;
+    if (hands > 0) outcomes[name_of(static_cast<study::StudyOutcome>(k))] = hands;
   }
   if (statistics.outcomes.not_run > 0) outcomes["not_run"] = statistics.outcomes.not_run;
   Json object = {{"product", product.name}, {"outcomes", outcomes}};
-  if (const QuantitySummary* one = summary_of(statistics, quantity.key)) {
+  if (const study::QuantitySummary* one = study::summary_of(statistics, quantity.key)) {
     object["n"] = one->summary.n;
     object["mean"] = one->summary.mean;
     object["sd"] = one->summary.sd;
@@ -70,18 +70,19 @@ Json product_object(const StudyProduct& product, const StudyQuantity& quantity,
 
 }  // namespace
 
-Json comparison_object(const StudyCompareOutcome& outcome, const ComparisonOptions& options) {
-  const StudyPlan& plan = outcome.results.plan;
+Json comparison_object(const workflow::StudyCompareOutcome& outcome,
+                       const study::ComparisonOptions& options) {
+  const study::StudyPlan& plan = outcome.results.plan;
   Json conditions = Json::array();
-  for (const ComparedCondition& condition : outcome.conditions) {
+  for (const workflow::ComparedCondition& condition : outcome.conditions) {
     Json compared = Json::array();
-    for (const ComparedQuantity& one : condition.quantities) {
+    for (const workflow::ComparedQuantity& one : condition.quantities) {
       Json products = Json::array();
       for (std::size_t p = 0; p < one.products.size(); ++p) {
         products.push_back(product_object(plan.products[p], one.quantity, one.products[p]));
       }
       Json pairs = Json::array();
-      for (const ComparedPair& compared_pair : one.pairs) {
+      for (const workflow::ComparedPair& compared_pair : one.pairs) {
         pairs.push_back(pair_object(plan, compared_pair.pair));
         if (const auto& forces = compared_pair.forces) {
           pairs.back()["mean_grip_forces_n"] = {forces->first, forces->second};
@@ -96,7 +97,7 @@ Json comparison_object(const StudyCompareOutcome& outcome, const ComparisonOptio
     conditions.push_back(
         {{"condition", title_of(plan, condition.condition)}, {"quantities", compared}});
   }
-  const StudyAnswer& answer = outcome.answer;
+  const report::StudyAnswer& answer = outcome.answer;
   const auto name_or_null = [&](const std::optional<int>& product) {
     return product ? Json(plan.products[static_cast<std::size_t>(*product)].name) : Json(nullptr);
   };
@@ -113,17 +114,17 @@ Json comparison_object(const StudyCompareOutcome& outcome, const ComparisonOptio
           {"palmar", version()}};
 }
 
-std::string answer_text(const StudyAnswer& answer) {
+std::string answer_text(const report::StudyAnswer& answer) {
   std::string text = answer.sentence + "\n";
   for (const std::string& reason : answer.reasons) text += "  " + reason + "\n";
   if (!answer.command.empty()) text += answer.next + "\n  " + answer.command + "\n";
   return text;
 }
 
-std::string comparison_text(const StudyCompareOutcome& outcome) {
-  const StudyPlan& plan = outcome.results.plan;
+std::string comparison_text(const workflow::StudyCompareOutcome& outcome) {
+  const study::StudyPlan& plan = outcome.results.plan;
   std::size_t width = 7;
-  for (const StudyProduct& one : plan.products) width = std::max(width, one.name.size());
+  for (const study::StudyProduct& one : plan.products) width = std::max(width, one.name.size());
   std::string text = answer_text(outcome.answer) + "\n";
   for (const auto& [condition, quantities] : outcome.conditions) {
     text += title_of(plan, condition) + "\n";
@@ -134,7 +135,7 @@ std::string comparison_text(const StudyCompareOutcome& outcome) {
                           width, "hands", "mean", "SD", "P5", "median", "P95");
       for (std::size_t p = 0; p < products.size(); ++p) {
         const std::string& name = plan.products[p].name;
-        const QuantitySummary* one = summary_of(products[p], quantity.key);
+        const study::QuantitySummary* one = study::summary_of(products[p], quantity.key);
         if (one == nullptr) {
           text += fmt::format("    {:<{}}  {:>5}\n", name, width, 0);
           continue;
@@ -144,11 +145,11 @@ std::string comparison_text(const StudyCompareOutcome& outcome) {
                             one->p5, one->summary.median, one->p95);
       }
       for (const auto& [pair, forces] : pairs) {
-        text += "    " + pair_words(plan, quantity, pair) + "\n";
+        text += "    " + report::pair_words(plan, quantity, pair) + "\n";
         const std::string force =
-            grip_force_words(outcome.results, condition, pair.first, pair.second);
+            report::grip_force_words(outcome.results, condition, pair.first, pair.second);
         if (!force.empty()) text += "      " + force + "\n";
-        const std::string left_out = left_out_words(plan, pair);
+        const std::string left_out = report::left_out_words(plan, pair);
         if (!left_out.empty()) text += "      left out: " + left_out + "\n";
       }
     }

@@ -11,10 +11,10 @@ namespace palmar::cli {
 
 // Products compared over the same hands: per condition, per quantity.
 
-nlohmann::ordered_json comparison_object(const StudyCompareOutcome& outcome,
-                                         const ComparisonOptions& options);
+nlohmann::ordered_json comparison_object(const workflow::StudyCompareOutcome& outcome,
+                                         const study::ComparisonOptions& options);
 /// The answer, why, and what to do next.
-std::string answer_text(const StudyAnswer& answer);
-std::string comparison_text(const StudyCompareOutcome& outcome);
+std::string answer_text(const report::StudyAnswer& answer);
+std::string comparison_text(const workflow::StudyCompareOutcome& outcome);
 
 }  // namespace palmar::cli

@@ -4,18 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "hands/person_records/scan_record_json.h"
+#include "hands/person_workflow/hand_from_mri.h"
+#include "hands/person_workflow/steps/hand_output.h"
 #include "mri/surface_arguments.h"
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
-#include "hands/person_records/scan_record_json.h"
-#include "hands/person_workflow/steps/hand_output.h"
-#include "hands/person_workflow/hand_from_mri.h"
 
 namespace palmar::cli {
 namespace {
 
 struct FromMriArguments {
-  HandFromMriRequest request;
+  person_workflow::HandFromMriRequest request;
   std::vector<std::string> series, skip;
   std::string unit;
   SurfaceArguments surfaces;
@@ -24,10 +24,10 @@ struct FromMriArguments {
 };
 
 /// Throws UsageError naming the option and the nearest posture.
-ScanPosture posture_called(const std::string& name, const std::string& option) {
+hand::ScanPosture posture_called(const std::string& name, const std::string& option) {
   std::vector<std::string> names;
-  for (int k = 0; k < kScanPostureCount; ++k) {
-    const auto posture = static_cast<ScanPosture>(k);
+  for (int k = 0; k < hand::kScanPostureCount; ++k) {
+    const auto posture = static_cast<hand::ScanPosture>(k);
     if (name == name_of(posture)) return posture;
     names.emplace_back(name_of(posture));
   }
@@ -38,7 +38,7 @@ ScanPosture posture_called(const std::string& name, const std::string& option) {
 }
 
 /// "3=thumb_flexion". Throws UsageError.
-SeriesPosture parse_series(const std::string& text) {
+person_workflow::SeriesPosture parse_series(const std::string& text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos || equals == 0) {
     throw UsageError("--series: \"" + text +
@@ -52,19 +52,19 @@ std::string millimetres(const std::optional<double>& value) {
   return value ? fmt::format("{:.2f}", *value) : "-";
 }
 
-std::string text_of(const ScanRecord& record) {
-  const HandDimensions& d = record.made.hand.dimensions;
+std::string text_of(const capture::ScanRecord& record) {
+  const hand::HandDimensions& d = record.made.hand.dimensions;
   std::string text = fmt::format(
       "{} hand, length {:.1f} mm, circumference {:.1f} mm, width {:.1f} mm\n"
       "skin: {:.2f} mm from the scan in the mean, 95 % within {:.2f} mm\n",
       name_of(record.made.hand.side), d.hand_length, d.hand_circumference, d.hand_width,
       record.made.registration_mean, record.made.registration_p95);
-  const std::vector<ErrorRow> rows = error_rows(record.joints.errors);
+  const std::vector<capture::ErrorRow> rows = capture::error_rows(record.joints.errors);
   if (!rows.empty()) {
     text += fmt::format("bones, mean distance, mm\n  {:<17} {:<24} {:>6} {:>11} {:>16}\n",
                         "posture", "bones", "ICP", "fixed axes", "CMC interpolated");
   }
-  for (const ErrorRow& row : rows) {
+  for (const capture::ErrorRow& row : rows) {
     text += fmt::format("  {:<17} {:<24} {:>6.2f} {:>11.2f} {:>16}\n", name_of(row.posture),
                         row.bones, row.icp, row.single_axis, millimetres(row.interpolated_cmc));
   }
@@ -73,13 +73,13 @@ std::string text_of(const ScanRecord& record) {
     text += fmt::format("  {:<17} {:>15} {:>14} {:>10}\n", "posture", "skinning alone",
                         "markers alone", "corrected");
   }
-  for (const SkinError& error : record.made.skin_errors) {
+  for (const capture::SkinError& error : record.made.skin_errors) {
     text += fmt::format("  {:<17} {:>15.2f} {:>14} {:>10}\n", name_of(error.posture),
                         error.skinning_only, millimetres(error.by_markers),
                         millimetres(error.corrected));
   }
   if (record.contact) {
-    const ContactOverlap& c = record.contact->overlap;
+    const capture::ContactOverlap& c = record.contact->overlap;
     text += fmt::format(
         "contact with {}, skin within {:g} mm: hand {:.0f} mm^2, scan {:.0f} mm^2; of the product, "
         "{:.0f} % of what the scan touches is touched by the hand, {:.0f} % the other way round\n",
@@ -90,8 +90,8 @@ std::string text_of(const ScanRecord& record) {
 }
 
 int run(const FromMriArguments& arguments, const Context& context) {
-  HandFromMriRequest request = arguments.request;
-  check_hand_output(request.out);
+  person_workflow::HandFromMriRequest request = arguments.request;
+  person_workflow::check_hand_output(request.out);
   request.surfaces = arguments.surfaces.options();
   if (!request.product.empty()) request.unit = parse_unit(arguments.unit);
   for (const std::string& text : arguments.series) request.series.push_back(parse_series(text));
@@ -102,13 +102,15 @@ int run(const FromMriArguments& arguments, const Context& context) {
   request.language = language_named(arguments.language);
   request.setting_names = option_named;
   request.note = [&context](const std::string& text) { note(context.common, text); };
-  const HandFromMriOutcome made = make_hand_from_mri(request, make_progress(context.common));
+  const person_workflow::HandFromMriOutcome made =
+      person_workflow::make_hand_from_mri(request, make_progress(context.common));
   finish_progress();
   if (request.looks_only) {
     note(context.common, "wrote " + made.found + " and found.toml beside it; no hand was made");
     return 0;
   }
-  print(context.common.json ? scan_record_json(made.record) + "\n" : text_of(made.record));
+  print(context.common.json ? person_records::scan_record_json(made.record) + "\n"
+                            : text_of(made.record));
   note(context.common, made.report.empty() ? "wrote " + request.out
                                            : "wrote " + request.out + "; report: " + made.report +
                                                  "; what each step made stays in " + made.work);

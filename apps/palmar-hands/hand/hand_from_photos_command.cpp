@@ -10,19 +10,19 @@ namespace palmar::cli {
 namespace {
 
 struct FromPhotosArguments {
-  HandFromPhotosRequest request;
+  person_workflow::HandFromPhotosRequest request;
   std::vector<std::string> posture;
   PhotoMeshArguments mesh;
   ScanHandArguments hand;
 };
 
 int run_from_photos(const FromPhotosArguments& arguments, const Context& context) {
-  HandFromPhotosRequest request = arguments.request;
+  person_workflow::HandFromPhotosRequest request = arguments.request;
   request.hand = arguments.hand.options();
   request.mesh = arguments.mesh.options();
   request.posture = parse_file_postures(arguments.posture);
   request.note = [&context](const std::string& text) { note(context.common, text); };
-  print_scanned_hand(make_hand_from_photos(request, make_progress(context.common)),
+  print_scanned_hand(person_workflow::make_hand_from_photos(request, make_progress(context.common)),
                      request.hand.out, context);
   return 0;
 }

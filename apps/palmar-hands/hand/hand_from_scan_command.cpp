@@ -9,25 +9,25 @@ namespace palmar::cli {
 namespace {
 
 struct FromScanArguments {
-  HandFromScanRequest request;
+  person_workflow::HandFromScanRequest request;
   std::vector<std::string> posture;
   std::string unit, pick_crease, pick_dot;
   ScanHandArguments hand;
 };
 
 int run_from_scan(const FromScanArguments& arguments, const Context& context) {
-  HandFromScanRequest request = arguments.request;
+  person_workflow::HandFromScanRequest request = arguments.request;
   request.hand = arguments.hand.options();
   request.posture = parse_file_postures(arguments.posture);
   request.unit = parse_unit(arguments.unit);
   if (!arguments.pick_crease.empty()) {
-    request.pick_crease = parse_vector("--pick-crease", arguments.pick_crease);
+    request.pick_crease = workflow::parse_vector("--pick-crease", arguments.pick_crease);
   }
   if (!arguments.pick_dot.empty()) {
-    request.pick_dot = parse_vector("--pick-dot", arguments.pick_dot);
+    request.pick_dot = workflow::parse_vector("--pick-dot", arguments.pick_dot);
   }
-  print_scanned_hand(make_hand_from_scan(request, make_progress(context.common)), request.hand.out,
-                     context);
+  print_scanned_hand(person_workflow::make_hand_from_scan(request, make_progress(context.common)),
+                     request.hand.out, context);
   return 0;
 }
 

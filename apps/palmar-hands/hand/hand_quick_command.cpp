@@ -7,46 +7,47 @@
 #include <optional>
 
 #include "hand/side_argument.h"
-#include "palmar/core/error.h"
 #include "hands/person_workflow/hand_quick.h"
+#include "palmar/core/error.h"
 
 namespace palmar::cli {
 namespace {
 
 struct QuickArguments {
-  HandQuickRequest request;
+  person_workflow::HandQuickRequest request;
   std::string side;
   std::optional<double> length, circumference, width;  // mm
   std::vector<std::string> dimensions;
 };
 
-std::vector<SizedDimension> measured_sizes(const QuickArguments& arguments) {
-  std::vector<SizedDimension> sizes;
-  const auto add = [&](HandDimension dimension, const std::optional<double>& value) {
+std::vector<hand::SizedDimension> measured_sizes(const QuickArguments& arguments) {
+  std::vector<hand::SizedDimension> sizes;
+  const auto add = [&](hand::HandDimension dimension, const std::optional<double>& value) {
     if (value) sizes.push_back({dimension, *value});
   };
-  add({DimensionKind::kHandLength}, arguments.length);
-  add({DimensionKind::kHandCircumference}, arguments.circumference);
-  add({DimensionKind::kHandWidth}, arguments.width);
+  add({hand::DimensionKind::kHandLength}, arguments.length);
+  add({hand::DimensionKind::kHandCircumference}, arguments.circumference);
+  add({hand::DimensionKind::kHandWidth}, arguments.width);
   for (const std::string& setting : arguments.dimensions) {
     const std::size_t equals = setting.find('=');
-    const auto dimension = hand_dimension_named(setting.substr(0, equals));
+    const auto dimension = hand::hand_dimension_named(setting.substr(0, equals));
     if (equals == std::string::npos || !dimension) {
       throw UsageError("--dimension: \"" + setting +
                        "\" is not of the form index_distal_width=14 "
                        "(mm); palmar hand measure lists the names");
     }
-    add(*dimension, parse_list("--dimension", setting.substr(equals + 1)).front());
+    add(*dimension, workflow::parse_list("--dimension", setting.substr(equals + 1)).front());
   }
   return sizes;
 }
 
-std::string text_of(const PersonEstimate& estimate, const Population& population) {
+std::string text_of(const population::PersonEstimate& estimate,
+                    const population::Population& population) {
   std::string text = fmt::format("{:<26} {:>8} {:>8}  (mm; 95 of 100 such hands are within +-)\n",
                                  "dimension", "value", "+-");
-  for (const EstimatedDimension& one : estimate.dimensions) {
+  for (const population::EstimatedDimension& one : estimate.dimensions) {
     text += fmt::format("{:<26} {:8.1f} {:8.1f}  {}\n", name_of(one.dimension), one.value,
-                        1.96 * one.sd, how_known(one));
+                        1.96 * one.sd, person_workflow::how_known(one));
   }
   if (population.strata.size() > 1) {
     text += "as among";
@@ -60,12 +61,12 @@ std::string text_of(const PersonEstimate& estimate, const Population& population
 }
 
 int run_quick(const QuickArguments& arguments, const Context& context) {
-  HandQuickRequest request = arguments.request;
+  person_workflow::HandQuickRequest request = arguments.request;
   request.sizes = measured_sizes(arguments);
   if (!arguments.side.empty()) request.side = parse_side(arguments.side);
   request.note = [&context](const std::string& text) { note(context.common, text); };
-  const HandQuickOutcome outcome = make_hand_quick(request);
-  print(context.common.json ? hand_quick_json(outcome)
+  const person_workflow::HandQuickOutcome outcome = person_workflow::make_hand_quick(request);
+  print(context.common.json ? person_workflow::hand_quick_json(outcome)
                             : text_of(outcome.person.estimate, outcome.population));
   return 0;
 }

@@ -5,18 +5,18 @@
 #include <fmt/format.h>
 
 #include "hand/side_argument.h"
-#include "palmar/core/error.h"
 #include "hands/person_records/hand_from_scan_json.h"
 #include "hands/person_workflow/steps/hand_output.h"
 #include "hands/person_workflow/steps/posture_files.h"
+#include "palmar/core/error.h"
 #include "product/colour_argument.h"
 #include "text.h"
 
 namespace palmar::cli {
 namespace {
 
-std::string scanned_hand_text(const HandFromScan& made) {
-  const HandDimensions& d = made.scanned.hand.dimensions;
+std::string scanned_hand_text(const capture::HandFromScan& made) {
+  const hand::HandDimensions& d = made.scanned.hand.dimensions;
   const std::string text = fmt::format(
       "{} hand, length {:.1f} mm, circumference {:.1f} mm, width {:.1f} mm, thickness {:.1f} mm\n"
       "skin: {:.2f} mm from the scan in the mean, 95 % within {:.2f} mm\n",
@@ -57,9 +57,9 @@ void ScanHandArguments::add_to(CLI::App& verb, const std::string& work_help) {
   verb.add_option("--work", options_.work, work_help);
 }
 
-ScanHandOptions ScanHandArguments::options() const {
-  ScanHandOptions options = options_;
-  check_hand_output(options.out);
+person_workflow::ScanHandOptions ScanHandArguments::options() const {
+  person_workflow::ScanHandOptions options = options_;
+  person_workflow::check_hand_output(options.out);
   if (!side_.empty()) options.side = parse_side(side_);
   options.inks.crease = parse_colour("--crease-colour", crease_);
   options.inks.dot = parse_colour("--dot-colour", dot_);
@@ -69,12 +69,14 @@ ScanHandOptions ScanHandArguments::options() const {
   return options;
 }
 
-std::map<std::string, ScanPosture> parse_file_postures(const std::vector<std::string>& stated) {
-  std::map<std::string, ScanPosture> postures;
+std::map<std::string, hand::ScanPosture> parse_file_postures(
+    const std::vector<std::string>& stated) {
+  std::map<std::string, hand::ScanPosture> postures;
   for (const std::string& text : stated) {
     const auto cut = text.rfind('=');
-    const auto posture =
-        cut == std::string::npos ? std::nullopt : posture_in_name(text.substr(cut + 1));
+    const auto posture = cut == std::string::npos
+                             ? std::nullopt
+                             : person_workflow::posture_in_name(text.substr(cut + 1));
     if (!posture) {
       throw UsageError("--posture: \"" + text +
                        "\" isn't FILE=reference, finger_flexion, finger_abduction, thumb_flexion, "
@@ -85,7 +87,7 @@ std::map<std::string, ScanPosture> parse_file_postures(const std::vector<std::st
   return postures;
 }
 
-void print_scanned_hand(const ScanHandOutcome& outcome, const std::string& out,
+void print_scanned_hand(const person_workflow::ScanHandOutcome& outcome, const std::string& out,
                         const Context& context) {
   finish_progress();
   for (const std::string& text : outcome.made.notes) note(context.common, text);
@@ -93,7 +95,7 @@ void print_scanned_hand(const ScanHandOutcome& outcome, const std::string& out,
     note(context.common, "wrote " + outcome.found + " and found.toml beside it; no hand was made");
     return;
   }
-  print(context.common.json ? hand_from_scan_json(outcome.made) + "\n"
+  print(context.common.json ? person_records::hand_from_scan_json(outcome.made) + "\n"
                             : scanned_hand_text(outcome.made));
   note(context.common,
        "wrote " + out + (outcome.report.empty() ? "" : "; report: " + outcome.report));

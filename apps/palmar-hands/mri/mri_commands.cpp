@@ -4,10 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "hands/person_workflow/steps/mri_steps.h"
 #include "mri/mri_commands.h"
 #include "mri/mri_step_commands.h"
 #include "palmar/hand/person/scan_posture.h"
-#include "hands/person_workflow/steps/mri_steps.h"
 
 namespace palmar::cli {
 namespace {
@@ -17,12 +17,12 @@ using Json = nlohmann::ordered_json;
 Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 int run_series(const std::string& folder, const Context& context) {
-  const std::vector<DicomSeries> all = find_dicom_series(folder);
+  const std::vector<images::DicomSeries> all = images::find_dicom_series(folder);
   Json list = Json::array();
   std::string text = fmt::format("{:>6}  {:<24} {:<8} {:<4} {:>16}  {}\n", "number", "description",
                                  "modality", "side", "slices, pixels", "posture");
-  for (const DicomSeries& series : all) {
-    const auto posture = scan_posture_in(series.description);
+  for (const images::DicomSeries& series : all) {
+    const auto posture = hand::scan_posture_in(series.description);
     const std::string posture_name = posture ? std::string(name_of(*posture)) : "";
     list.push_back({{"number", series.number},
                     {"description", series.description},
@@ -49,18 +49,18 @@ int run_series(const std::string& folder, const Context& context) {
 
 struct InfoArguments {
   std::string image;
-  SeriesChoice choice;
+  images::SeriesChoice choice;
 };
 
 int run_info(const InfoArguments& arguments, const Context& context) {
-  const MriImageInfo info =
-      describe_mri_image(arguments.image, arguments.choice, make_progress(context.common));
+  const person_workflow::MriImageInfo info = person_workflow::describe_mri_image(
+      arguments.image, arguments.choice, make_progress(context.common));
   finish_progress();
-  const ImageFile& file = info.file;
+  const images::ImageFile& file = info.file;
   for (const std::string& text : file.notes) note(context.common, text);
   for (const std::string& text : file.odd_slices) note(context.common, text);
   if (!info.no_hand.empty()) note(context.common, info.no_hand + "; air and noise aren't known");
-  const VolumeGrid& grid = file.image.grid;
+  const imaging::VolumeGrid& grid = file.image.grid;
   const auto number = [](const std::optional<double>& value) {
     return value ? Json(*value) : Json(nullptr);
   };

@@ -24,17 +24,17 @@ void SurfaceArguments::add_to(CLI::App& verb) {
       ->check(CLI::IsMember({"right", "left"}));
 }
 
-SurfaceOptions SurfaceArguments::options() const {
-  SurfaceOptions options = options_;
+capture::SurfaceOptions SurfaceArguments::options() const {
+  capture::SurfaceOptions options = options_;
   options.corrects_bias = !keeps_bias_;
   options.side = chosen_side();
   options.check();
   return options;
 }
 
-std::optional<Side> SurfaceArguments::chosen_side() const {
+std::optional<hand::Side> SurfaceArguments::chosen_side() const {
   if (side_.empty()) return std::nullopt;
-  return side_ == "left" ? Side::kLeft : Side::kRight;
+  return side_ == "left" ? hand::Side::kLeft : hand::Side::kRight;
 }
 
 }  // namespace palmar::cli

@@ -14,11 +14,11 @@ namespace palmar::cli {
 class SurfaceArguments {
  public:
   void add_to(CLI::App& verb);
-  SurfaceOptions options() const;  ///< throws UsageError naming the option
-  std::optional<Side> chosen_side() const;
+  capture::SurfaceOptions options() const;  ///< throws UsageError naming the option
+  std::optional<hand::Side> chosen_side() const;
 
  private:
-  SurfaceOptions options_;
+  capture::SurfaceOptions options_;
   std::string side_;
   bool keeps_bias_ = false;
 };

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct PhantomArguments {
-  PhantomMriRequest request;
+  person_workflow::PhantomMriRequest request;
   std::string side = "right", offset = "0,0,0";
   std::vector<std::string> postures;
   double oblique_deg = 0.0;
@@ -28,28 +28,29 @@ struct PhantomArguments {
 };
 
 int run_mri(const PhantomArguments& arguments, const Context& context) {
-  PhantomMriRequest request = arguments.request;
+  person_workflow::PhantomMriRequest request = arguments.request;
   request.person.seed = context.common.seed;
   request.person.has_fixture = !arguments.no_fixture;
   if (arguments.is_free) {
-    request.person.dispersion = kFreePerson;
+    request.person.dispersion = phantom::kFreePerson;
     // What a field of view of 200 mm shows.
-    request.person.dispersion.shortest = PersonDispersion{}.shortest;
-    request.person.dispersion.longest = PersonDispersion{}.longest;
+    request.person.dispersion.shortest = phantom::PersonDispersion{}.shortest;
+    request.person.dispersion.longest = phantom::PersonDispersion{}.longest;
   }
   if (arguments.no_markers) request.person.markers = 0;
   request.person.side = parse_side(arguments.side);
   request.grid.oblique = arguments.oblique_deg * std::numbers::pi / 180.0;
-  request.grid.offset = parse_vector("--offset-mm", arguments.offset);
+  request.grid.offset = workflow::parse_vector("--offset-mm", arguments.offset);
   request.check();
   request.postures = chosen_postures(arguments.postures);
   request.note = [&context](const std::string& text) { note(context.common, text); };
-  const PhantomMriOutcome outcome = make_phantom_mri(request, make_progress(context.common));
+  const person_workflow::PhantomMriOutcome outcome =
+      person_workflow::make_phantom_mri(request, make_progress(context.common));
   finish_progress();
   Json scans = Json::array();
   std::string text;
-  for (const PhantomMriOutcome::Series& one : outcome.series) {
-    const VolumeGrid& grid = one.grid;
+  for (const person_workflow::PhantomMriOutcome::Series& one : outcome.series) {
+    const imaging::VolumeGrid& grid = one.grid;
     scans.push_back({{"posture", name_of(one.posture)},
                      {"series", one.folder},
                      {"size", grid.size},

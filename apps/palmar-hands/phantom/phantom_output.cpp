@@ -11,7 +11,7 @@
 
 namespace palmar::cli {
 
-void print_made_scans(const Context& context, const PhantomPerson& person,
+void print_made_scans(const Context& context, const person_workflow::PhantomPerson& person,
                       const nlohmann::ordered_json& scans, const std::string& text) {
   if (!context.common.json) return print(text + fmt::format("truth: {}\n", person.truth));
   const nlohmann::ordered_json json = {{"subject", person.name},
@@ -22,12 +22,12 @@ void print_made_scans(const Context& context, const PhantomPerson& person,
   print(json.dump(2) + "\n");
 }
 
-std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names) {
+std::vector<hand::ScanPosture> chosen_postures(const std::vector<std::string>& names) {
   std::vector<std::string> all;
-  for (int p = 0; p < kScanPostureCount; ++p) {
-    all.emplace_back(name_of(static_cast<ScanPosture>(p)));
+  for (int p = 0; p < hand::kScanPostureCount; ++p) {
+    all.emplace_back(name_of(static_cast<hand::ScanPosture>(p)));
   }
-  std::vector<ScanPosture> chosen;
+  std::vector<hand::ScanPosture> chosen;
   for (const std::string& name : names) {
     const auto found = std::find(all.begin(), all.end(), name);
     if (found == all.end()) {
@@ -37,7 +37,7 @@ std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names) 
                                        ? fmt::format("{} are allowed", fmt::join(all, ", "))
                                        : "did you mean " + nearest + "?"));
     }
-    chosen.push_back(static_cast<ScanPosture>(found - all.begin()));
+    chosen.push_back(static_cast<hand::ScanPosture>(found - all.begin()));
   }
   return chosen;
 }

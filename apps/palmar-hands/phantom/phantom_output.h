@@ -13,12 +13,12 @@ namespace palmar::cli {
 
 /// Says what `palmar phantom` made: `text`, a line per scan, and where the truth lies; or all as
 /// JSON with `scans`.
-void print_made_scans(const Context& context, const PhantomPerson& person,
+void print_made_scans(const Context& context, const person_workflow::PhantomPerson& person,
                       const nlohmann::ordered_json& scans, const std::string& text);
 
 /// Postures of the given names; none without names. Throws UsageError naming --posture and
 /// the nearest name.
-std::vector<ScanPosture> chosen_postures(const std::vector<std::string>& names);
+std::vector<hand::ScanPosture> chosen_postures(const std::vector<std::string>& names);
 
 /// Of --free, which all verbs of palmar phantom have.
 inline constexpr const char* kFreeHelp =

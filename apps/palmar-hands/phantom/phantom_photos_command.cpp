@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "hand/side_argument.h"
-#include "palmar/core/error.h"
 #include "hands/person_workflow/phantom/phantom_photos.h"
+#include "palmar/core/error.h"
 #include "phantom/phantom_output.h"
 #include "product/colour_argument.h"
 
@@ -16,27 +16,31 @@ namespace palmar::cli {
 namespace {
 
 struct PhantomPhotosArguments {
-  PhantomPhotosRequest request;
-  std::string side = "right", posture = std::string(name_of(PhantomPhotosRequest{}.posture));
+  person_workflow::PhantomPhotosRequest request;
+  std::string side = "right",
+              posture = std::string(name_of(person_workflow::PhantomPhotosRequest{}.posture));
   std::string skin = "#cc9980";
   std::string block;  ///< edges; empty: the hand
 };
 
-ScanPosture posture_named(const std::string& name) {
-  for (int p = 0; p < kScanPostureCount; ++p) {
-    if (name_of(static_cast<ScanPosture>(p)) == name) return static_cast<ScanPosture>(p);
+hand::ScanPosture posture_named(const std::string& name) {
+  for (int p = 0; p < hand::kScanPostureCount; ++p) {
+    if (name_of(static_cast<hand::ScanPosture>(p)) == name)
+      return static_cast<hand::ScanPosture>(p);
   }
   throw UsageError("--posture: \"" + name + "\" is no posture of palmar phantom mri");
 }
 
 int run_photos(const PhantomPhotosArguments& arguments, const Context& context) {
-  PhantomPhotosRequest request = arguments.request;
+  person_workflow::PhantomPhotosRequest request = arguments.request;
   request.photographs.seed = context.common.seed;
   request.side = parse_side(arguments.side);
   request.posture = posture_named(arguments.posture);
   request.skin = parse_colour("--skin-colour", arguments.skin);
-  if (!arguments.block.empty()) request.block = parse_vector("--block-mm", arguments.block);
-  const PhantomPhotosOutcome made = make_phantom_photos(request, make_progress(context.common));
+  if (!arguments.block.empty())
+    request.block = workflow::parse_vector("--block-mm", arguments.block);
+  const person_workflow::PhantomPhotosOutcome made =
+      person_workflow::make_phantom_photos(request, make_progress(context.common));
   finish_progress();
   if (context.common.json) {
     print(nlohmann::ordered_json{{"photographs", made.photographs},
@@ -62,7 +66,7 @@ void add_phantom_photos_command(CLI::App& phantom, Context& context) {
                "Photographs of a synthetic person's painted hand on a board, taken by a "
                "rig of cameras, with the truth beside them; --seed chooses the person",
                "palmar phantom photos --seed 3 --out subject3");
-  PhotographsOptions& p = o->request.photographs;
+  phantom::PhotographsOptions& p = o->request.photographs;
   verb->add_option("--out", o->request.out, "Folder; photos/, calibration/ and truth/ go into it")
       ->required();
   verb->add_option("--posture", o->posture, "Which, by its name in palmar phantom mri")

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "hand/side_argument.h"
+#include "hands/person_workflow/phantom/phantom_scan.h"
 #include "palmar/core/error.h"
 #include "palmar/product/product.h"
-#include "hands/person_workflow/phantom/phantom_scan.h"
 #include "phantom/phantom_output.h"
 #include "product/colour_argument.h"
 
@@ -17,21 +17,23 @@ namespace palmar::cli {
 namespace {
 
 struct PhantomScanArguments {
-  PhantomScanRequest request;
+  person_workflow::PhantomScanRequest request;
   std::string side = "right", unit = "mm", ring, ring_colour = "#c7c7cc";
   std::string skin = "#cc9980", crease = "green", dot = "blue";
   std::vector<std::string> postures;
   bool is_free = false, no_creases = false, no_dots = false, ideal = false;
 
   PhantomScanArguments() {
-    for (const ScanPosture posture : request.postures) postures.emplace_back(name_of(posture));
+    for (const hand::ScanPosture posture : request.postures)
+      postures.emplace_back(name_of(posture));
   }
 };
 
-PaintedHandOptions painted_options(const PhantomScanArguments& arguments, std::uint64_t seed) {
-  PaintedHandOptions options = arguments.request.person;
+phantom::PaintedHandOptions painted_options(const PhantomScanArguments& arguments,
+                                            std::uint64_t seed) {
+  phantom::PaintedHandOptions options = arguments.request.person;
   if (arguments.is_free) {
-    options.dispersion = kFreePerson;
+    options.dispersion = phantom::kFreePerson;
     options.paint.is_tinted = true;
   }
   options.seed = seed;
@@ -42,7 +44,7 @@ PaintedHandOptions painted_options(const PhantomScanArguments& arguments, std::u
   options.paint.has_creases = !arguments.no_creases;
   options.paint.has_dots = !arguments.no_dots;
   if (arguments.ring.empty()) return options;
-  options.ring = finger_named(arguments.ring);
+  options.ring = hand::finger_named(arguments.ring);
   if (!options.ring) {
     throw UsageError("--ring: \"" + arguments.ring +
                      "\" is no finger; thumb, index, middle, ring or little is");
@@ -52,18 +54,19 @@ PaintedHandOptions painted_options(const PhantomScanArguments& arguments, std::u
 }
 
 int run_phantom_scan(const PhantomScanArguments& arguments, const Context& context) {
-  PhantomScanRequest request = arguments.request;
+  person_workflow::PhantomScanRequest request = arguments.request;
   request.person = painted_options(arguments, context.common.seed);
-  request.unit = length_unit(arguments.unit);
+  request.unit = geometry::length_unit(arguments.unit);
   if (arguments.ideal) {
     request.defects = {.noise = 0.0, .roughness = 0.0, .hidden = 0.0, .colour_noise = 0.0};
   }
   request.postures = chosen_postures(arguments.postures);
-  const PhantomScanOutcome outcome = make_phantom_scan(request, make_progress(context.common));
+  const person_workflow::PhantomScanOutcome outcome =
+      person_workflow::make_phantom_scan(request, make_progress(context.common));
   finish_progress();
   nlohmann::ordered_json scans = nlohmann::ordered_json::array();
   std::string text;
-  for (const PhantomScanOutcome::Scan& one : outcome.scans) {
+  for (const person_workflow::PhantomScanOutcome::Scan& one : outcome.scans) {
     scans.push_back(
         {{"posture", name_of(one.posture)}, {"file", one.file}, {"triangles", one.triangles}});
     text += fmt::format("{:<17} {} triangles  {}\n", name_of(one.posture), one.triangles, one.file);

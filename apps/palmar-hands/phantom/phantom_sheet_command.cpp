@@ -5,21 +5,21 @@
 #include <fmt/format.h>
 
 #include "hand/side_argument.h"
-#include "palmar/core/error.h"
 #include "hands/person_workflow/phantom/phantom_sheet.h"
+#include "palmar/core/error.h"
 #include "phantom/phantom_output.h"
 
 namespace palmar::cli {
 namespace {
 
 struct PhantomSheetArguments {
-  PhantomSheetRequest request;
+  person_workflow::PhantomSheetRequest request;
   std::string side = "right", table = "wood", skin = "light";
   bool no_exif = false;
 };
 
-Srgb colour_named(const std::string& option, const std::string& name,
-                  const std::vector<std::pair<std::string, Srgb>>& colours) {
+geometry::Srgb colour_named(const std::string& option, const std::string& name,
+                            const std::vector<std::pair<std::string, geometry::Srgb>>& colours) {
   std::string names;
   for (const auto& [one, colour] : colours) {
     if (one == name) return colour;
@@ -29,7 +29,7 @@ Srgb colour_named(const std::string& option, const std::string& name,
 }
 
 int run_sheet(const PhantomSheetArguments& arguments, const Context& context) {
-  PhantomSheetRequest request = arguments.request;
+  person_workflow::PhantomSheetRequest request = arguments.request;
   request.photograph.seed = context.common.seed;
   request.check();
   request.photograph.table = colour_named("--table", arguments.table,
@@ -44,7 +44,7 @@ int run_sheet(const PhantomSheetArguments& arguments, const Context& context) {
                                           {"dark", {0.36F, 0.23F, 0.17F}}});
   request.side = parse_side(arguments.side);
   request.has_exif = !arguments.no_exif;
-  const PhantomSheetOutcome made = make_phantom_sheet(request);
+  const person_workflow::PhantomSheetOutcome made = person_workflow::make_phantom_sheet(request);
   print(fmt::format("photograph: {}\ntruth: {}, {}\n", made.photograph, made.truth, made.shape));
   return 0;
 }
@@ -58,7 +58,7 @@ void add_phantom_sheet(CLI::App& phantom, Context& context) {
                "A photograph of a synthetic hand flat on a sheet of paper or beside a bank "
                "card, with the truth beside it; --seed chooses the person",
                "palmar phantom sheet --seed 3 --out sheet3");
-  SheetPhotographOptions& p = o->request.photograph;
+  phantom::SheetPhotographOptions& p = o->request.photograph;
   verb->add_option("--out", o->request.out, "Folder; photo.jpg, truth.json, truth.ply go into it")
       ->required();
   verb->add_flag("--free", o->request.is_free, kFreeHelp);

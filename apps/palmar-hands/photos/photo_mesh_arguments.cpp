@@ -28,9 +28,9 @@ void PhotoMeshArguments::add_to(CLI::App& verb) {
                 "The hand certainly didn't move: don't correct its motion");
 }
 
-PhotoMeshOptions PhotoMeshArguments::options() const {
-  PhotoMeshOptions options = options_;
-  const Vec3 size = parse_vector("--space-mm", box_);
+person_workflow::PhotoMeshOptions PhotoMeshArguments::options() const {
+  person_workflow::PhotoMeshOptions options = options_;
+  const Vec3 size = workflow::parse_vector("--space-mm", box_);
   options.model.box = Box3(Vec3(-0.5 * size.x(), -0.5 * size.y(), 0.0),
                            Vec3(0.5 * size.x(), 0.5 * size.y(), size.z()));
   options.looks_for_motion = !no_motion_;

@@ -14,10 +14,10 @@ class PhotoMeshArguments {
  public:
   PhotoMeshArguments();
   void add_to(CLI::App& verb);
-  PhotoMeshOptions options() const;  ///< throws UsageError naming the option
+  person_workflow::PhotoMeshOptions options() const;  ///< throws UsageError naming the option
 
  private:
-  PhotoMeshOptions options_;
+  person_workflow::PhotoMeshOptions options_;
   std::string box_;
   bool no_motion_ = false;
 };

@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-int run_board(const PhotoBoardRequest& request, const Context& context) {
-  draw_photo_board(request);
+int run_board(const person_workflow::PhotoBoardRequest& request, const Context& context) {
+  person_workflow::draw_photo_board(request);
   if (context.common.json) {
     print(Json{{"board", request.out}, {"edge_mm", request.board.edge()}}.dump(2) + "\n");
   } else {
@@ -26,11 +26,12 @@ int run_board(const PhotoBoardRequest& request, const Context& context) {
   return 0;
 }
 
-int run_calibrate(const PhotoLensesRequest& request, const Context& context) {
-  const PhotoLensesOutcome outcome = calibrate_photo_lenses(request, make_progress(context.common));
+int run_calibrate(const person_workflow::PhotoLensesRequest& request, const Context& context) {
+  const person_workflow::PhotoLensesOutcome outcome =
+      person_workflow::calibrate_photo_lenses(request, make_progress(context.common));
   finish_progress();
   if (context.common.json) {
-    print(format_lenses(outcome.lenses));
+    print(person_records::format_lenses(outcome.lenses));
     return 0;
   }
   std::string text;
@@ -56,7 +57,7 @@ void add_photos_commands(CLI::App& app, Context& context) {
   photos->fallthrough();
   photos->footer("Example: palmar photos mesh photos/ --lenses lenses.json --out hand.ply");
 
-  const auto b = std::make_shared<PhotoBoardRequest>();
+  const auto b = std::make_shared<person_workflow::PhotoBoardRequest>();
   CLI::App* board = add_verb(*photos, "board", "The board under the hand, to be printed",
                              "palmar photos board --out board.svg");
   board->add_option("--out", b->out, "The drawing, .svg in millimetres")->required();
@@ -66,7 +67,7 @@ void add_photos_commands(CLI::App& app, Context& context) {
   board->callback(
       [&context, b] { context.run = [&context, b] { return run_board(*b, context); }; });
 
-  const auto c = std::make_shared<PhotoLensesRequest>();
+  const auto c = std::make_shared<person_workflow::PhotoLensesRequest>();
   CLI::App* calibrate = add_verb(*photos, "calibrate",
                                  "Lenses of cameras from about 12 photographs each of the board, "
                                  "tilted every way; focus and zoom as for the hand",

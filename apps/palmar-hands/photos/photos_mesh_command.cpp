@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "palmar/geometry/degrees.h"
 #include "hands/person_workflow/steps/photo_steps.h"
+#include "palmar/geometry/degrees.h"
 #include "photos/photo_mesh_arguments.h"
 #include "photos/photos_commands.h"
 
@@ -13,17 +13,17 @@ namespace palmar::cli {
 namespace {
 
 struct PhotosMeshArguments {
-  PhotoMeshRequest request;
+  person_workflow::PhotoMeshRequest request;
   PhotoMeshArguments mesh;
 };
 
 /// Photographs, motion, surface; a line each.
-std::string photo_mesh_text(const PhotoMeshReport& report) {
+std::string photo_mesh_text(const person_workflow::PhotoMeshReport& report) {
   std::string moved = "not looked for";
   if (report.motion_is_corrected) {
     moved =
         fmt::format("corrected, up to {:.2f} mm and {:.2f} deg ({} points, {:.2f} -> {:.2f} px)",
-                    report.largest_shift, report.largest_turn * kDegreesPerRadian,
+                    report.largest_shift, report.largest_turn * geometry::kDegreesPerRadian,
                     report.motion_points, report.residual_before, report.residual_after);
   } else if (report.motion_points > 0) {
     moved = fmt::format("none found ({} points, {:.2f} px)", report.motion_points,
@@ -38,10 +38,11 @@ std::string photo_mesh_text(const PhotoMeshReport& report) {
 }
 
 int run_mesh(const PhotosMeshArguments& arguments, const Context& context) {
-  PhotoMeshRequest request = arguments.request;
+  person_workflow::PhotoMeshRequest request = arguments.request;
   request.options = arguments.mesh.options();
   request.note = [&context](const std::string& text) { note(context.common, text); };
-  const PhotoMeshOutcome outcome = make_mesh_from_photos(request, make_progress(context.common));
+  const person_workflow::PhotoMeshOutcome outcome =
+      person_workflow::make_mesh_from_photos(request, make_progress(context.common));
   finish_progress();
   for (const std::string& warning : outcome.report.warnings) {
     note(context.common, "warning: " + warning);

@@ -42,7 +42,7 @@ struct AssessArguments {
   bool no_pictures = false, details = false;
 };
 
-Cancelled cancelled_after(const AssessOutcome& outcome) {
+Cancelled cancelled_after(const workflow::AssessOutcome& outcome) {
   return Cancelled(fmt::format(
       "cancelled; {} of {} product{} assessed, {}", outcome.set.assessments.size(), outcome.asked,
       outcome.asked == 1 ? "" : "s",
@@ -50,8 +50,8 @@ Cancelled cancelled_after(const AssessOutcome& outcome) {
                              : "written to " + outcome.folder + " (pictures may be missing)"));
 }
 
-AssessRequest request_of(const AssessArguments& arguments, const Context& context) {
-  AssessRequest request;
+workflow::AssessRequest request_of(const AssessArguments& arguments, const Context& context) {
+  workflow::AssessRequest request;
   request.grasp = arguments.grasp.settings();
   request.contact = arguments.contact.options();
   request.friction = arguments.friction.settings();
@@ -66,14 +66,14 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
                   .value = nullptr,
                   .person = arguments.balance.person(),
                   .is_left = arguments.left};
-  const LoadProductOptions reading = arguments.cad.options(arguments.grasp.unit);
+  const records::LoadProductOptions reading = arguments.cad.options(arguments.grasp.unit);
   for (const std::string& path : arguments.products) request.products.emplace_back(path, reading);
   request.natural_postures = arguments.natural_postures;
   request.sensors = arguments.sensors;
   request.measured = arguments.measured;
   request.error_budget = arguments.error_budget;
   request.out = arguments.out;
-  if (request.out.empty() && !context.common.json) request.out = free_report_folder();
+  if (request.out.empty() && !context.common.json) request.out = workflow::free_report_folder();
   request.language = arguments.report.language();
   request.pdf = arguments.report.pdf();
   request.extras = arguments.report.extras();
@@ -87,7 +87,7 @@ AssessRequest request_of(const AssessArguments& arguments, const Context& contex
 /// The same question put to many hands: a small study with its report.
 int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const Context& context) {
   for (const std::string& product : arguments.products) {
-    if (!is_bench_project(product)) continue;
+    if (!workflow::is_bench_project(product)) continue;
     throw UsageError("--population doesn't go with " + product +
                      ": the project is of one hand; give the product's own file");
   }
@@ -105,40 +105,41 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
                        "many (palmar study run FILE.toml)");
     }
   }
-  QuickStudy quick;
+  workflow::QuickStudy quick;
   quick.products = arguments.products;
   quick.unit = parse_unit(arguments.grasp.unit);
   quick.populations = arguments.populations;
-  const bool are_given = std::any_of(quick.populations.begin(), quick.populations.end(),
-                                     [](const std::string& one) { return is_people_range(one); });
+  const bool are_given =
+      std::any_of(quick.populations.begin(), quick.populations.end(),
+                  [](const std::string& one) { return records::is_people_range(one); });
   quick.hands = arguments.hands > 0 || are_given ? arguments.hands : kFewHands;
   if (arguments.grasp.hand != "template") quick.hand = arguments.grasp.hand;
   quick.holding = arguments.grasp.settings().holding;
   quick.mass = arguments.friction.settings().mass.value_or(0.0);
-  const RestSettings rest = arguments.balance.settings();
+  const grasp::RestSettings rest = arguments.balance.settings();
   quick.grip_force = rest.grip_force;
   quick.limit_depths = rest.limit_depths;
-  const std::string folder = arguments.out.empty() ? free_report_folder() : arguments.out;
-  create_folder(folder);
+  const std::string folder = arguments.out.empty() ? workflow::free_report_folder() : arguments.out;
+  formats::create_folder(folder);
 
-  StudyRunRequest run;
-  run.study = study_of(quick);
+  workflow::StudyRunRequest run;
+  run.study = workflow::study_of(quick);
   if (context.common.seed != 0) run.study.seed = context.common.seed;
   run.out = folder + "/hands.palmar";
   run.note = [&context](const std::string& text) { note(context.common, text); };
-  const StudyRunOutcome ran = run_study(run, make_progress(context.common));
-  StudyReportRequest report;
+  const workflow::StudyRunOutcome ran = run_study(run, make_progress(context.common));
+  workflow::StudyReportRequest report;
   report.store = ran.store;
   report.folder = folder;
   report.report.language = arguments.report.language();
   report.report.extras = arguments.report.extras();
   report.report.pictures = !arguments.no_pictures;
   report.pdf = arguments.report.pdf();
-  report_study(report, make_progress(context.common));
-  StudyCompareRequest compare;
+  workflow::report_study(report, make_progress(context.common));
+  workflow::StudyCompareRequest compare;
   compare.store = ran.store;
   compare.language = report.report.language;
-  const StudyCompareOutcome outcome = compare_study(compare);
+  const workflow::StudyCompareOutcome outcome = workflow::compare_study(compare);
   finish_progress();
   print(context.common.json ? comparison_object(outcome, compare.comparison).dump(2) + "\n"
                             : answer_text(outcome.answer) + "Report: " + folder + "/report.html\n");
@@ -146,8 +147,8 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
 }
 
 /// A project of the workbench: what is held and how stands in the file.
-AssessOutcome assessed_project(const AssessArguments& arguments, const CLI::App& verb,
-                               const Context& context) {
+workflow::AssessOutcome assessed_project(const AssessArguments& arguments, const CLI::App& verb,
+                                         const Context& context) {
   static const std::set<std::string> kTaken = {
       "PRODUCT",      "help",     "out",     "language",    "pdf",           "paper",
       "units",        "project",  "slides",  "excel",       "rounded-csv",   "no-pictures",
@@ -162,32 +163,32 @@ AssessOutcome assessed_project(const AssessArguments& arguments, const CLI::App&
                        "given is the grip force (--grip-force-n), load, friction and the report");
     }
   }
-  BenchAssessRequest request;
+  workflow::BenchAssessRequest request;
   request.file = file;
   request.grip_force = arguments.balance.settings().grip_force;
   request.friction = arguments.friction.settings();
   request.report = request_of(arguments, context);
   request.report.products.clear();
-  return assess_bench_project(request, make_progress(context.common));
+  return workflow::assess_bench_project(request, make_progress(context.common));
 }
 
 int run_assess(const AssessArguments& arguments, const CLI::App& verb, const Context& context) {
   const auto& products = arguments.products;
-  const auto project = std::find_if(products.begin(), products.end(), is_bench_project);
+  const auto project = std::find_if(products.begin(), products.end(), workflow::is_bench_project);
   if (project != products.end() && products.size() > 1) {
     throw UsageError(*project + " is a project of the workbench and is assessed by itself; " +
                      std::to_string(products.size()) + " files are given");
   }
-  const AssessOutcome outcome =
-      project != products.end()
-          ? assessed_project(arguments, verb, context)
-          : assess_products(request_of(arguments, context), make_progress(context.common));
+  const workflow::AssessOutcome outcome =
+      project != products.end() ? assessed_project(arguments, verb, context)
+                                : workflow::assess_products(request_of(arguments, context),
+                                                            make_progress(context.common));
   finish_progress();
   if (context.common.json) {
-    print(assessment_json(outcome.set, outcome.words) + "\n");
+    print(records::assessment_json(outcome.set, outcome.words) + "\n");
   } else {
     print(verdict_text(outcome.words));
-    for (const AssessedProduct& one : outcome.set.assessments) {
+    for (const study::AssessedProduct& one : outcome.set.assessments) {
       print((arguments.details ? details_text(*outcome.set.hand, one)
                                : summary_text(*outcome.set.hand, one)) +
             "\n");
@@ -238,7 +239,7 @@ void add_assess_command(CLI::App& app, Context& context) {
       ->allow_extra_args(false);
   verb->add_option("--hands", arguments->hands,
                    "Number of hands to draw from each population; 12 if not given")
-      ->check(CLI::Range(1, QuickStudy::kMostHands));
+      ->check(CLI::Range(1, workflow::QuickStudy::kMostHands));
   verb->add_option("--out", arguments->out,
                    "Folder of the report; default palmar-report (with --json alone: none)");
   arguments->report.add_to(*verb);

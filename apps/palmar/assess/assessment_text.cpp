@@ -21,15 +21,15 @@ namespace palmar::cli {
 namespace {
 
 /// What the sensors say, and how near a measurement is.
-std::string sensor_text(const Assessment& assessment) {
+std::string sensor_text(const study::Assessment& assessment) {
   if (!assessment.sensors) return "";
-  const SensorReading& reading = *assessment.sensors;
+  const study::SensorReading& reading = *assessment.sensors;
   std::string text = fmt::format(
       "sensors: {} of {} cells, {:.1f} N on them, {:.1f} N beside; highest cell {:.1f} kPa\n",
       reading.layout.name, reading.cells.size(), reading.force, reading.force_beside,
       1000.0 * reading.peak_pressure);
   if (!assessment.measured) return text;
-  const PressureComparison& one = *assessment.measured;
+  const study::PressureComparison& one = *assessment.measured;
   return text + fmt::format(
                     "measured: {:.1f} N, highest cell {:.1f} kPa; over {} loaded cells Pearson's r "
                     "{:.2f}, Spearman's {:.2f}, differences {:.1f} kPa (RMS)\n",
@@ -38,20 +38,20 @@ std::string sensor_text(const Assessment& assessment) {
 }
 
 /// What makes the figures doubtful, sensors and sleeves: the same in summary and details.
-std::string notes_text(const Assessment& assessment) {
+std::string notes_text(const study::Assessment& assessment) {
   std::string text;
-  for (const HoldDoubt& doubt : doubts_of(assessment)) {
+  for (const study::HoldDoubt& doubt : study::doubts_of(assessment)) {
     if (doubt.key == "few_contacts") text += "doubtful: " + doubt.words + "\n";
   }
-  const std::string unresolved = unresolved_words(assessment.contact);
-  const std::string refined = refinement_words(assessment.contact);
+  const std::string unresolved = contact::unresolved_words(assessment.contact);
+  const std::string refined = contact::refinement_words(assessment.contact);
   if (!unresolved.empty()) {
     text += "not resolved: " + with_plain_names(unresolved) + "\n";
   } else if (!refined.empty()) {
     text += "refined: " + with_plain_names(refined) + "\n";
   }
   text += sensor_text(assessment);
-  for (const Coating& coating : assessment.options.contact.coatings) {
+  for (const contact::Coating& coating : assessment.options.contact.coatings) {
     text += fmt::format("sleeve: {:g} mm of {:g} kPa{}\n", coating.thickness,
                         1000.0 * coating.shear_modulus,
                         coating.where.isEmpty() ? "" : ", inside its box");
@@ -60,8 +60,8 @@ std::string notes_text(const Assessment& assessment) {
 }
 
 /// One line for each thing changed: what becomes of the figures, against those as they are.
-std::string error_budget_text(const ErrorBudget& budget) {
-  const auto line = [](const std::string& name, const ErrorCase& one) {
+std::string error_budget_text(const study::ErrorBudget& budget) {
+  const auto line = [](const std::string& name, const study::ErrorCase& one) {
     return fmt::format("{:<42}{:>6.0f}{:>8.0f}{:>9.0f}{:>10.3f}{:>9.3f}\n", name, one.grip_force,
                        one.force, one.area, one.peak_pressure_cells, one.mean_pressure);
   };
@@ -70,7 +70,7 @@ std::string error_budget_text(const ErrorBudget& budget) {
                   "error budget", "grip", "force", "area", "on a cell", "mean", "", "N", "N", "mm²",
                   "MPa", "MPa") +
       line("as it is", budget.nominal);
-  for (const ErrorCase& one : budget.cases) {
+  for (const study::ErrorCase& one : budget.cases) {
     const std::string name = fmt::format("{}: {}", name_of(one.source), one.changed);
     text += one.failure.empty() ? line(name, one) : name + ": no figures: " + one.failure + "\n";
   }
@@ -78,18 +78,18 @@ std::string error_budget_text(const ErrorBudget& budget) {
 }
 
 /// Area and highest pressure, with what soft and stiff skin make of it.
-std::string pressure_text(const ContactResult& contact) {
-  if (contact.status == ContactStatus::kNoContact) return "contact: nothing is touched\n";
-  const RegionContact& total = contact.total;
-  std::string text = fmt::format("contact area: {} mm²\n", short_number(total.area)) +
+std::string pressure_text(const contact::ContactResult& contact) {
+  if (contact.status == contact::ContactStatus::kNoContact) return "contact: nothing is touched\n";
+  const contact::RegionContact& total = contact.total;
+  std::string text = fmt::format("contact area: {} mm²\n", report::short_number(total.area)) +
                      fmt::format("highest pressure: {} MPa on a sensor cell",
-                                 short_number(total.peak_pressure_cells));
+                                 report::short_number(total.peak_pressure_cells));
   if (contact.band) {
-    const ContactBandRow& all = contact.band->total;
+    const contact::ContactBandRow& all = contact.band->total;
     if (all.peak_pressure_cells_low > 0.0 && all.peak_pressure_cells_high > 0.0) {
       text += fmt::format("; {} with soft, {} with stiff skin",
-                          short_number(all.peak_pressure_cells_low),
-                          short_number(all.peak_pressure_cells_high));
+                          report::short_number(all.peak_pressure_cells_low),
+                          report::short_number(all.peak_pressure_cells_high));
     }
   }
   return text + "\n";
@@ -97,31 +97,32 @@ std::string pressure_text(const ContactResult& contact) {
 
 }  // namespace
 
-std::string verdict_text(const VerdictWords& words) {
+std::string verdict_text(const records::VerdictWords& words) {
   std::string text = words.sentence + "\n";
   for (const std::string& reason : words.reasons) text += "  " + reason + "\n";
   if (!words.command.empty()) text += words.next + "\n  " + words.command + "\n";
   return text + "\n";
 }
 
-std::string summary_text(const Hand& hand, const AssessedProduct& one) {
-  const Assessment& assessment = one.assessment;
-  const Grasp& grasp = assessment.grasp;
+std::string summary_text(const hand::Hand& hand, const study::AssessedProduct& one) {
+  const study::Assessment& assessment = one.assessment;
+  const grasp::Grasp& grasp = assessment.grasp;
   std::string text = fmt::format("== {}\n", one.product.name);
   if (grasp.hold) text += fmt::format("hold: {}\n", grasp.hold_words);
   text += status_text(grasp);
   text += balance_text(assessment) + pressure_text(assessment.contact);
-  const std::string friction = friction_verdict(hand, assessment);
+  const std::string friction = report::friction_verdict(hand, assessment);
   if (!friction.empty()) text += "friction: " + friction + "\n";
   return text + notes_text(assessment) + (one.errors ? error_budget_text(*one.errors) : "");
 }
 
-std::string details_text(const Hand& hand, const AssessedProduct& one) {
-  const Assessment& assessment = one.assessment;
+std::string details_text(const hand::Hand& hand, const study::AssessedProduct& one) {
+  const study::Assessment& assessment = one.assessment;
   return fmt::format("== {}\n", one.product.name) + balance_text(assessment) +
          rest_text(assessment) + grasp_text(assessment.grasp) + contact_text(assessment.contact) +
-         friction_text(hand, assessment) + with_plain_names(index_text(assessment.indices)) +
-         notes_text(assessment) + (one.errors ? error_budget_text(*one.errors) : "");
+         friction_text(hand, assessment) +
+         with_plain_names(records::index_text(assessment.indices)) + notes_text(assessment) +
+         (one.errors ? error_budget_text(*one.errors) : "");
 }
 
 }  // namespace palmar::cli

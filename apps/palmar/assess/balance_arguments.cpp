@@ -11,9 +11,9 @@
 
 namespace palmar::cli {
 std::string usual_words() {
-  const ShareOfStrength usual = usual_share(kUsualFriction);
-  return fmt::format("{:.0f} N, {} (15 to 23 N in a pinch)", usual.force(Grip::kMediumWrap),
-                     usual.words(Grip::kMediumWrap));
+  const grasp::ShareOfStrength usual = grasp::usual_share(grasp::kUsualFriction);
+  return fmt::format("{:.0f} N, {} (15 to 23 N in a pinch)", usual.force(grasp::Grip::kMediumWrap),
+                     usual.words(grasp::Grip::kMediumWrap));
 }
 
 void BalanceArguments::add_to(CLI::App& verb) {
@@ -43,21 +43,23 @@ void BalanceArguments::add_to(CLI::App& verb) {
       ->excludes(strength);
 }
 
-RestSettings BalanceArguments::settings() const {
-  RestSettings result = settings_;
+grasp::RestSettings BalanceArguments::settings() const {
+  grasp::RestSettings result = settings_;
   result.is_balanced = !no_balance_;
-  result = held_by(person_, result);
+  result = workflow::held_by(person_, result);
   result.check();
   return result;
 }
 
-std::optional<PersonOfSize> BalanceArguments::person() const { return parse_person_size(person_); }
+std::optional<workflow::PersonOfSize> BalanceArguments::person() const {
+  return workflow::parse_person_size(person_);
+}
 
-std::string balance_text(const Assessment& assessment) {
-  const Balance& balance = assessment.balance;
-  if (balance.status == BalanceStatus::kOff) return {};
-  const BalanceOptions& options = assessment.options.balance;
-  const Grip grip = assessment.grasp.grip;
+std::string balance_text(const study::Assessment& assessment) {
+  const grasp::Balance& balance = assessment.balance;
+  if (balance.status == grasp::BalanceStatus::kOff) return {};
+  const grasp::BalanceOptions& options = assessment.options.balance;
+  const grasp::Grip grip = assessment.grasp.grip;
   const std::optional<double> asked = options.asked_grip_force(grip);
   std::string text = "grip force:";
   // As they are printed.
@@ -68,9 +70,9 @@ std::string balance_text(const Assessment& assessment) {
   return text + fmt::format("balance: {}\n", balance.message);
 }
 
-std::string rest_text(const Assessment& assessment) {
-  const Balance& balance = assessment.balance;
-  if (balance.status == BalanceStatus::kOff || !(balance.grip_force > 0.0)) return {};
+std::string rest_text(const study::Assessment& assessment) {
+  const grasp::Balance& balance = assessment.balance;
+  if (balance.status == grasp::BalanceStatus::kOff || !(balance.grip_force > 0.0)) return {};
   return fmt::format(
       "sum of normal forces {:.1f} N; left over {:.2f} N; friction {:.2f}, {:.0f} % of it in use; "
       "moved {:.1f} mm and {:.1f}° since it was closed\n",

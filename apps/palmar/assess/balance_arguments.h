@@ -18,11 +18,11 @@ class BalanceArguments {
   /// to a verb.
   void add_to(CLI::App& verb);
   /// To whose size the hand is scaled, if --person says; throws UsageError.
-  std::optional<PersonOfSize> person() const;
-  RestSettings settings() const;  ///< throws UsageError naming the option
+  std::optional<workflow::PersonOfSize> person() const;
+  grasp::RestSettings settings() const;  ///< throws UsageError naming the option
 
  private:
-  RestSettings settings_;
+  grasp::RestSettings settings_;
   bool no_balance_ = false;
   std::string person_;
 };
@@ -31,8 +31,8 @@ class BalanceArguments {
 std::string usual_words();
 
 /// The grip force, and how the grasp came to rest, a line each; empty if it wasn't asked to.
-std::string balance_text(const Assessment& assessment);
+std::string balance_text(const study::Assessment& assessment);
 /// How far its forces balance, in one line; empty if nothing came to rest.
-std::string rest_text(const Assessment& assessment);
+std::string rest_text(const study::Assessment& assessment);
 
 }  // namespace palmar::cli

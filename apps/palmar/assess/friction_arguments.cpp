@@ -11,7 +11,7 @@ namespace palmar::cli {
 namespace {
 
 void take(const char* option, const std::string& text, std::optional<Vec3>& value) {
-  if (!text.empty()) value = parse_vector(option, text);
+  if (!text.empty()) value = workflow::parse_vector(option, text);
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ void FrictionArguments::add_to(CLI::App& verb) {
                   fmt::format("Coefficient of friction of skin on the product (0.3 to 1.2 is "
                               "usual): shows whether the hand holds the load; default: {:g} while "
                               "the grasp comes to rest and for a given load. 0: none",
-                              kUsualFriction));
+                              grasp::kUsualFriction));
   CLI::Option* mass = verb.add_option("--mass-kg", settings_.mass, "Mass of the product, kg");
   CLI::Option* weight = verb.add_option("--weight-n", settings_.weight,
                                         "Weight of the product instead of its mass, N")
@@ -43,9 +43,9 @@ void FrictionArguments::add_to(CLI::App& verb) {
                   "Where --load-n acts, x,y,z in mm; default: at the centre of mass");
 }
 
-FrictionSettings FrictionArguments::settings() const {
-  FrictionSettings result = settings_;
-  if (!gravity_.empty()) result.gravity = parse_vector("--gravity", gravity_);
+grasp::FrictionSettings FrictionArguments::settings() const {
+  grasp::FrictionSettings result = settings_;
+  if (!gravity_.empty()) result.gravity = workflow::parse_vector("--gravity", gravity_);
   take("--mass-at", mass_at_, result.mass_centre);
   take("--load-n", load_n_, result.force);
   take("--torque-n-mm", torque_n_mm_, result.torque);
@@ -54,19 +54,19 @@ FrictionSettings FrictionArguments::settings() const {
   return result;
 }
 
-std::string friction_text(const Hand& hand, const Assessment& assessment) {
-  const FrictionResult& friction = assessment.friction;
-  if (friction.status == FrictionStatus::kOff) return {};
-  std::string text = fmt::format("friction: {}\n", friction_verdict(hand, assessment));
+std::string friction_text(const hand::Hand& hand, const study::Assessment& assessment) {
+  const contact::FrictionResult& friction = assessment.friction;
+  if (friction.status == contact::FrictionStatus::kOff) return {};
+  std::string text = fmt::format("friction: {}\n", report::friction_verdict(hand, assessment));
   if (friction.regions.empty()) return text;
   text += fmt::format("{:<35} {:>6} {:>10} {:>10} {:>13} {:>10}\n", "region of the skin", "normal",
                       "at most", "friction", "slip margin", "slips") +
           fmt::format("{:<35} {:>6} {:>10} {:>10} {:>13} {:>10}\n", "", "N", "N", "N", "%",
                       "% of area");
-  for (const RegionFriction& one : friction.regions) {
+  for (const contact::RegionFriction& one : friction.regions) {
     text += fmt::format("{:<35} {:6.2f} {:10.2f} {:10.2f} {:13.0f} {:10.0f}\n",
-                        plain_words(one.region), one.normal_force, one.limit, one.force.norm(),
-                        100.0 * one.margin, 100.0 * one.slipping_share);
+                        report::plain_words(one.region), one.normal_force, one.limit,
+                        one.force.norm(), 100.0 * one.margin, 100.0 * one.slipping_share);
   }
   return text;
 }

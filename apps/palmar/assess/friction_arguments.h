@@ -16,14 +16,14 @@ class FrictionArguments {
   /// Adds --friction, --mass-kg, --weight-n, --density-g-cm3, --acceleration-g, --gravity,
   /// --mass-at, --load-n, --torque-n-mm and --load-at to a verb.
   void add_to(CLI::App& verb);
-  FrictionSettings settings() const;  ///< throws UsageError naming the option
+  grasp::FrictionSettings settings() const;  ///< throws UsageError naming the option
 
  private:
-  FrictionSettings settings_;
+  grasp::FrictionSettings settings_;
   std::string gravity_, mass_at_, load_n_, torque_n_mm_, load_at_;
 };
 
 /// Whether the load is held, and one line per region; empty if friction is off.
-std::string friction_text(const Hand& hand, const Assessment& assessment);
+std::string friction_text(const hand::Hand& hand, const study::Assessment& assessment);
 
 }  // namespace palmar::cli

@@ -16,33 +16,33 @@ namespace {
 
 struct PressArguments {
   std::string specimen = "plane", indenter, depths, forces, out, cover;
-  ContactModelWords model;
+  workflow::ContactModelWords model;
   std::string tissue_level = "nominal", tissue;
   double tilt_deg = 0.0;
-  double cell = PressOptions{}.cell_area;
-  double coating_poisson = Coating{}.poisson;
+  double cell = contact::PressOptions{}.cell_area;
+  double coating_poisson = contact::Coating{}.poisson;
   std::optional<double> spacing, shear_modulus_kpa, layer, poisson, coating, coating_modulus_kpa;
 };
 
-std::optional<Coating> cover_of(const PressArguments& arguments) {
+std::optional<contact::Coating> cover_of(const PressArguments& arguments) {
   if (!arguments.cover.empty()) {
     if (arguments.coating || arguments.coating_modulus_kpa) {
       throw UsageError("--coating says what --coating-mm and --coating-modulus-kpa say");
     }
-    return parse_cover(arguments.cover);
+    return workflow::parse_cover(arguments.cover);
   }
   if (!arguments.coating && !arguments.coating_modulus_kpa) return std::nullopt;
   if (!arguments.coating || !arguments.coating_modulus_kpa) {
     throw UsageError("--coating-mm and --coating-modulus-kpa are needed together");
   }
-  Coating coating;
+  contact::Coating coating;
   coating.thickness = *arguments.coating;
   coating.shear_modulus = *arguments.coating_modulus_kpa / 1000.0;
   coating.poisson = arguments.coating_poisson;
   return coating;
 }
 
-PressOptions parse_options(const PressArguments& arguments, std::string& hand_name) {
+contact::PressOptions parse_options(const PressArguments& arguments, std::string& hand_name) {
   if (arguments.depths.empty() == arguments.forces.empty()) {
     throw UsageError("either --depth-mm or --force-n is needed, and only one of them");
   }
@@ -54,27 +54,29 @@ PressOptions parse_options(const PressArguments& arguments, std::string& hand_na
     throw UsageError(
         fmt::format("--cell-mm is {}; more than 0 and at most 30 mm is required", arguments.cell));
   }
-  PressOptions options;
-  options.specimen = parse_specimen(arguments.specimen, hand_name);
-  options.indenter = parse_indenter(arguments.indenter);
-  if (!arguments.depths.empty()) options.depths = parse_list("--depth-mm", arguments.depths);
-  if (!arguments.forces.empty()) options.forces = parse_list("--force-n", arguments.forces);
+  contact::PressOptions options;
+  options.specimen = workflow::parse_specimen(arguments.specimen, hand_name);
+  options.indenter = workflow::parse_indenter(arguments.indenter);
+  if (!arguments.depths.empty())
+    options.depths = workflow::parse_list("--depth-mm", arguments.depths);
+  if (!arguments.forces.empty())
+    options.forces = workflow::parse_list("--force-n", arguments.forces);
   options.tilt = radians(arguments.tilt_deg);
   options.spacing = arguments.spacing.value_or(options.spacing);
   options.cell_area = arguments.cell * arguments.cell;
   options.layer_thickness = arguments.layer;
   options.poisson = arguments.poisson;
   options.coating = cover_of(arguments);
-  options.tissue_level = parse_tissue_level(arguments.tissue_level);
+  options.tissue_level = workflow::parse_tissue_level(arguments.tissue_level);
   if (arguments.shear_modulus_kpa) options.shear_modulus = *arguments.shear_modulus_kpa / 1000.0;
   return options;
 }
 
-std::string press_text(const std::vector<PressStep>& steps) {
+std::string press_text(const std::vector<contact::PressStep>& steps) {
   std::string text =
       "  depth     force      area       peak  peak cells       mean      shear\n"
       "     mm         N       mm2        MPa         MPa        MPa  modulus MPa\n";
-  for (const PressStep& s : steps) {
+  for (const contact::PressStep& s : steps) {
     text += fmt::format("{:7.3f} {:9.4f} {:9.2f} {:10.5f} {:11.5f} {:10.5f} {:12.5f}\n", s.depth,
                         s.force, s.area, s.peak_pressure, s.peak_pressure_cells, s.mean_pressure,
                         s.shear_modulus);
@@ -83,10 +85,10 @@ std::string press_text(const std::vector<PressStep>& steps) {
 }
 
 int run_press(const PressArguments& arguments, const CommonOptions& common) {
-  PressRequest request;
+  workflow::PressRequest request;
   std::string hand_name;
   request.test = parse_options(arguments, hand_name);
-  request.model = press_model(arguments.model, arguments.layer, !hand_name.empty());
+  request.model = workflow::press_model(arguments.model, arguments.layer, !hand_name.empty());
   request.hand = {.name = hand_name, .tissue = arguments.tissue, .value = nullptr};
   request.out = arguments.out;
   request.note = [&common](const std::string& text) { note(common, text); };
@@ -100,7 +102,7 @@ int run_press(const PressArguments& arguments, const CommonOptions& common) {
     note(common, "--spacing-mm is left out: a hand has its own vertices");
   }
   const auto [test, setting, steps] = run_press(request);
-  print(common.json ? press_json(test, setting, steps) + "\n" : press_text(steps));
+  print(common.json ? records::press_json(test, setting, steps) + "\n" : press_text(steps));
   return 0;
 }
 
@@ -113,7 +115,7 @@ void add_contact_commands(CLI::App& app, Context& context) {
   add_contact_fit_verb(*contact, context);
 
   const auto o = std::make_shared<PressArguments>();
-  o->cell = std::sqrt(PressOptions{}.cell_area);
+  o->cell = std::sqrt(contact::PressOptions{}.cell_area);
   CLI::App* verb =
       add_verb(*contact, "press", "The indentation test of a laboratory",
                "palmar contact press --specimen template:middle_distal --indenter plane "
@@ -130,7 +132,7 @@ void add_contact_commands(CLI::App& app, Context& context) {
   verb->add_option("--tilt-deg", o->tilt_deg, "Tilt of the indenter, deg")->capture_default_str();
   verb->add_option("--spacing-mm", o->spacing,
                    fmt::format("Vertex spacing of a plane or ellipsoid, mm; default {}",
-                               PressOptions{}.spacing));
+                               contact::PressOptions{}.spacing));
   verb->add_option("--shear-modulus-kpa", o->shear_modulus_kpa,
                    "One shear modulus instead of the tissue's own G(d), kPa");
   verb->add_option("--preset", o->model.preset,

@@ -17,9 +17,9 @@ struct FitArguments {
   std::string curves, specimen = "plane", indenter, layer, group, out;
   std::string tissue_model = "halfspace", law = "stiffening", residuals = "absolute";
   double tilt_deg = 0.0;
-  double spacing = PressOptions{}.spacing;
+  double spacing = contact::PressOptions{}.spacing;
   double poisson = 0.5;
-  double confidence_percent = 100.0 * TissueFitOptions{}.confidence;
+  double confidence_percent = 100.0 * contact::TissueFitOptions{}.confidence;
   std::optional<double> limit_depth;
 };
 
@@ -32,8 +32,8 @@ bool is_one_of(const std::string& option, const std::string& text, const std::st
   return text == yes;
 }
 
-TissueFitOptions fit_options(const FitArguments& arguments) {
-  TissueFitOptions options;
+contact::TissueFitOptions fit_options(const FitArguments& arguments) {
+  contact::TissueFitOptions options;
   options.is_constant = is_one_of("--law", arguments.law, "constant", "stiffening");
   options.is_relative = is_one_of("--residuals", arguments.residuals, "relative", "absolute");
   options.limit_depth = arguments.limit_depth;
@@ -47,7 +47,7 @@ TissueFitOptions fit_options(const FitArguments& arguments) {
 
 /// Sets the test up; the layer is a known thickness, fitted, or the hand's own.
 struct TestSetup {
-  PressOptions press;
+  contact::PressOptions press;
   std::string hand;
   bool is_layered = false;
   bool is_layer_fitted = false;
@@ -55,17 +55,17 @@ struct TestSetup {
 
 TestSetup setup_of(const FitArguments& arguments) {
   TestSetup setup;
-  setup.press.specimen = parse_specimen(arguments.specimen, setup.hand);
-  setup.press.indenter = parse_indenter(arguments.indenter);
+  setup.press.specimen = workflow::parse_specimen(arguments.specimen, setup.hand);
+  setup.press.indenter = workflow::parse_indenter(arguments.indenter);
   setup.press.tilt = radians(arguments.tilt_deg);
   setup.press.spacing = arguments.spacing;
-  const TissueModel model = parse_tissue_model(arguments.tissue_model);
-  if (model == TissueModel::kBone) {
+  const contact::TissueModel model = workflow::parse_tissue_model(arguments.tissue_model);
+  if (model == contact::TissueModel::kBone) {
     throw UsageError(
         "--tissue-model bone: its law stiffens with energy, not with depth, and isn't fitted here; "
         "halfspace or layered is allowed");
   }
-  setup.is_layered = model == TissueModel::kLayered || !arguments.layer.empty();
+  setup.is_layered = model == contact::TissueModel::kLayered || !arguments.layer.empty();
   if (!setup.hand.empty()) {
     if (!arguments.layer.empty()) {
       throw UsageError("--layer-mm: a hand has its own depth of skin over bone; leave it out");
@@ -79,7 +79,7 @@ TestSetup setup_of(const FitArguments& arguments) {
     }
     setup.is_layer_fitted = arguments.layer == "fitted";
     if (!setup.is_layer_fitted) {
-      const std::vector<double> thickness = parse_list("--layer-mm", arguments.layer);
+      const std::vector<double> thickness = workflow::parse_list("--layer-mm", arguments.layer);
       if (thickness.size() != 1) {
         throw UsageError("--layer-mm: \"" + arguments.layer +
                          "\"; one thickness in mm, or \"fitted\", is needed");
@@ -99,15 +99,16 @@ std::string describe(const FitArguments& arguments, const TestSetup& setup) {
                                        : ", layer of " + arguments.layer + " mm");
 }
 
-std::string parameters_text(const TissueFit& fit, double confidence) {
+std::string parameters_text(const contact::TissueFit& fit, double confidence) {
   std::string text =
       fmt::format("parameter      value  unit   {:g} % confidence      \n", 100.0 * confidence);
-  for (const FittedParameter& one : fit.parameters) {
+  for (const contact::FittedParameter& one : fit.parameters) {
     const std::string interval =
         one.lower ? fmt::format("{:.4g} to {:.4g}", *one.lower, *one.upper) : "-";
-    const std::string state = one.status == ParameterStatus::kFitted ? ""
-                              : one.status == ParameterStatus::kHeld ? "held: "
-                                                                     : "not identifiable: ";
+    const std::string state = one.status == contact::ParameterStatus::kFitted ? ""
+                              : one.status == contact::ParameterStatus::kHeld
+                                  ? "held: "
+                                  : "not identifiable: ";
     std::string row = fmt::format("{:<10} {:>9.4g}  {:<5}  {:<20}  {}{}", one.name, one.value,
                                   one.unit, interval, state, one.remark);
     row.erase(row.find_last_not_of(' ') + 1);
@@ -116,14 +117,14 @@ std::string parameters_text(const TissueFit& fit, double confidence) {
   return text;
 }
 
-std::string points_text(const TissueFit& fit) {
+std::string points_text(const contact::TissueFit& fit) {
   const bool has_area = fit.area_ratio.has_value();
   std::string text = "\n  line     depth     force     model  residual";
   text += has_area ? "      area     model  subject\n" : "  subject\n";
   text += "              mm         N         N         N";
   text += has_area ? "       mm2       mm2\n" : "\n";
-  for (const FittedPoint& point : fit.points) {
-    const MeasuredPoint& measured = point.measured;
+  for (const contact::FittedPoint& point : fit.points) {
+    const contact::MeasuredPoint& measured = point.measured;
     text += fmt::format("{:6d} {:9.3f} {:9.4f} {:9.4f} {:9.4f}", measured.line, measured.depth,
                         measured.force, point.force, measured.force - point.force);
     if (has_area) {
@@ -135,10 +136,10 @@ std::string points_text(const TissueFit& fit) {
   return text;
 }
 
-std::string fit_text(const TissueFit& fit, const std::string& test, double confidence) {
+std::string fit_text(const contact::TissueFit& fit, const std::string& test, double confidence) {
   std::string text = test + "\n\n" + parameters_text(fit, confidence);
-  const StiffeningLaw& low = fit.stiffness.low;
-  const StiffeningLaw& high = fit.stiffness.high;
+  const hand::StiffeningLaw& low = fit.stiffness.low;
+  const hand::StiffeningLaw& high = fit.stiffness.high;
   text +=
       fmt::format("\nrange          G0 {:.4g} to {:.4g} kPa, G_lim {:.4g} to {:.4g} kPa ({})\n",
                   1000.0 * low.g0, 1000.0 * high.g0, 1000.0 * low.g_limit, 1000.0 * high.g_limit,
@@ -149,8 +150,9 @@ std::string fit_text(const TissueFit& fit, const std::string& test, double confi
     text += fmt::format("area           measured / model {:.3f} mean, {:.1f} % rms\n",
                         *fit.area_ratio, 100.0 * *fit.area_rms_relative);
   }
-  text += fmt::format("fit            {} after {} steps, {} readings, condition {:.3g}\n",
-                      name_of(fit.status), fit.iterations, fit.points.size(), fit.condition);
+  text +=
+      fmt::format("fit            {} after {} steps, {} readings, condition {:.3g}\n",
+                  records::name_of(fit.status), fit.iterations, fit.points.size(), fit.condition);
   if (fit.fitted.size() > 1) {
     text += "correlation    ";
     for (std::size_t i = 0; i < fit.fitted.size(); ++i) {
@@ -162,7 +164,7 @@ std::string fit_text(const TissueFit& fit, const std::string& test, double confi
     }
     text += "\n";
   }
-  for (const SubjectFit& one : fit.subjects) {
+  for (const contact::SubjectFit& one : fit.subjects) {
     text +=
         fmt::format("{:<14} G0 {:.4g}, G_lim {:.4g} kPa; {} readings, {:.4g} N rms\n", one.subject,
                     1000.0 * one.law.g0, 1000.0 * one.law.g_limit, one.points, one.force_rms);
@@ -173,7 +175,7 @@ std::string fit_text(const TissueFit& fit, const std::string& test, double confi
 
 int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   const TestSetup setup = setup_of(arguments);
-  TissueFitRequest request;
+  workflow::TissueFitRequest request;
   request.fit = fit_options(arguments);
   request.curves = arguments.curves;
   request.test = setup.press;
@@ -187,8 +189,9 @@ int run_fit(const FitArguments& arguments, const CommonOptions& common) {
   request.check();
   const auto [fit, group] = fit_tissue(request);
   if (!arguments.out.empty()) note(common, "wrote " + arguments.out + " (" + group + ")");
-  print(common.json ? tissue_fit_json(fit, request.description, request.fit.confidence) + "\n"
-                    : fit_text(fit, request.description, request.fit.confidence));
+  print(common.json
+            ? records::tissue_fit_json(fit, request.description, request.fit.confidence) + "\n"
+            : fit_text(fit, request.description, request.fit.confidence));
   return 0;
 }
 

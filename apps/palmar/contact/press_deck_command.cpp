@@ -45,25 +45,25 @@ void add_press_deck_options(CLI::App& verb, PressDeckArguments& arguments) {
 
 int run_press_deck(const PressDeckArguments& arguments, const std::string& hand_name,
                    const std::string& out, const CommonOptions& common) {
-  const auto region = region_named(arguments.region);
+  const auto region = hand::region_named(arguments.region);
   if (!region) {
     throw UsageError("--region: \"" + arguments.region +
                      "\" is no region; one like middle_distal is required with --format inp");
   }
-  PressDeckRequest request;
+  workflow::PressDeckRequest request;
   request.hand.name = hand_name;
   request.region = *region;
-  request.indenter = parse_indenter(arguments.indenter);
+  request.indenter = workflow::parse_indenter(arguments.indenter);
   request.tilt = radians(arguments.tilt_deg);
-  request.depths = parse_list("--depth-mm", arguments.depths);
+  request.depths = workflow::parse_list("--depth-mm", arguments.depths);
   request.shear_modulus = arguments.shear_modulus_kpa / 1000.0;
   request.poisson = arguments.poisson;
-  if (arguments.is_large_strain) request.material = DeckMaterial::kNeoHooke;
+  if (arguments.is_large_strain) request.material = records::DeckMaterial::kNeoHooke;
   request.largest_tet = arguments.largest_tet;
   request.cut_offset = arguments.cut;
   request.indenter_words = fmt::format("{} at {} deg", arguments.indenter, arguments.tilt_deg);
   request.out = out;
-  const auto [file, deck] = write_press_deck(request);
+  const auto [file, deck] = workflow::write_press_deck(request);
   note(common, fmt::format("wrote {} ({} nodes, {} tetrahedra); solve it with `ccx -i {}`",
                            file.string(), deck.block.mesh.nodes.size(), deck.block.mesh.tets.size(),
                            (file.parent_path() / file.stem()).string()));

@@ -36,7 +36,7 @@ struct WristArguments {
                     "Deviation of the wrist to the thumb's side: -35 to 20")
         ->capture_default_str();
   }
-  WristPosture posture() const { return {radians(flexion), radians(deviation)}; }
+  hand::WristPosture posture() const { return {radians(flexion), radians(deviation)}; }
 };
 
 struct ModelArguments {
@@ -50,13 +50,13 @@ struct ModelArguments {
   }
 };
 
-std::string fingertip_text(const std::vector<FingertipForce>& forces) {
+std::string fingertip_text(const std::vector<effort::FingertipForce>& forces) {
   std::string text = fmt::format(
       "{}, fingertip held still; force of the fingertip, N\n"
       "tendon   pulls  magnitude   radial   distal   palmar"
       "   hand frame x, y, z\n",
       name_of(forces.front().finger));
-  for (const FingertipForce& tip : forces) {
+  for (const effort::FingertipForce& tip : forces) {
     text += fmt::format(
         "{:<6} {:>7.2f} {:>10.3f} {:>8.3f} {:>8.3f} {:>8.3f}   {:.3f}, {:.3f}, {:.3f}\n",
         name_of(tip.tendon), tip.tendon_force, tip.force.norm(), tip.force_in_phalanx.x(),
@@ -64,9 +64,10 @@ std::string fingertip_text(const std::vector<FingertipForce>& forces) {
         tip.force.z());
   }
   text += "\nmoment arms, mm";
-  for (const Dof dof : forces.front().dof) text += fmt::format("{:>24}", plain_name_of(dof));
+  for (const hand::Dof dof : forces.front().dof)
+    text += fmt::format("{:>24}", effort::plain_name_of(dof));
   text += "\n";
-  for (const FingertipForce& tip : forces) {
+  for (const effort::FingertipForce& tip : forces) {
     text += fmt::format("{:<15}", name_of(tip.tendon));
     for (const double arm : tip.moment_arm) text += fmt::format("{:>24.2f}", arm);
     text += "\n";
@@ -99,21 +100,22 @@ void add_fingertip(CLI::App& effort, Context& context) {
   o->model.add_to(*verb);
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      FingertipRequest request;
+      workflow::FingertipRequest request;
       request.hand.name = o->hand;
-      request.finger = parse_finger(o->finger);
-      request.tendons = parse_tendons(request.finger, o->tendon);
-      request.posture = parse_digit_posture(request.finger, o->posture);
+      request.finger = workflow::parse_finger(o->finger);
+      request.tendons = workflow::parse_tendons(request.finger, o->tendon);
+      request.posture = workflow::parse_digit_posture(request.finger, o->posture);
       request.force = o->force_n;
-      request.model = parse_tendon_model(o->model.points, o->model.hood);
-      const auto [forces, posture] = fingertip_forces(request);
-      print(context.common.json ? fingertip_json(forces, posture) + "\n" : fingertip_text(forces));
+      request.model = workflow::parse_tendon_model(o->model.points, o->model.hood);
+      const auto [forces, posture] = workflow::fingertip_forces(request);
+      print(context.common.json ? records::fingertip_json(forces, posture) + "\n"
+                                : fingertip_text(forces));
       return 0;
     };
   });
 }
 
-std::string capacity_json(const Capacity& capacity) {
+std::string capacity_json(const workflow::Capacity& capacity) {
   const auto number = [](double value) { return std::round(1e6 * value) / 1e6; };
   nlohmann::ordered_json json;
   json["capacity"] = {
@@ -134,33 +136,33 @@ std::string capacity_json(const Capacity& capacity) {
   return json.dump(2);
 }
 
-std::string effort_text(const EffortResult& effort) {
+std::string effort_text(const effort::EffortResult& effort) {
   std::string text = fmt::format("effort: {}{}{}\n", name_of(effort.status),
                                  effort.message.empty() ? "" : ", ", effort.message);
   text += fmt::format("contact force on the digits {:.1f} N, all tendons {:.1f} N ({})\n",
                       effort.contact_force, effort.tendon_force,
                       effort.with_friction ? "with friction" : "pressure alone");
-  for (const DigitEffort& digit : effort.digits) {
+  for (const effort::DigitEffort& digit : effort.digits) {
     text += fmt::format("\n{:<13} {:.1f} N of contact\n", finger_words(digit.finger),
                         digit.contact_force);
-    if (digit.status == EffortStatus::kNoLoad) continue;
+    if (digit.status == effort::EffortStatus::kNoLoad) continue;
     text += "  tendon   force_n  strength_n  activation\n";
-    for (const TendonLoad& load : digit.tendons) {
+    for (const effort::TendonLoad& load : digit.tendons) {
       text += fmt::format("  {:<6} {:>9.2f} {:>11.1f} {:>10.1f} %\n", name_of(load.tendon),
                           load.force, load.strength, 100.0 * load.activation);
     }
     text += "  moments, N mm          external   muscles      stop   missing\n";
-    for (const JointEffort& joint : digit.joints) {
-      text +=
-          fmt::format("  {:<20} {:>10.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n", plain_name_of(joint.dof),
-                      joint.external, joint.muscles, joint.stop, joint.missing);
+    for (const effort::JointEffort& joint : digit.joints) {
+      text += fmt::format("  {:<20} {:>10.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n",
+                          effort::plain_name_of(joint.dof), joint.external, joint.muscles,
+                          joint.stop, joint.missing);
     }
   }
   if (!effort.wrist) return text;
-  const WristEffort& wrist = *effort.wrist;
+  const effort::WristEffort& wrist = *effort.wrist;
   text += "\nwrist\n  muscle   force_n  strength_n  activation\n";
-  for (int i = 0; i < kWristMuscleCount; ++i) {
-    const auto muscle = static_cast<WristMuscle>(i);
+  for (int i = 0; i < hand::kWristMuscleCount; ++i) {
+    const auto muscle = static_cast<hand::WristMuscle>(i);
     const auto k = static_cast<std::size_t>(i);
     text += fmt::format("  {:<6} {:>9.2f} {:>11.1f} {:>10.1f} %\n", name_of(muscle), wrist.force[k],
                         wrist.strength[k], 100.0 * wrist.activation(muscle));
@@ -180,7 +182,7 @@ void add_grasp(CLI::App& effort, Context& context) {
     BalanceArguments balance;
     ModelArguments model;
     WristArguments wrist;
-    EffortOptions effort;
+    effort::EffortOptions effort;
   };
   const auto o = std::make_shared<Options>();
   CLI::App* verb =
@@ -205,14 +207,14 @@ void add_grasp(CLI::App& effort, Context& context) {
   verb->callback([&context, o] {
     context.setting_options = {{"strength", "--strength-n"}};  // of the grip; not the muscles' own
     context.run = [&context, o] {
-      EffortRequest request;
+      workflow::EffortRequest request;
       request.grasp = o->grasp.settings();
       request.contact = o->contact.options();
       request.model = o->contact.model();
       request.friction = o->friction.settings();
       request.rest = o->balance.settings();
       request.effort = o->effort;
-      request.effort.tendons = parse_tendon_model(o->model.points, o->model.hood);
+      request.effort.tendons = workflow::parse_tendon_model(o->model.points, o->model.hood);
       request.effort.wrist = o->wrist.posture();
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
       request.hand = {.name = o->grasp.hand,
@@ -221,15 +223,16 @@ void add_grasp(CLI::App& effort, Context& context) {
                       .person = o->balance.person()};
       request.grasp_file = o->file;
       request.note = [&context](const std::string& text) { note(context.common, text); };
-      const EffortResult result = effort_of_grasp(request, make_progress(context.common));
+      const effort::EffortResult result =
+          workflow::effort_of_grasp(request, make_progress(context.common));
       finish_progress();
-      print(context.common.json ? effort_json(result) + "\n" : effort_text(result));
-      return result.status == EffortStatus::kNotConverged ? 4 : 0;
+      print(context.common.json ? records::effort_json(result) + "\n" : effort_text(result));
+      return result.status == effort::EffortStatus::kNotConverged ? 4 : 0;
     };
   });
 }
 
-std::string capacity_text(const Capacity& capacity) {
+std::string capacity_text(const workflow::Capacity& capacity) {
   std::string text =
       fmt::format("held: {}\n", capacity.hold.empty() ? capacity.grip : capacity.hold);
   text += fmt::format("largest grip force   {:.0f} N: {}\n", capacity.grip_force, capacity.message);
@@ -280,19 +283,20 @@ void add_capacity(CLI::App& effort, Context& context) {
   o->wrist.add_to(*verb);
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      CapacityRequest request;
+      workflow::CapacityRequest request;
       request.wrist = o->wrist.posture();
       request.grasp = o->grasp.settings();
       request.contact = o->contact.options();
       request.model = o->contact.model();
       request.friction.friction = o->friction;
       request.strength = o->strength_n;
-      if (!o->person.empty()) request.person = parse_person(o->person);
-      if (!o->about.empty()) request.torque_axis = parse_vector("--about", o->about);
+      if (!o->person.empty()) request.person = workflow::parse_person(o->person);
+      if (!o->about.empty()) request.torque_axis = workflow::parse_vector("--about", o->about);
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
       request.hand = {.name = o->grasp.hand, .tissue = o->contact.tissue, .value = nullptr};
       request.note = [&context](const std::string& text) { note(context.common, text); };
-      const Capacity capacity = capacity_of_grip(request, make_progress(context.common));
+      const workflow::Capacity capacity =
+          workflow::capacity_of_grip(request, make_progress(context.common));
       finish_progress();
       print(context.common.json ? capacity_json(capacity) + "\n" : capacity_text(capacity));
       return 0;

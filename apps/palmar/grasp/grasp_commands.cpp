@@ -16,8 +16,8 @@ namespace {
 
 struct GraspVerb {
   const char *name, *about, *example, *out;
-  std::string (*json)(const Grasp&);
-  std::string (*text)(const Grasp&);
+  std::string (*json)(const grasp::Grasp&);
+  std::string (*text)(const grasp::Grasp&);
 };
 
 // A verb that finds a grasp of a product and describes it.
@@ -34,14 +34,15 @@ void add_grasp_verb(CLI::App& grasp, Context& context, const GraspVerb& kind) {
   verb->add_option("--out", o->out, kind.out);
   verb->callback([&context, o, kind] {
     context.run = [&context, o, kind] {
-      GraspRequest request;
+      workflow::GraspRequest request;
       request.grasp = o->grasp.settings();
       request.product = {o->product, {.unit = parse_unit(o->grasp.unit)}};
       request.hand.name = o->grasp.hand;
       request.note = [&context](const std::string& text) { note(context.common, text); };
-      const Grasp found = grasp_product(request, make_progress(context.common)).grasp;
+      const grasp::Grasp found =
+          workflow::grasp_product(request, make_progress(context.common)).grasp;
       finish_progress();
-      if (!o->out.empty()) write_file(o->out, kind.json(found) + "\n");
+      if (!o->out.empty()) formats::write_file(o->out, kind.json(found) + "\n");
       print(context.common.json ? kind.json(found) + "\n" : kind.text(found));
       return 0;
     };
@@ -59,14 +60,14 @@ void add_grasp_commands(CLI::App& app, Context& context) {
                   .about = "Close a hand on a product",
                   .example = "palmar grasp close handle.step --out grasp.json",
                   .out = "JSON file to write: posture, placement, what stopped each segment",
-                  .json = grasp_json,
+                  .json = records::grasp_json,
                   .text = grasp_text});
   add_grasp_verb(*grasp, context,
                  {.name = "place",
                   .about = "List the best placements of a product in the hand, best first",
                   .example = "palmar grasp place handle.step --grip tripod",
                   .out = "JSON file to write: the list with postures and placements",
-                  .json = placements_json,
+                  .json = records::placements_json,
                   .text = placements_text});
   add_grasp_holds(*grasp, context);
   add_grasp_evaluate(*grasp, context);

@@ -27,11 +27,11 @@ struct EvaluateArguments {
   bool no_pictures = false;
 };
 
-EvaluateRequest request_of(const EvaluateArguments& arguments, const Context& context) {
+workflow::EvaluateRequest request_of(const EvaluateArguments& arguments, const Context& context) {
   if (arguments.posture.empty() == arguments.grasp.empty()) {
     throw UsageError("grasp evaluate: --posture FILE or --grasp FILE is needed, and not both");
   }
-  EvaluateRequest request;
+  workflow::EvaluateRequest request;
   request.contact = arguments.contact.options();
   request.model = arguments.contact.model();
   request.friction = arguments.friction.settings();
@@ -39,7 +39,7 @@ EvaluateRequest request_of(const EvaluateArguments& arguments, const Context& co
   request.hand = {.name = arguments.hand,
                   .tissue = arguments.contact.tissue,
                   .value = nullptr,
-                  .person = parse_person_size(arguments.person),
+                  .person = workflow::parse_person_size(arguments.person),
                   .is_left = arguments.left};
   request.posture_file = arguments.grasp.empty() ? arguments.posture : arguments.grasp;
   request.frame = arguments.frame;
@@ -60,16 +60,17 @@ EvaluateRequest request_of(const EvaluateArguments& arguments, const Context& co
 }
 
 int run_evaluate(const EvaluateArguments& arguments, const Context& context) {
-  const EvaluateRequest request = request_of(arguments, context);
-  const EvaluateOutcome outcome = evaluate_grasp(request, make_progress(context.common));
+  const workflow::EvaluateRequest request = request_of(arguments, context);
+  const workflow::EvaluateOutcome outcome =
+      workflow::evaluate_grasp(request, make_progress(context.common));
   finish_progress();
-  const Assessment& assessment = outcome.set.assessments.front().assessment;
+  const study::Assessment& assessment = outcome.set.assessments.front().assessment;
   if (context.common.json) {
-    print(assessment_json(outcome.set) + "\n");
+    print(records::assessment_json(outcome.set) + "\n");
   } else {
     print(grasp_text(assessment.grasp) + contact_text(assessment.contact) +
           friction_text(*outcome.set.hand, assessment) +
-          with_plain_names(index_text(assessment.indices)));
+          with_plain_names(records::index_text(assessment.indices)));
     if (!arguments.out.empty()) print("Report: " + arguments.out + "/report.html\n");
   }
   if (outcome.has_converged) return 0;

@@ -17,15 +17,15 @@ namespace {
 struct HoldsArguments {
   std::string product, unit, hand = "template", grip = "any", png, out;
   HoldArguments holds;
-  HoldOptions options;
+  grasp::HoldOptions options;
 };
 
-GraspHoldsRequest holds_request(const HoldsArguments& o, const Context& context) {
-  GraspSettings settings;
-  settings.grip = parse_grip(o.grip);
+workflow::GraspHoldsRequest holds_request(const HoldsArguments& o, const Context& context) {
+  grasp::GraspSettings settings;
+  settings.grip = workflow::parse_grip(o.grip);
   settings.is_power_only = o.grip == "power";
   settings.holding = o.holds.request();
-  GraspHoldsRequest request;
+  workflow::GraspHoldsRequest request;
   request.options = settings.options().holds;
   request.options.most = o.options.most;
   request.options.mass = o.options.mass;
@@ -41,14 +41,14 @@ std::string column(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 0, ' ');
 }
 
-std::string holds_text(const GraspHoldsOutcome& outcome) {
-  const RankedHolds& ranked = outcome.ranked;
+std::string holds_text(const workflow::GraspHoldsOutcome& outcome) {
+  const grasp::RankedHolds& ranked = outcome.ranked;
   std::string text = fmt::format(
       "{}: {} hold{} ({} considered, {} tried with the hand)\n", outcome.product.name,
       ranked.holds.size(), ranked.holds.size() == 1 ? "" : "s", ranked.considered, ranked.closed);
   if (ranked.holds.empty()) return text;
   std::size_t part_width = 4, grip_width = 4;
-  for (const RankedHold& one : ranked.holds) {
+  for (const grasp::RankedHold& one : ranked.holds) {
     part_width = std::max(part_width, one.hold.part_name.size() + 3);
     grip_width = std::max(grip_width, name_of(one.hold.grip).size());
   }
@@ -56,13 +56,14 @@ std::string holds_text(const GraspHoldsOutcome& outcome) {
       fmt::format("{:>2}  {}  {}  {:>5}  {:<16} {:>6}  {}\n", "", column("part", part_width),
                   column("grip", grip_width), "along", "thumb's side to", "score", "against it");
   for (std::size_t k = 0; k < ranked.holds.size(); ++k) {
-    const RankedHold& one = ranked.holds[k];
-    text += fmt::format("{:>2}  {}  {}  {:>5}  {:<16} {:>6.1f}  {}\n", k + 1,
-                        column(fmt::format("{} {}", one.hold.part, one.hold.part_name), part_width),
-                        column(std::string(name_of(one.hold.grip)), grip_width),
-                        fmt::format("{:.0f} %", 100.0 * one.hold.along),
-                        direction_words(thumb_direction(one.grasp, outcome.hand->side)), one.score,
-                        one.against);
+    const grasp::RankedHold& one = ranked.holds[k];
+    text += fmt::format(
+        "{:>2}  {}  {}  {:>5}  {:<16} {:>6.1f}  {}\n", k + 1,
+        column(fmt::format("{} {}", one.hold.part, one.hold.part_name), part_width),
+        column(std::string(name_of(one.hold.grip)), grip_width),
+        fmt::format("{:.0f} %", 100.0 * one.hold.along),
+        records::direction_words(records::thumb_direction(one.grasp, outcome.hand->side)),
+        one.score, one.against);
   }
   return text +
          "score: 0 at best; each 0.7 less is a hold that half as many people would choose. Less "
@@ -72,11 +73,12 @@ std::string holds_text(const GraspHoldsOutcome& outcome) {
 
 int run_holds(const HoldsArguments& o, const Context& context) {
   if (!o.png.empty()) refuse_same_file(o.product, o.png);
-  const GraspHoldsOutcome outcome =
-      find_holds(holds_request(o, context), make_progress(context.common));
+  const workflow::GraspHoldsOutcome outcome =
+      workflow::find_holds(holds_request(o, context), make_progress(context.common));
   finish_progress();
   print(context.common.json
-            ? ranked_holds_json(outcome.ranked, outcome.product.name, outcome.hand->side) + "\n"
+            ? records::ranked_holds_json(outcome.ranked, outcome.product.name, outcome.hand->side) +
+                  "\n"
             : holds_text(outcome));
   for (const std::string& file : outcome.files) note(context.common, "wrote " + file);
   return outcome.ranked.holds.empty() ? 5 : 0;
@@ -91,7 +93,7 @@ void add_grasp_holds(CLI::App& grasp, Context& context) {
   verb->add_option("PRODUCT", o->product, "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES")
       ->required();
   verb->add_option("--hand", o->hand, "\"template\" or a .hand.glb file")->capture_default_str();
-  verb->add_option("--grip", o->grip, "Only holds of this grip: " + grip_list())
+  verb->add_option("--grip", o->grip, "Only holds of this grip: " + workflow::grip_list())
       ->capture_default_str();
   o->holds.add_to(*verb);
   verb->add_option("--mass-kg", o->options.mass,

@@ -10,20 +10,20 @@
 namespace palmar::cli {
 namespace {
 
-FingertipTarget parse_fingertip(const std::string& text) {
+grasp::FingertipTarget parse_fingertip(const std::string& text) {
   const std::size_t colon = text.find(':');
-  const std::optional<Finger> finger = finger_named(text.substr(0, colon));
+  const std::optional<hand::Finger> finger = hand::finger_named(text.substr(0, colon));
   if (colon == text.npos || !finger) {
     throw UsageError(
         fmt::format("--fingertip: \"{}\" is not understood; FINGER:X,Y,Z with thumb, "
                     "index, middle, ring or little and a point in mm is required",
                     text));
   }
-  return {*finger, parse_vector("--fingertip", text.substr(colon + 1))};
+  return {*finger, workflow::parse_vector("--fingertip", text.substr(colon + 1))};
 }
 
 Box3 parse_region(const std::string& text) {
-  const std::vector<double> values = parse_list("--box", text);
+  const std::vector<double> values = workflow::parse_list("--box", text);
   if (values.size() != 6) {
     throw UsageError(
         fmt::format("--box: \"{}\" has {} numbers; two corners of a box in mm are "
@@ -42,7 +42,7 @@ void GraspArguments::add_to(CLI::App& verb) {
   verb.add_option("--grip", grip_,
                   "Kind of grip: any (as people would choose), power (what suits the shape), or a "
                   "name of the GRASP taxonomy; allowed: " +
-                      grip_list())
+                      workflow::grip_list())
       ->capture_default_str();
   holds_.add_hold_to(verb);
   holds_.add_to(verb);
@@ -75,15 +75,15 @@ void GraspArguments::add_to(CLI::App& verb) {
       ->capture_default_str();
 }
 
-GraspSettings GraspArguments::settings() const {
-  GraspSettings result = settings_;
-  result.grip = parse_grip(grip_);
+grasp::GraspSettings GraspArguments::settings() const {
+  grasp::GraspSettings result = settings_;
+  result.grip = workflow::parse_grip(grip_);
   result.is_power_only = grip_ == "power";
   result.holding = holds_.request();
-  PlacementRequest& placement = result.placement;
-  if (!at_.empty()) placement.at = parse_vector("--at", at_);
+  grasp::PlacementRequest& placement = result.placement;
+  if (!at_.empty()) placement.at = workflow::parse_vector("--at", at_);
   if (!region_.empty()) placement.region = parse_region(region_);
-  if (!axis_.empty()) placement.axis = parse_vector("--axis", axis_);
+  if (!axis_.empty()) placement.axis = workflow::parse_vector("--axis", axis_);
   if (turn_deg_) placement.turn = radians(*turn_deg_);
   for (const std::string& text : fingertips_) result.fingertips.push_back(parse_fingertip(text));
   result.check();
@@ -125,8 +125,8 @@ void ContactArguments::add_to(CLI::App& verb) {
       ->allow_extra_args(false);
 }
 
-ContactOptions ContactArguments::options() const {
-  ContactOptions result;
+contact::ContactOptions ContactArguments::options() const {
+  contact::ContactOptions result;
   result.swelling = !no_swelling_;
   result.skin_on_skin = skin_on_skin_;
   result.refine = refine_;
@@ -136,7 +136,8 @@ ContactOptions ContactArguments::options() const {
   }
   if (shear_modulus_kpa_) result.shear_modulus = *shear_modulus_kpa_ / 1000.0;
   result.error_band = error_band_;
-  for (const std::string& text : coatings_) result.coatings.push_back(parse_coating(text));
+  for (const std::string& text : coatings_)
+    result.coatings.push_back(workflow::parse_coating(text));
   result.check();
   return result;
 }

@@ -22,10 +22,10 @@ class GraspArguments {
   /// Adds --hand, --grip, --hold, --part, --along, --toward, --up, --purpose, --unit, --at, --axis,
   /// --region, --turn-deg, --fingertip, --place-per-hand and the depths to a verb.
   void add_to(CLI::App& verb);
-  GraspSettings settings() const;  ///< throws UsageError naming the option
+  grasp::GraspSettings settings() const;  ///< throws UsageError naming the option
 
  private:
-  GraspSettings settings_;
+  grasp::GraspSettings settings_;
   HoldArguments holds_;
   std::string grip_ = "any", at_, axis_, region_;
   std::optional<double> turn_deg_;
@@ -40,13 +40,13 @@ class ContactArguments {
   /// Adds --preset, --regions, --tissue-model, --kernel, --no-swelling, --shear-modulus-kpa,
   /// --error-band, --refine, --coating and --tissue to a verb.
   void add_to(CLI::App& verb);
-  ContactOptions options() const;  ///< throws UsageError naming the option
+  contact::ContactOptions options() const;  ///< throws UsageError naming the option
   /// The equations for PreparedHand; throws UsageError.
-  ContactModel model() const { return contact_model(model_); }
+  contact::ContactModel model() const { return workflow::contact_model(model_); }
   const std::string& preset() const { return model_.preset; }
 
  private:
-  ContactModelWords model_;
+  workflow::ContactModelWords model_;
   bool no_swelling_ = false;
   bool error_band_ = true;
   bool skin_on_skin_ = false;

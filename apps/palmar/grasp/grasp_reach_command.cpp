@@ -18,12 +18,12 @@ namespace {
 struct ReachArguments {
   std::string product, out, map, grasp_file;
   std::vector<std::string> buttons;
-  int map_points = ReachRequest{}.map_points;
+  int map_points = workflow::ReachRequest{}.map_points;
   GraspArguments grasp;
 };
 
 /// NAME:X,Y,Z[:FX,FY,FZ]
-Button parse_button(const std::string& text) {
+grasp::Button parse_button(const std::string& text) {
   const std::size_t first = text.find(':');
   if (first == text.npos || first == 0) {
     throw UsageError("--button: \"" + text +
@@ -31,21 +31,22 @@ Button parse_button(const std::string& text) {
                      "(mm and N, the product's frame)");
   }
   const std::size_t second = text.find(':', first + 1);
-  Button button;
+  grasp::Button button;
   button.name = text.substr(0, first);
-  button.point = parse_vector("--button", text.substr(first + 1, second - first - 1));
-  if (second != text.npos) button.force = parse_vector("--button", text.substr(second + 1));
+  button.point = workflow::parse_vector("--button", text.substr(first + 1, second - first - 1));
+  if (second != text.npos)
+    button.force = workflow::parse_vector("--button", text.substr(second + 1));
   return button;
 }
 
-std::string reach_text(const Grasp& grasp, const std::vector<ButtonReach>& buttons) {
+std::string reach_text(const grasp::Grasp& grasp, const std::vector<grasp::ButtonReach>& buttons) {
   std::string text = status_text(grasp);
-  for (const ButtonReach& reach : buttons) {
+  for (const grasp::ButtonReach& reach : buttons) {
     text += fmt::format(
         "\n{}: {}\n  finger        reached  miss (mm)  pad tilt (deg)  margin (deg)  "
         "grip kept\n",
         reach.button.name, with_plain_names(reach.message));
-    for (const FingerReach& one : reach.fingers) {
+    for (const grasp::FingerReach& one : reach.fingers) {
       const char* words = one.is_reached   ? one.is_awkward ? "awkward" : "yes"
                           : one.is_blocked ? "blocked"
                                            : "no";
@@ -59,11 +60,11 @@ std::string reach_text(const Grasp& grasp, const std::vector<ButtonReach>& butto
   return text;
 }
 
-ReachRequest request_of(const ReachArguments& o, const Context& context) {
+workflow::ReachRequest request_of(const ReachArguments& o, const Context& context) {
   if (o.buttons.empty() && o.map.empty()) {
     throw UsageError("grasp reach: --button NAME:X,Y,Z or --map FILE.vtp is needed");
   }
-  ReachRequest request;
+  workflow::ReachRequest request;
   for (const std::string& text : o.buttons) request.buttons.push_back(parse_button(text));
   request.map = o.map;
   request.map_points = o.map_points;
@@ -76,14 +77,15 @@ ReachRequest request_of(const ReachArguments& o, const Context& context) {
 }
 
 int run_reach(const ReachArguments& o, const Context& context) {
-  const ReachOutcome outcome =
-      reach_of_grasp(request_of(o, context), make_progress(context.common));
+  const workflow::ReachOutcome outcome =
+      workflow::reach_of_grasp(request_of(o, context), make_progress(context.common));
   finish_progress();
-  const Grasp& grasp = outcome.held.grasp;
-  const std::string json = reach_json(grasp, outcome.buttons, outcome.map ? &*outcome.map : nullptr,
-                                      outcome.surface_area) +
-                           "\n";
-  if (!o.out.empty()) write_file(o.out, json);
+  const grasp::Grasp& grasp = outcome.held.grasp;
+  const std::string json =
+      records::reach_json(grasp, outcome.buttons, outcome.map ? &*outcome.map : nullptr,
+                          outcome.surface_area) +
+      "\n";
+  if (!o.out.empty()) formats::write_file(o.out, json);
   std::string text = reach_text(grasp, outcome.buttons);
   if (outcome.map) {
     text += fmt::format("\nmap: {:.0f} of {:.0f} mm2 of the surface reached, written to {}\n",

@@ -27,14 +27,14 @@ namespace {
 constexpr const char* kHandHelp = "\"template\" or a .hand.glb file";
 
 /// The creases seen on the hand that load_hand() loads by this name.
-DrawnCreases drawn_creases(const std::string& name) {
-  return name == "template" ? DrawnCreases() : read_drawn_creases(name);
+hand::DrawnCreases drawn_creases(const std::string& name) {
+  return name == "template" ? hand::DrawnCreases() : records::read_drawn_creases(name);
 }
 
 void add_template(CLI::App& hand, Context& context) {
   struct Options {
     std::string asset, out, compliance;
-    double edge = TemplateOptions{}.edge_length;
+    double edge = hand::TemplateOptions{}.edge_length;
   };
   const auto o = std::make_shared<Options>();
   CLI::App* verb = add_verb(hand, "template", "Make the template hand from the generic hand asset",
@@ -50,15 +50,17 @@ void add_template(CLI::App& hand, Context& context) {
   verb->callback([&context, o] {
     context.run = [&context, o] {
       const std::string asset =
-          o->asset.empty() ? share_folder() + "/generic-hand-right.glb" : o->asset;
-      const Hand made = build_template(read_hand_asset(asset), {.edge_length = o->edge});
-      write_hand(o->out, made);
+          o->asset.empty() ? workflow::share_folder() + "/generic-hand-right.glb" : o->asset;
+      const hand::Hand made =
+          hand::build_template(records::read_hand_asset(asset), {.edge_length = o->edge});
+      records::write_hand(o->out, made);
       note(context.common, fmt::format("wrote {} ({} vertices)", o->out, made.skin.vertex_count()));
       if (!o->compliance.empty()) {
         // Of the hand as a file has it, in single precision.
-        const auto written = load_hand(o->out);
-        write_compliance(o->compliance, compliance_key(*written),
-                         skin_compliance(*written, skin_geometry(written->skin)));
+        const auto written = workflow::load_hand(o->out);
+        records::write_compliance(
+            o->compliance, records::compliance_key(*written),
+            contact::skin_compliance(*written, contact::skin_geometry(written->skin)));
         note(context.common, "wrote " + o->compliance);
       }
       return 0;
@@ -73,8 +75,8 @@ void add_info(CLI::App& hand, Context& context) {
   verb->add_option("HAND", *name, kHandHelp)->capture_default_str();
   verb->callback([&context, name] {
     context.run = [&context, name] {
-      const auto loaded = load_hand(*name);
-      print(context.common.json ? hand_info_json(*loaded) + "\n" : hand_text(*loaded));
+      const auto loaded = workflow::load_hand(*name);
+      print(context.common.json ? records::hand_info_json(*loaded) + "\n" : hand_text(*loaded));
       return 0;
     };
   });
@@ -93,12 +95,13 @@ void add_tissue(CLI::App& hand, Context& context) {
   verb->add_option("--out", o->out, "Tissue file to write, *.toml, to start your own from");
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      const auto loaded = load_hand(o->hand, o->tissue);
+      const auto loaded = workflow::load_hand(o->hand, o->tissue);
       if (!o->out.empty()) {
-        write_tissue(o->out, loaded->tissue);
+        records::write_tissue(o->out, loaded->tissue);
         note(context.common, "wrote " + o->out);
       }
-      print(context.common.json ? tissue_json(loaded->tissue) + "\n" : tissue_text(loaded->tissue));
+      print(context.common.json ? records::tissue_json(loaded->tissue) + "\n"
+                                : tissue_text(loaded->tissue));
       return 0;
     };
   });
@@ -112,11 +115,11 @@ void add_measure(CLI::App& hand, Context& context) {
   verb->add_option("HAND", *name, kHandHelp)->capture_default_str();
   verb->callback([&context, name] {
     context.run = [&context, name] {
-      const auto loaded = load_hand(*name);
-      const HandTape tape =
-          measure_with_tape(loaded->skin, loaded->skeleton,
-                            creases_of(loaded->skin, loaded->skeleton, drawn_creases(*name)));
-      print(context.common.json ? hand_measures_json(*loaded, tape) + "\n"
+      const auto loaded = workflow::load_hand(*name);
+      const hand::HandTape tape = hand::measure_with_tape(
+          loaded->skin, loaded->skeleton,
+          hand::creases_of(loaded->skin, loaded->skeleton, drawn_creases(*name)));
+      print(context.common.json ? records::hand_measures_json(*loaded, tape) + "\n"
                                 : dimensions_csv(*loaded, tape));
       return 0;
     };
@@ -134,8 +137,8 @@ void add_mirror(CLI::App& hand, Context& context) {
   verb->add_option("--out", o->out, "File to write, *.hand.glb")->required();
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      const Hand other = mirrored(*load_hand(o->hand));
-      write_hand(o->out, other, mirrored(drawn_creases(o->hand)));
+      const hand::Hand other = mirrored(*workflow::load_hand(o->hand));
+      records::write_hand(o->out, other, mirrored(drawn_creases(o->hand)));
       note(context.common, fmt::format("wrote {} ({} hand)", o->out, name_of(other.side)));
       return 0;
     };
@@ -162,8 +165,8 @@ void add_export(CLI::App& hand, Context& context) {
   verb->callback([&context, o] {
     context.run = [&context, o] {
       if (o->format == "inp") return run_press_deck(o->deck, o->hand, o->out, context.common);
-      const auto loaded = load_hand(o->hand);
-      export_posed_hand(o->out, *loaded, reference_posture(loaded->skeleton));
+      const auto loaded = workflow::load_hand(o->hand);
+      report::export_posed_hand(o->out, *loaded, hand::reference_posture(loaded->skeleton));
       note(context.common, "wrote " + o->out);
       return 0;
     };

@@ -31,42 +31,42 @@ namespace {
 struct PoseArguments {
   std::string hand = "template", posture, angles, markers, marker_set, mesh, unit, frame;
   std::vector<std::string> settings, out;
-  double height_mm = 0.0, marker_sd_mm = PostureFitOptions{}.point_sd;
+  double height_mm = 0.0, marker_sd_mm = hand::PostureFitOptions{}.point_sd;
   bool fits_scale = false;
 };
 
-Dof dof_for(const std::string& name) {
-  if (const auto dof = dof_named(name)) return *dof;
+hand::Dof dof_for(const std::string& name) {
+  if (const auto dof = hand::dof_named(name)) return *dof;
   std::vector<std::string> known;
-  for (int d = 0; d < kDofCount; ++d) known.emplace_back(name_of(static_cast<Dof>(d)));
+  for (int d = 0; d < hand::kDofCount; ++d) known.emplace_back(name_of(static_cast<hand::Dof>(d)));
   const std::string nearest = nearest_name(name, known);
   throw UsageError(
       "--set: \"" + name + "\" is no degree of freedom" +
       (nearest.empty() ? "; `palmar hand info` lists them" : "; did you mean " + nearest + "?"));
 }
 
-Posture named(const Skeleton& skeleton, const std::string& name) {
-  if (name.empty() || name == "reference") return reference_posture(skeleton);
-  if (const auto found = named_posture(skeleton, name)) return *found;
-  const std::string nearest = nearest_name(name, posture_names());
+hand::Posture named(const hand::Skeleton& skeleton, const std::string& name) {
+  if (name.empty() || name == "reference") return hand::reference_posture(skeleton);
+  if (const auto found = hand::named_posture(skeleton, name)) return *found;
+  const std::string nearest = nearest_name(name, hand::posture_names());
   throw UsageError("--posture: \"" + name + "\" is not known" +
                    (nearest.empty() ? "" : "; did you mean " + nearest + "?") +
-                   " Known: reference, " + joined(posture_names(), ", "));
+                   " Known: reference, " + palmar::joined(hand::posture_names(), ", "));
 }
 
 /// Single angles "index_pip_flexion=60" (degrees) over a posture, held to the range of motion.
-void set_angles(const std::vector<std::string>& settings, const Skeleton& skeleton,
-                const CommonOptions& common, PostureFrame& frame) {
+void set_angles(const std::vector<std::string>& settings, const hand::Skeleton& skeleton,
+                const CommonOptions& common, records::PostureFrame& frame) {
   if (settings.empty()) return;
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
       throw UsageError("--set: \"" + setting + "\" is not of the form index_pip_flexion=60 (deg)");
     }
-    const double angle = parse_list("--set", setting.substr(equals + 1)).front();
+    const double angle = workflow::parse_list("--set", setting.substr(equals + 1)).front();
     frame.posture[dof_for(setting.substr(0, equals))] = radians(angle);
   }
-  const ClampedPosture held = clamp_to_range(skeleton, frame.posture);
+  const hand::ClampedPosture held = hand::clamp_to_range(skeleton, frame.posture);
   note_clamped(common, frame.name, held.clamped);
   frame.posture = held.posture;
   frame.clamped.insert(frame.clamped.end(), held.clamped.begin(), held.clamped.end());
@@ -92,16 +92,17 @@ std::vector<std::size_t> chosen_frames(const std::string& frame, const std::vect
   return {static_cast<std::size_t>(found - numbers.begin())};
 }
 
-PostureReport from_angles(const PoseArguments& arguments, const Hand& hand,
-                          const CommonOptions& common) {
-  const PostureFile file = read_postures(arguments.angles, hand.skeleton);
+records::PostureReport from_angles(const PoseArguments& arguments, const hand::Hand& hand,
+                                   const CommonOptions& common) {
+  const records::PostureFile file = records::read_postures(arguments.angles, hand.skeleton);
   for (const std::string& text : file.notes) note(common, arguments.angles + ": " + text);
   std::vector<int> numbers;
   for (std::size_t i = 0; i < file.frames.size(); ++i) numbers.push_back(static_cast<int>(i) + 1);
-  PostureReport report{.hand = hand.name, .source = arguments.angles, .labels = {}, .postures = {}};
+  records::PostureReport report{
+      .hand = hand.name, .source = arguments.angles, .labels = {}, .postures = {}};
   for (const std::size_t i : chosen_frames(arguments.frame, numbers, arguments.angles)) {
     note_frame(common, file.frames[i]);
-    FoundPosture found;
+    records::FoundPosture found;
     found.frame = file.frames[i];
     found.number = numbers[i];
     report.postures.push_back(std::move(found));
@@ -109,15 +110,15 @@ PostureReport from_angles(const PoseArguments& arguments, const Hand& hand,
   return report;
 }
 
-std::string names_of(const std::vector<Dof>& dofs) {
+std::string names_of(const std::vector<hand::Dof>& dofs) {
   std::string text;
-  for (const Dof dof : dofs) text += (text.empty() ? "" : ", ") + std::string(name_of(dof));
+  for (const hand::Dof dof : dofs) text += (text.empty() ? "" : ", ") + std::string(name_of(dof));
   return text;
 }
 
 /// What a person should know about one frame's fit.
-void note_fit(const CommonOptions& common, const std::string& place, const PostureFit& fit,
-              const MarkerSet& set) {
+void note_fit(const CommonOptions& common, const std::string& place, const hand::PostureFit& fit,
+              const hand::MarkerSet& set) {
   note(common, place + ": " + fit.message);
   for (const int i : fit.outliers) {
     const auto k = static_cast<std::size_t>(i);
@@ -139,16 +140,17 @@ void note_fit(const CommonOptions& common, const std::string& place, const Postu
   }
 }
 
-PostureReport from_markers(const PoseArguments& arguments, const Hand& hand,
-                           const CommonOptions& common) {
-  const MarkerRecording recording = read_markers(arguments.markers, parse_unit(arguments.unit));
+records::PostureReport from_markers(const PoseArguments& arguments, const hand::Hand& hand,
+                                    const CommonOptions& common) {
+  const formats::MarkerRecording recording =
+      formats::read_markers(arguments.markers, parse_unit(arguments.unit));
   for (const std::string& text : recording.notes) note(common, arguments.markers + ": " + text);
-  const MarkerSet set = arguments.marker_set.empty() || arguments.marker_set == "dorsal"
-                            ? dorsal_marker_set(hand, arguments.height_mm)
-                            : read_marker_set(arguments.marker_set, hand);
-  const MatchedMarkers matched = match_markers(set, recording, arguments.markers);
+  const hand::MarkerSet set = arguments.marker_set.empty() || arguments.marker_set == "dorsal"
+                                  ? hand::dorsal_marker_set(hand, arguments.height_mm)
+                                  : records::read_marker_set(arguments.marker_set, hand);
+  const records::MatchedMarkers matched = records::match_markers(set, recording, arguments.markers);
   for (const std::string& text : matched.notes) note(common, arguments.markers + ": " + text);
-  const PostureFitter fitter(
+  const hand::PostureFitter fitter(
       hand, matched.set.point,
       {.point_sd = arguments.marker_sd_mm, .fits_scale = arguments.fits_scale});
 
@@ -156,29 +158,31 @@ PostureReport from_markers(const PoseArguments& arguments, const Hand& hand,
   for (const auto& frame : recording.frames) numbers.push_back(frame.number);
   const std::vector<std::size_t> chosen =
       chosen_frames(arguments.frame, numbers, arguments.markers);
-  PostureReport report{
+  records::PostureReport report{
       .hand = hand.name, .source = arguments.markers, .labels = matched.set.label, .postures = {}};
   const Progress progress = make_progress(common);
-  std::optional<PostureFit> before;
+  std::optional<hand::PostureFit> before;
   int skipped = 0, changes = 0;
   double sum = 0.0, worst = 0.0;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const std::size_t i = chosen[k];
     progress.update(static_cast<double>(k) / static_cast<double>(chosen.size()),
                     fmt::format("frame {}", numbers[i]));
-    const PostureFit fit = fitter.fit(matched.frames[i], before ? &*before : nullptr);
+    const hand::PostureFit fit = fitter.fit(matched.frames[i], before ? &*before : nullptr);
     const std::string place = fmt::format("frame {}", numbers[i]);
-    if (fit.status == PostureFitStatus::kMirrored || fit.status == PostureFitStatus::kWrongUnit) {
+    if (fit.status == hand::PostureFitStatus::kMirrored ||
+        fit.status == hand::PostureFitStatus::kWrongUnit) {
       throw InputError(arguments.markers + ": " + place + ": " + fit.message);
     }
-    if (fit.status == PostureFitStatus::kTooFew) {
+    if (fit.status == hand::PostureFitStatus::kTooFew) {
       if (chosen.size() == 1)
         throw InputError(arguments.markers + ": " + place + ": " + fit.message);
       if (++skipped <= 3) note(common, place + " is left out: " + fit.message);
       continue;
     }
     // Of a long recording the first frame is reported in full, the others are summed up.
-    if (report.postures.empty() || fit.status == PostureFitStatus::kPoor || !fit.outliers.empty()) {
+    if (report.postures.empty() || fit.status == hand::PostureFitStatus::kPoor ||
+        !fit.outliers.empty()) {
       note_fit(common, place, fit, matched.set);
     }
     if (before && fit.not_observed != before->not_observed && ++changes <= 5) {
@@ -189,7 +193,7 @@ PostureReport from_markers(const PoseArguments& arguments, const Hand& hand,
     before = fit;
     sum += fit.rms;
     worst = std::max(worst, fit.rms);
-    FoundPosture found;
+    records::FoundPosture found;
     found.frame.posture = fit.posture;
     found.frame.time = recording.frames[i].time;
     found.number = numbers[i];
@@ -210,45 +214,47 @@ PostureReport from_markers(const PoseArguments& arguments, const Hand& hand,
   return report;
 }
 
-PostureReport from_mesh(const PoseArguments& arguments, const Hand& hand,
-                        const CommonOptions& common) {
-  const MeshFile file = read_mesh(arguments.mesh);
+records::PostureReport from_mesh(const PoseArguments& arguments, const hand::Hand& hand,
+                                 const CommonOptions& common) {
+  const formats::MeshFile file = formats::read_mesh(arguments.mesh);
   for (const std::string& text : file.notes) note(common, arguments.mesh + ": " + text);
   Box3 box;
   for (const Vec3& v : file.mesh.vertices) box.extend(v);
-  const UnitDecision unit = decide_unit(box, file.unit, parse_unit(arguments.unit), arguments.mesh);
+  const product::UnitDecision unit =
+      product::decide_unit(box, file.unit, parse_unit(arguments.unit), arguments.mesh);
   if (!unit.explanation.empty()) note(common, arguments.mesh + ": " + unit.explanation);
-  TriangleMesh mesh = file.mesh;
-  for (Vec3& v : mesh.vertices) v *= millimetres_per(unit.unit);
-  const MeshFit fit =
-      fit_posture_to_mesh(hand, mesh, {.fits_scale = arguments.fits_scale}, make_progress(common));
+  geometry::TriangleMesh mesh = file.mesh;
+  for (Vec3& v : mesh.vertices) v *= geometry::millimetres_per(unit.unit);
+  const hand::MeshFit fit = hand::fit_posture_to_mesh(
+      hand, mesh, {.fits_scale = arguments.fits_scale}, make_progress(common));
   finish_progress();
-  if (fit.status == PostureFitStatus::kMirrored || fit.status == PostureFitStatus::kWrongUnit) {
+  if (fit.status == hand::PostureFitStatus::kMirrored ||
+      fit.status == hand::PostureFitStatus::kWrongUnit) {
     throw InputError(arguments.mesh + ": " + fit.message);
   }
   note(common, arguments.mesh + ": " + fit.message);
   if (!fit.not_observed.empty()) {
     note(common, arguments.mesh + ": the mesh doesn't determine " + names_of(fit.not_observed));
   }
-  FoundPosture found;
+  records::FoundPosture found;
   found.frame.posture = fit.posture;
   found.mesh = fit;
   return {.hand = hand.name, .source = arguments.mesh, .labels = {}, .postures = {found}};
 }
 
-void write_pose(const std::string& path, const Hand& hand, const PostureReport& report,
-                const CommonOptions& common) {
+void write_pose(const std::string& path, const hand::Hand& hand,
+                const records::PostureReport& report, const CommonOptions& common) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".json") {
-    write_file(path, posture_report_json(report) + "\n");
+    formats::write_file(path, records::posture_report_json(report) + "\n");
   } else if (ending == ".csv") {
-    write_file(path, posture_report_csv(report));
+    formats::write_file(path, records::posture_report_csv(report));
   } else {
     if (report.postures.size() > 1) {
       throw UsageError(fmt::format("--out: {} takes one posture, {} are there; --frame picks one",
                                    path, report.postures.size()));
     }
-    export_posed_hand(path, hand, report.postures.front().frame.posture);
+    report::export_posed_hand(path, hand, report.postures.front().frame.posture);
   }
   note(common, "wrote " + path);
 }
@@ -266,8 +272,8 @@ int run_pose(const PoseArguments& arguments, const Context& context) {
   if (!arguments.frame.empty() && arguments.markers.empty() && arguments.angles.empty()) {
     throw UsageError("--frame needs --markers or --angles");
   }
-  const auto hand = load_hand(arguments.hand);
-  PostureReport report{.hand = hand->name, .source = "", .labels = {}, .postures = {}};
+  const auto hand = workflow::load_hand(arguments.hand);
+  records::PostureReport report{.hand = hand->name, .source = "", .labels = {}, .postures = {}};
   if (!arguments.angles.empty()) {
     report = from_angles(arguments, *hand, context.common);
   } else if (!arguments.markers.empty()) {
@@ -275,20 +281,21 @@ int run_pose(const PoseArguments& arguments, const Context& context) {
   } else if (!arguments.mesh.empty()) {
     report = from_mesh(arguments, *hand, context.common);
   } else {
-    FoundPosture found;
+    records::FoundPosture found;
     found.frame.posture = named(hand->skeleton, arguments.posture);
     report.source = arguments.posture.empty() ? "reference" : arguments.posture;
     report.postures.push_back(std::move(found));
   }
-  for (FoundPosture& one : report.postures) {
+  for (records::FoundPosture& one : report.postures) {
     set_angles(arguments.settings, hand->skeleton, context.common, one.frame);
   }
   for (const std::string& path : arguments.out) write_pose(path, *hand, report, context.common);
-  if (arguments.out.empty() || context.common.json) print(posture_report_json(report) + "\n");
-  const bool is_poor =
-      std::any_of(report.postures.begin(), report.postures.end(), [](const FoundPosture& one) {
-        return (one.markers && one.markers->status == PostureFitStatus::kPoor) ||
-               (one.mesh && one.mesh->status == PostureFitStatus::kPoor);
+  if (arguments.out.empty() || context.common.json)
+    print(records::posture_report_json(report) + "\n");
+  const bool is_poor = std::any_of(
+      report.postures.begin(), report.postures.end(), [](const records::FoundPosture& one) {
+        return (one.markers && one.markers->status == hand::PostureFitStatus::kPoor) ||
+               (one.mesh && one.mesh->status == hand::PostureFitStatus::kPoor);
       });
   return is_poor ? 4 : 0;
 }

@@ -28,10 +28,11 @@ struct ScaleArguments {
   std::vector<std::string> dimensions;
 };
 
-HandDimension dimension_for(const std::string& name) {
-  if (const auto dimension = hand_dimension_named(name)) return *dimension;
+hand::HandDimension dimension_for(const std::string& name) {
+  if (const auto dimension = hand::hand_dimension_named(name)) return *dimension;
   std::vector<std::string> names;
-  for (const HandDimension dimension : all_hand_dimensions()) names.push_back(name_of(dimension));
+  for (const hand::HandDimension dimension : hand::all_hand_dimensions())
+    names.push_back(name_of(dimension));
   const std::string nearest = nearest_name(name, names);
   throw UsageError("--dimension: \"" + name + "\" is not a dimension of a hand; " +
                    (nearest.empty() ? "index_proximal_length, for one, is allowed"
@@ -39,7 +40,8 @@ HandDimension dimension_for(const std::string& name) {
 }
 
 /// Rows whose cell in a column of text is `label`.
-std::vector<std::size_t> rows_with(const TableColumn& column, const std::string& label) {
+std::vector<std::size_t> rows_with(const population::TableColumn& column,
+                                   const std::string& label) {
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < column.texts.size(); ++i) {
     if (column.texts[i] == label) rows.push_back(i);
@@ -48,22 +50,22 @@ std::vector<std::size_t> rows_with(const TableColumn& column, const std::string&
 }
 
 /// The one row of `rows`; throws UsageError if there are several.
-std::size_t only_row(const std::vector<std::size_t>& rows, const DimensionTable& table,
-                     const TableColumn& column, const std::string& label) {
+std::size_t only_row(const std::vector<std::size_t>& rows, const population::DimensionTable& table,
+                     const population::TableColumn& column, const std::string& label) {
   if (rows.size() == 1) return rows.front();
   throw UsageError(fmt::format(
       "--row {}: {} subjects of {} have it in their column \"{}\"; one is needed, by {}", label,
       rows.size(), table.source, column.header,
-      column.quantity == Quantity::kLabel
+      column.quantity == population::Quantity::kLabel
           ? std::string("labels that differ")
           : fmt::format("its number, 1 to {}, or a column subject", table.subjects())));
 }
 
 /// The subject called `label` in the table's column of subjects (subject, id, name, label ...); if
 /// there is none, by the row's number from 1, or by text that one row alone has.
-std::size_t subject_called(const DimensionTable& table, const std::string& label) {
-  for (const TableColumn& column : table.columns) {
-    if (column.quantity != Quantity::kLabel) continue;
+std::size_t subject_called(const population::DimensionTable& table, const std::string& label) {
+  for (const population::TableColumn& column : table.columns) {
+    if (column.quantity != population::Quantity::kLabel) continue;
     const std::vector<std::size_t> rows = rows_with(column, label);
     if (!rows.empty()) return only_row(rows, table, column, label);
     throw UsageError("--row " + label + ": " + table.source +
@@ -75,7 +77,7 @@ std::size_t subject_called(const DimensionTable& table, const std::string& label
   if (error == std::errc() && rest == end && number >= 1 && number <= table.subjects()) {
     return static_cast<std::size_t>(number) - 1;
   }
-  for (const TableColumn& column : table.columns) {
+  for (const population::TableColumn& column : table.columns) {
     const std::vector<std::size_t> rows = rows_with(column, label);
     if (!rows.empty()) return only_row(rows, table, column, label);
   }
@@ -85,17 +87,18 @@ std::size_t subject_called(const DimensionTable& table, const std::string& label
       label, table.source, table.subjects()));
 }
 
-std::vector<SizedDimension> targets_of(const ScaleArguments& arguments, const Context& context) {
-  std::vector<SizedDimension> targets;
-  const auto add = [&](DimensionKind kind, const std::optional<double>& value,
-                       Segment segment = Segment::kPalm) {
+std::vector<hand::SizedDimension> targets_of(const ScaleArguments& arguments,
+                                             const Context& context) {
+  std::vector<hand::SizedDimension> targets;
+  const auto add = [&](hand::DimensionKind kind, const std::optional<double>& value,
+                       hand::Segment segment = hand::Segment::kPalm) {
     if (value) targets.push_back({{kind, segment}, *value});
   };
-  add(DimensionKind::kHandLength, arguments.length);
-  add(DimensionKind::kHandCircumference, arguments.circumference);
-  add(DimensionKind::kHandWidth, arguments.width);
-  add(DimensionKind::kHandThickness, arguments.thickness);
-  add(DimensionKind::kSegmentLength, arguments.palm_length);
+  add(hand::DimensionKind::kHandLength, arguments.length);
+  add(hand::DimensionKind::kHandCircumference, arguments.circumference);
+  add(hand::DimensionKind::kHandWidth, arguments.width);
+  add(hand::DimensionKind::kHandThickness, arguments.thickness);
+  add(hand::DimensionKind::kSegmentLength, arguments.palm_length);
   for (const std::string& setting : arguments.dimensions) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos) {
@@ -103,38 +106,38 @@ std::vector<SizedDimension> targets_of(const ScaleArguments& arguments, const Co
                        "\" is not of the form index_proximal_length=20 (mm)");
     }
     targets.push_back({dimension_for(setting.substr(0, equals)),
-                       parse_list("--dimension", setting.substr(equals + 1)).front()});
+                       workflow::parse_list("--dimension", setting.substr(equals + 1)).front()});
   }
   if (arguments.table.empty()) return targets;
   if (arguments.row.empty()) throw UsageError("--table needs --row, the hand's label");
-  const DimensionTable table = read_dimension_table(arguments.table);
+  const population::DimensionTable table = records::read_dimension_table(arguments.table);
   for (const std::string& text : table.notes) note(context.common, text);
   const std::size_t subject = subject_called(table, arguments.row);
-  for (const TableColumn& column : table.columns) {
+  for (const population::TableColumn& column : table.columns) {
     if (!column.dimension || !column.values[subject]) continue;
     targets.push_back({*column.dimension, *column.values[subject]});
   }
   return targets;
 }
 
-std::string driven_text(const HandInstance& instance) {
+std::string driven_text(const hand::HandInstance& instance) {
   std::string text = fmt::format("{:<26} {:>8} {:>9}  (mm)\n", "dimension", "asked", "measured");
-  for (const MetDimension& one : instance.driven) {
+  for (const hand::MetDimension& one : instance.driven) {
     text +=
         fmt::format("{:<26} {:8.2f} {:9.2f}\n", name_of(one.dimension), one.asked, one.measured);
   }
   return text + fmt::format("largest miss {:.3f} mm\n", instance.largest_miss);
 }
 
-Json driven_json(const HandInstance& instance) {
+Json driven_json(const hand::HandInstance& instance) {
   Json driven = Json::array(), measured = Json::object();
-  for (const MetDimension& one : instance.driven) {
+  for (const hand::MetDimension& one : instance.driven) {
     driven.push_back({{"dimension", name_of(one.dimension)},
                       {"asked_mm", one.asked},
                       {"measured_mm", one.measured}});
   }
-  for (const HandDimension dimension : all_hand_dimensions()) {
-    measured[name_of(dimension) + "_mm"] = value_of(instance.hand.dimensions, dimension);
+  for (const hand::HandDimension dimension : hand::all_hand_dimensions()) {
+    measured[name_of(dimension) + "_mm"] = hand::value_of(instance.hand.dimensions, dimension);
   }
   return {{"driven", driven},
           {"largest_miss_mm", instance.largest_miss},
@@ -143,8 +146,8 @@ Json driven_json(const HandInstance& instance) {
 }
 
 int run_scale(const ScaleArguments& arguments, const Context& context) {
-  const auto base = load_hand(arguments.hand);
-  const std::vector<SizedDimension> targets = targets_of(arguments, context);
+  const auto base = workflow::load_hand(arguments.hand);
+  const std::vector<hand::SizedDimension> targets = targets_of(arguments, context);
   if (arguments.factor && !targets.empty()) {
     throw UsageError("--factor scales everything alike; no dimension is allowed beside it");
   }
@@ -153,14 +156,14 @@ int run_scale(const ScaleArguments& arguments, const Context& context) {
         "no dimension is given; --hand-length-mm, --circumference-mm, --dimension NAME=MM, --table "
         "or --factor is required");
   }
-  HandInstance instance;
+  hand::HandInstance instance;
   if (arguments.factor) {
     instance.hand = scaled(*base, *arguments.factor);
   } else {
-    instance = make_hand_instance(*base, targets);
+    instance = hand::make_hand_instance(*base, targets);
   }
   if (!arguments.out.empty()) {
-    write_hand(arguments.out, instance.hand);
+    records::write_hand(arguments.out, instance.hand);
     note(context.common, "wrote " + arguments.out);
   }
   if (context.common.json) {

@@ -12,16 +12,16 @@
 namespace palmar::cli {
 
 void note_clamped(const CommonOptions& common, const std::string& place,
-                  const std::vector<ClampedAngle>& clamped) {
-  for (const std::string& text : clamped_notes(place, clamped)) note(common, text);
+                  const std::vector<hand::ClampedAngle>& clamped) {
+  for (const std::string& text : workflow::clamped_notes(place, clamped)) note(common, text);
 }
 
-void note_frame(const CommonOptions& common, const PostureFrame& frame) {
-  for (const std::string& text : frame_notes(frame)) note(common, text);
+void note_frame(const CommonOptions& common, const records::PostureFrame& frame) {
+  for (const std::string& text : workflow::frame_notes(frame)) note(common, text);
 }
 
-Rigid3 parse_placement(const std::string& option, const std::string& text) {
-  const std::vector<double> n = parse_list(option, text);
+geometry::Rigid3 parse_placement(const std::string& option, const std::string& text) {
+  const std::vector<double> n = workflow::parse_list(option, text);
   if (n.size() != 7) {
     throw UsageError(
         fmt::format("{}: \"{}\" has {} numbers; seven are needed: x,y,z in mm and the "

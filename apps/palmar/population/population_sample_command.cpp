@@ -28,7 +28,7 @@ void add_list(CLI::App& noun, Context& context) {
     context.run = [&context] {
       Json populations = Json::array(), profiles = Json::array();
       std::string text = "populations\n";
-      for (const Population& one : built_in_populations()) {
+      for (const population::Population& one : population::built_in_populations()) {
         populations.push_back({{"name", one.name}, {"title", one.title}, {"source", one.source}});
         text += fmt::format("  {:<16} {}\n", one.name, one.title);
       }
@@ -38,7 +38,7 @@ void add_list(CLI::App& noun, Context& context) {
           "small-to-large\n"
           "  woman:P5..woman:P95 women of P5, P50 and P95; men alike\n"
           "profiles\n";
-      for (const HandProfile& one : built_in_profiles()) {
+      for (const population::HandProfile& one : population::built_in_profiles()) {
         profiles.push_back({{"name", one.name},
                             {"range_share", one.range_share},
                             {"strength_share", one.strength_share},
@@ -60,31 +60,33 @@ void add_list(CLI::App& noun, Context& context) {
   });
 }
 
-std::string dimension_line(HandDimension dimension, double mean, double sd, Evidence evidence,
-                           const std::string& source) {
+std::string dimension_line(hand::HandDimension dimension, double mean, double sd,
+                           population::Evidence evidence, const std::string& source) {
   return fmt::format("  {:<26} {:>7.1f} {:>6} {:<9} {}\n", name_of(dimension), mean,
                      sd > 0.0 ? fmt::format("{:.1f}", sd) : "-", name_of(evidence), source);
 }
 
-std::string population_text(const Population& population) {
+std::string population_text(const population::Population& population) {
   std::string text =
       fmt::format("{}: {}\nsource: {}\n", population.name, population.title, population.source);
-  for (const Stratum& stratum : population.strata) {
+  for (const population::Stratum& stratum : population.strata) {
     text += fmt::format("\n{}, {:.1f} % of the population", stratum.name, 100.0 * stratum.share);
     if (stratum.sex && stratum.age) {
-      const auto strength = grip_strength(*stratum.sex, *stratum.age);
+      const auto strength = grasp::grip_strength(*stratum.sex, *stratum.age);
       if (strength) {
-        text += fmt::format(", {:g} years, grip strength {:.0f} +- {:.0f} N", *stratum.age,
-                            *strength, grip_strength_sd(*stratum.sex, *stratum.age).value_or(0.0));
+        text +=
+            fmt::format(", {:g} years, grip strength {:.0f} +- {:.0f} N", *stratum.age, *strength,
+                        grasp::grip_strength_sd(*stratum.sex, *stratum.age).value_or(0.0));
       }
     }
     text += fmt::format("\n  {:<26} {:>7} {:>6} {:<9} {}\n", "dimension, mm", "mean", "SD",
                         "known as", "source");
-    for (const DrivingDimension& one : stratum.driving) {
+    for (const population::DrivingDimension& one : stratum.driving) {
       text += dimension_line(one.dimension, one.mean, one.sd, one.evidence, one.source);
     }
-    for (const DimensionRegression& one : stratum.regressions) {
-      const DimensionMoments moments = moments_of(stratum, one.dimension).value();
+    for (const population::DimensionRegression& one : stratum.regressions) {
+      const population::DimensionMoments moments =
+          population::moments_of(stratum, one.dimension).value();
       text += dimension_line(one.dimension, moments.mean, moments.sd, one.evidence, one.source);
     }
     text += fmt::format("  {:<26} {:>7} {:>6} {:<9} {}\n", "all others", "", "", "scaled",
@@ -115,30 +117,32 @@ void add_show(CLI::App& noun, Context& context) {
   verb->add_option("--out", o->out, "Population file to write: .toml; to edit or to keep");
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      const Population population = load_population(o->population);
+      const population::Population population = records::load_population(o->population);
       if (!o->out.empty()) {
-        write_population(o->out, population);
+        records::write_population(o->out, population);
         note(context.common, "wrote " + o->out);
         return 0;
       }
-      print(context.common.json ? population_json(population) : population_text(population));
+      print(context.common.json ? records::population_json(population)
+                                : population_text(population));
       return 0;
     };
   });
 }
 
 struct SampleArguments {
-  PopulationSampleRequest request;
-  std::string design = name_of(SamplingOptions{}.design), percentiles;
+  workflow::PopulationSampleRequest request;
+  std::string design = name_of(population::SamplingOptions{}.design), percentiles;
   bool without_residuals = false, as_csv = false;
   const CLI::Option* design_option = nullptr;
   bool is_design_given() const { return design_option->count() > 0; }
 };
 
-SamplingDesign parse_design(const std::string& name) {
-  if (const auto design = sampling_design_named(name)) return *design;
+population::SamplingDesign parse_design(const std::string& name) {
+  if (const auto design = population::sampling_design_named(name)) return *design;
   std::vector<std::string> known;
-  for (const SamplingDesign one : kSamplingDesigns) known.push_back(name_of(one));
+  for (const population::SamplingDesign one : population::kSamplingDesigns)
+    known.push_back(name_of(one));
   const std::string nearest = nearest_name(name, known);
   throw UsageError("--design " + name + ": " +
                    (nearest.empty() ? "random, latin_hypercube, boundary or percentiles is allowed"
@@ -147,7 +151,7 @@ SamplingDesign parse_design(const std::string& name) {
 
 void add_sample(CLI::App& noun, Context& context) {
   const auto o = std::make_shared<SampleArguments>();
-  SamplingOptions& sampling = o->request.sampling;
+  population::SamplingOptions& sampling = o->request.sampling;
   CLI::App* verb = add_verb(noun, "sample", "Sample hands of a population, one row each",
                             "palmar population sample ansur2 --hands 30 --out hands.csv");
   verb->add_option("POPULATION", o->request.population, kNameOrFile)->required();
@@ -170,27 +174,28 @@ void add_sample(CLI::App& noun, Context& context) {
   verb->add_option("--out", o->request.out, "File to write: .csv, or .json");
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      PopulationSampleRequest request = o->request;
+      workflow::PopulationSampleRequest request = o->request;
       request.sampling.design = parse_design(o->design);
       request.sampling.seed = context.common.seed;
       request.sampling.residuals = !o->without_residuals;
       if (!o->percentiles.empty()) {
         // Who asks for percentiles means them; another design would leave them out unseen.
-        if (o->is_design_given() && request.sampling.design != SamplingDesign::kPercentiles) {
+        if (o->is_design_given() &&
+            request.sampling.design != population::SamplingDesign::kPercentiles) {
           throw UsageError("--percentiles goes with --design percentiles, not with --design " +
                            o->design);
         }
-        request.sampling.design = SamplingDesign::kPercentiles;
-        request.sampling.percentiles = parse_list("--percentiles", o->percentiles);
+        request.sampling.design = population::SamplingDesign::kPercentiles;
+        request.sampling.percentiles = workflow::parse_list("--percentiles", o->percentiles);
       }
       request.note = [&context](const std::string& text) { note(context.common, text); };
-      const auto [population, hands] = sample_population(request);
+      const auto [population, hands] = workflow::sample_population(request);
       if (!request.out.empty()) {
         note(context.common, fmt::format("wrote {} ({} hands)", request.out, hands.size()));
       } else if (context.common.json && !o->as_csv) {
-        print(hand_sample_json(population, request.sampling, hands));
+        print(records::hand_sample_json(population, request.sampling, hands));
       } else {
-        print(format_csv(hand_sample_table(hands)));
+        print(records::format_csv(records::hand_sample_table(hands)));
       }
       return 0;
     };

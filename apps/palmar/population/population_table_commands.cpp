@@ -30,7 +30,7 @@ const SettingOptions kTableOptions = {{"conditions", "--where"}, {"predictors", 
 
 /// What the three verbs share: the table, who of it, what of it.
 struct TableArguments {
-  TableChoice table;
+  workflow::TableChoice table;
   std::string dimensions, out;
 
   void add_to(CLI::App& verb) {
@@ -47,8 +47,8 @@ struct TableArguments {
     verb.add_option("--out", out, "Folder for tables (CSV) and pictures (SVG, PNG, PDF)");
   }
 
-  TableChoice choice() const {
-    TableChoice chosen = table;
+  workflow::TableChoice choice() const {
+    workflow::TableChoice chosen = table;
     chosen.columns = names_in("--dimension", dimensions);
     return chosen;
   }
@@ -58,7 +58,7 @@ void add_level_to(CLI::App& verb, double& level) {
   verb.add_option("--confidence", level, "Confidence level")->capture_default_str();
 }
 
-NoteSink notes_for(const Context& context) {
+workflow::NoteSink notes_for(const Context& context) {
   return [&context](const std::string& text) { note(context.common, text); };
 }
 
@@ -71,9 +71,10 @@ void add_describe(CLI::App& noun, Context& context) {
   verb->callback([&context, o] {
     context.setting_options = kTableOptions;
     context.run = [&context, o] {
-      const Descriptions results =
-          describe_table({.table = o->choice(), .out = o->out, .note = notes_for(context)});
-      print(context.common.json ? descriptions_json(results) + "\n" : descriptions_text(results));
+      const records::Descriptions results = workflow::describe_table(
+          {.table = o->choice(), .out = o->out, .note = notes_for(context)});
+      print(context.common.json ? records::descriptions_json(results) + "\n"
+                                : descriptions_text(results));
       return 0;
     };
   });
@@ -82,7 +83,7 @@ void add_describe(CLI::App& noun, Context& context) {
 void add_correlate(CLI::App& noun, Context& context) {
   struct Options {
     TableArguments table;
-    TableCorrelateRequest request;
+    workflow::TableCorrelateRequest request;
   };
   const auto o = std::make_shared<Options>();
   CLI::App* verb =
@@ -94,12 +95,13 @@ void add_correlate(CLI::App& noun, Context& context) {
   verb->callback([&context, o] {
     context.setting_options = kTableOptions;
     context.run = [&context, o] {
-      TableCorrelateRequest request = o->request;
+      workflow::TableCorrelateRequest request = o->request;
       request.table = o->table.choice();
       request.out = o->table.out;
       request.note = notes_for(context);
-      const Correlations results = correlate_table(request);
-      print(context.common.json ? correlations_json(results) + "\n" : correlations_text(results));
+      const records::Correlations results = workflow::correlate_table(request);
+      print(context.common.json ? records::correlations_json(results) + "\n"
+                                : correlations_text(results));
       return 0;
     };
   });
@@ -109,7 +111,7 @@ void add_regress(CLI::App& noun, Context& context) {
   struct Options {
     TableArguments table;
     std::string on;
-    TableRegressRequest request;
+    workflow::TableRegressRequest request;
   };
   const auto o = std::make_shared<Options>();
   CLI::App* verb =
@@ -127,16 +129,17 @@ void add_regress(CLI::App& noun, Context& context) {
   verb->callback([&context, o] {
     context.setting_options = kTableOptions;
     context.run = [&context, o] {
-      TableRegressRequest request = o->request;
+      workflow::TableRegressRequest request = o->request;
       request.table = o->table.choice();
       request.predictors = names_in("--on", o->on);
       request.out = o->table.out;
       request.note = notes_for(context);
-      const Regressions results = regress_table(request).regressions;
+      const records::Regressions results = workflow::regress_table(request).regressions;
       if (!request.population_out.empty()) {
         note(context.common, "wrote " + request.population_out);
       }
-      print(context.common.json ? regressions_json(results) + "\n" : regressions_text(results));
+      print(context.common.json ? records::regressions_json(results) + "\n"
+                                : regressions_text(results));
       return 0;
     };
   });

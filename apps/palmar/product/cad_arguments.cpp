@@ -14,9 +14,9 @@ void CadArguments::add_to(CLI::App& verb) {
       ->capture_default_str();
 }
 
-LoadProductOptions CadArguments::options(const std::string& unit) const {
+records::LoadProductOptions CadArguments::options(const std::string& unit) const {
   limits.check();
-  LoadProductOptions options;
+  records::LoadProductOptions options;
   options.unit = parse_unit(unit);
   options.chordal_error = chordal_error;
   options.limits = limits;

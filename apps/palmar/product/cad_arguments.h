@@ -14,11 +14,11 @@ namespace palmar::cli {
 /// --memory-limit-mb.
 struct CadArguments {
   std::optional<double> chordal_error;  ///< mm
-  CadLimits limits;
+  records::CadLimits limits;
 
   void add_to(CLI::App& verb);
   /// Throws UsageError on a limit outside what is allowed.
-  LoadProductOptions options(const std::string& unit) const;
+  records::LoadProductOptions options(const std::string& unit) const;
 };
 
 }  // namespace palmar::cli

@@ -22,7 +22,7 @@ std::string hex_of(const std::array<float, 3>& colour) {
 
 }  // namespace
 
-std::string cad_text(const ImportedCad& cad, const std::string& stated_unit) {
+std::string cad_text(const records::ImportedCad& cad, const std::string& stated_unit) {
   const std::string in_file = cad.unit.empty() ? "not stated" : cad.unit;
   const std::string unit = stated_unit.empty()
                                ? fmt::format("{} ({:.6g} mm)", in_file, cad.millimetres_per_unit)
@@ -35,18 +35,18 @@ std::string cad_text(const ImportedCad& cad, const std::string& stated_unit) {
       volume_text(cad.volume, 1), cad.chordal_error, cad.chordal_reason);
   for (const std::string& name : cad.bodies) text += "body     " + name + "\n";
   std::size_t lines = 0;
-  for (const ProductFace& face : cad.mesh.faces.face) {
+  for (const product::ProductFace& face : cad.mesh.faces.face) {
     if (lines++ == kMostFaces) {
       text += fmt::format("         and {} more faces (--json has all)\n",
                           cad.mesh.faces.face.size() - kMostFaces);
       break;
     }
-    text += fmt::format("{:<40} {:10.2f} mm2{}{}\n", title_of(face), face.area,
+    text += fmt::format("{:<40} {:10.2f} mm2{}{}\n", product::title_of(face), face.area,
                         face.colour ? " " + hex_of(*face.colour) : "",
                         cad.bodies.size() > 1 ? " of " + face.part : "");
   }
   lines = 0;
-  for (const ProductEdge& edge : cad.mesh.faces.edge) {
+  for (const product::ProductEdge& edge : cad.mesh.faces.edge) {
     if (edge.is_smooth || edge.faces[0] < 0 || edge.faces[1] < 0) continue;
     if (lines++ == kMostFaces) return text + "         and more sharp edges (--json has all)\n";
     text += fmt::format("edge {} between faces {} and {}: {}, {:.0f} deg, {:.1f} mm\n", edge.number,
@@ -56,11 +56,11 @@ std::string cad_text(const ImportedCad& cad, const std::string& stated_unit) {
   return text;
 }
 
-Json cad_json(const ImportedCad& cad) {
+Json cad_json(const records::ImportedCad& cad) {
   Json faces = Json::array();
-  for (const ProductFace& face : cad.mesh.faces.face) {
+  for (const product::ProductFace& face : cad.mesh.faces.face) {
     Json one = {{"number", face.number},
-                {"title", title_of(face)},
+                {"title", product::title_of(face)},
                 {"name", face.name},
                 {"part", face.part},
                 {"kind", name_of(face.kind)},
@@ -72,7 +72,7 @@ Json cad_json(const ImportedCad& cad) {
     faces.push_back(std::move(one));
   }
   Json edges = Json::array();
-  for (const ProductEdge& edge : cad.mesh.faces.edge) {
+  for (const product::ProductEdge& edge : cad.mesh.faces.edge) {
     Json met = Json::array();
     for (const int face : edge.faces) {
       if (face >= 0) met.push_back(face + 1);
@@ -97,7 +97,7 @@ Json cad_json(const ImportedCad& cad) {
           {"edges", std::move(edges)}};
 }
 
-std::string verdict_text(const CadVerdict& verdict) {
+std::string verdict_text(const records::CadVerdict& verdict) {
   std::string text =
       fmt::format("CAD kernel: {}, {}, {} solid{}, volume {}\n",
                   verdict.is_valid ? "valid" : "not valid", verdict.is_closed ? "closed" : "open",
@@ -106,7 +106,7 @@ std::string verdict_text(const CadVerdict& verdict) {
   return text;
 }
 
-Json verdict_json(const CadVerdict& verdict) {
+Json verdict_json(const records::CadVerdict& verdict) {
   return {{"is_good", verdict.is_good()},     {"is_valid", verdict.is_valid},
           {"is_closed", verdict.is_closed},   {"solids", verdict.solids},
           {"free_edges", verdict.free_edges}, {"exact_volume_mm3", verdict.volume},

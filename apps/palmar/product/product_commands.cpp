@@ -22,9 +22,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json check_json(const Product& product, const ProductCheck& check) {
+Json check_json(const product::Product& product, const product::ProductCheck& check) {
   Json findings = Json::array();
-  for (const Finding& finding : check.findings) {
+  for (const product::Finding& finding : check.findings) {
     findings.push_back({{"severity", name_of(finding.severity)}, {"text", finding.text}});
   }
   const auto vector = [](const Vec3& v) { return Json{v.x(), v.y(), v.z()}; };
@@ -49,20 +49,21 @@ Json check_json(const Product& product, const ProductCheck& check) {
           {"area_mm2", check.area},
           {"volume_mm3", check.volume},
           {"findings", std::move(findings)},
-          {"fixes", fix_list(check, repair_limits({}, check.size.norm()))}};
+          {"fixes", product::fix_list(check, product::repair_limits({}, check.size.norm()))}};
 }
 
-std::string check_text(const Product& product, const ProductCheck& check) {
+std::string check_text(const product::Product& product, const product::ProductCheck& check) {
   std::string text = fmt::format(
       "{}: {} triangles, {} vertices, {} part{}\n"
       "size {:.1f} x {:.1f} x {:.1f} mm, area {:.0f} mm2, volume {}, Euler number {}\n",
       product.source, check.triangles, check.vertices, check.parts, check.parts == 1 ? "" : "s",
       check.size.x(), check.size.y(), check.size.z(), check.area, volume_text(check.volume),
       check.euler_number);
-  for (const Finding& finding : check.findings) {
+  for (const product::Finding& finding : check.findings) {
     text += fmt::format("{:<8} {}\n", name_of(finding.severity), finding.text);
   }
-  for (const std::string& fix : fix_list(check, repair_limits({}, check.size.norm()))) {
+  for (const std::string& fix :
+       product::fix_list(check, product::repair_limits({}, check.size.norm()))) {
     text += "fix      " + fix + "\n";
   }
   return text + "verdict: " + name_of(check.verdict) + "\n";
@@ -76,7 +77,7 @@ struct FileArguments {
 constexpr const char* kProductHelp = "File: STL, OBJ, PLY, 3MF, glTF, STEP or IGES";
 
 int inspect(const FileArguments& o, const Context& context, bool fails_on_error) {
-  const auto [product, check, read, kernel] = inspect_product(
+  const auto [product, check, read, kernel] = workflow::inspect_product(
       {.file = o.product, .reading = o.cad.options(o.unit), .asks_kernel = fails_on_error},
       make_progress(context.common));
   Json cad;
@@ -101,7 +102,7 @@ int inspect(const FileArguments& o, const Context& context, bool fails_on_error)
   } else {
     print(check_text(product, check) + text);
   }
-  if (fails_on_error && check.verdict >= Severity::kWarning) {
+  if (fails_on_error && check.verdict >= product::Severity::kWarning) {
     throw CheckFailed(o.product + ": " + check.findings.front().text);
   }
   if (!fault.empty()) throw CheckFailed(o.product + ": " + fault);
@@ -123,12 +124,12 @@ void add_inspection(CLI::App& noun, Context& context, const std::string& name,
 int convert(const FileArguments& o, const Context& context) {
   check_shape_output(o.out, true);
   refuse_same_file(o.product, o.out);
-  const ConvertRequest request{
+  const workflow::ConvertRequest request{
       .file = o.product,
       .out = o.out,
       .reading = o.cad.options(o.unit),
       .note = [&context](const std::string& text) { note(context.common, text); }};
-  convert_product(request, make_progress(context.common));
+  workflow::convert_product(request, make_progress(context.common));
   note(context.common, "wrote " + o.out + " (unit: mm)");
   return 0;
 }

@@ -34,7 +34,7 @@ struct MakeArguments {
   std::vector<std::string> params;  ///< name=value
   std::vector<std::string> out;
   std::string format = "step";
-  double chordal_error = MeshFineness{}.chordal_error;  // mm
+  double chordal_error = product::MeshFineness{}.chordal_error;  // mm
 };
 
 std::string option_of(const std::string& parameter) {
@@ -43,21 +43,21 @@ std::string option_of(const std::string& parameter) {
   return option;
 }
 
-std::string range_of(const KindParameter& one) {
-  const std::string unit = unit_of_parameter(one.name);
-  return fmt::format("{} to {}{}", shortest(one.lowest), shortest(one.highest),
+std::string range_of(const product::KindParameter& one) {
+  const std::string unit = product::unit_of_parameter(one.name);
+  return fmt::format("{} to {}{}", formats::shortest(one.lowest), formats::shortest(one.highest),
                      unit.empty() ? "" : " " + unit);
 }
 
 std::string list_text() {
   std::string text;
-  for (const ParametricKind& kind : parametric_kinds()) {
+  for (const product::ParametricKind& kind : product::parametric_kinds()) {
     text += kind.name + ": " + kind.description + "\n";
-    for (const KindParameter& one : kind.parameters) {
-      text += fmt::format("  {:<22} {:>6}  {} ({})\n", option_of(one.name), shortest(one.fallback),
-                          one.meaning, range_of(one));
+    for (const product::KindParameter& one : kind.parameters) {
+      text += fmt::format("  {:<22} {:>6}  {} ({})\n", option_of(one.name),
+                          formats::shortest(one.fallback), one.meaning, range_of(one));
     }
-    for (const KindRelation& one : kind.relations) {
+    for (const product::KindRelation& one : kind.relations) {
       text += fmt::format("  {} is at {} {}\n", one.parameter, one.is_highest ? "most" : "least",
                           one.words);
     }
@@ -69,18 +69,18 @@ std::string list_text() {
 
 Json list_json() {
   Json kinds = Json::array();
-  for (const ParametricKind& kind : parametric_kinds()) {
+  for (const product::ParametricKind& kind : product::parametric_kinds()) {
     Json parameters = Json::array(), relations = Json::array();
-    for (const KindParameter& one : kind.parameters) {
+    for (const product::KindParameter& one : kind.parameters) {
       parameters.push_back({{"name", one.name},
-                            {"unit", unit_of_parameter(one.name)},
+                            {"unit", product::unit_of_parameter(one.name)},
                             {"default", one.fallback},
                             {"lowest", one.lowest},
                             {"highest", one.highest},
                             {"is_whole", one.is_whole},
                             {"meaning", one.meaning}});
     }
-    for (const KindRelation& one : kind.relations) {
+    for (const product::KindRelation& one : kind.relations) {
       relations.push_back(
           {{"parameter", one.parameter}, {one.is_highest ? "at_most" : "at_least", one.words}});
     }
@@ -92,20 +92,20 @@ Json list_json() {
   return {{"kinds", std::move(kinds)}};
 }
 
-MadeSweep sweep_of(const MakeArguments& o) {
-  MadeSweep sweep{o.kind, {}};
+records::MadeSweep sweep_of(const MakeArguments& o) {
+  records::MadeSweep sweep{o.kind, {}};
   for (const auto& [name, text] : o.options) {
-    if (!text.empty()) sweep.given.emplace_back(name, parse_sweep(name, text));
+    if (!text.empty()) sweep.given.emplace_back(name, records::parse_sweep(name, text));
   }
   for (const std::string& text : o.params) {
     const std::size_t equals = text.find('=');
     if (equals == text.npos) {
-      throw UsageError("--param is " + in_quotes(text) +
+      throw UsageError("--param is " + formats::in_quotes(text) +
                        "; name=value is allowed, as "
                        "diameter_mm=35 or diameter_mm=25:60:2.5");
     }
     const std::string name = text.substr(0, equals);
-    sweep.given.emplace_back(name, parse_sweep(name, text.substr(equals + 1)));
+    sweep.given.emplace_back(name, records::parse_sweep(name, text.substr(equals + 1)));
   }
   return sweep;
 }
@@ -115,15 +115,16 @@ bool is_folder(const std::string& out) {
   return out.empty() || out.back() == '/' || fs::is_directory(out);
 }
 
-void make_variants(ProductVariantsRequest request, const Context& context) {
+void make_variants(workflow::ProductVariantsRequest request, const Context& context) {
   request.on_note = [&context](const std::string& text) { note(context.common, text); };
-  const ProductVariantsOutcome outcome = write_variants(request, make_progress(context.common));
+  const workflow::ProductVariantsOutcome outcome =
+      workflow::write_variants(request, make_progress(context.common));
   finish_progress();
   if (context.common.json) print(Json::parse(outcome.json).dump(2) + "\n");
 }
 
 void make_files(const MakeArguments& o, const Context& context) {
-  const std::vector<MadeVariant> variants = variants_of(sweep_of(o));
+  const std::vector<records::MadeVariant> variants = records::variants_of(sweep_of(o));
   const bool in_folder = std::any_of(o.out.begin(), o.out.end(), is_folder);
   if (variants.size() > 1 && !in_folder) {
     throw UsageError(fmt::format(
@@ -135,7 +136,7 @@ void make_files(const MakeArguments& o, const Context& context) {
                      ": a folder can't be combined with other outputs; --format step,stl says "
                      "which files it gets");
   }
-  ProductVariantsRequest files;
+  workflow::ProductVariantsRequest files;
   files.chordal_error = o.chordal_error;
   if (!in_folder) {
     files.products.push_back({.name = title_of(variants.front().product),
@@ -145,12 +146,12 @@ void make_files(const MakeArguments& o, const Context& context) {
   } else {
     files.folder = o.out.front();
     files.command = context.command_line;
-    for (const MadeVariant& one : variants) {
-      ProductVariantsRequest::Entry entry;
+    for (const records::MadeVariant& one : variants) {
+      workflow::ProductVariantsRequest::Entry entry;
       entry.name = o.kind + (one.suffix.empty() ? "" : " " + one.suffix);
       entry.family = one.suffix.empty() ? "" : o.kind;
       entry.product = one.product;
-      entry.files = files_in_folder(files.folder, entry.name, o.format);
+      entry.files = workflow::files_in_folder(files.folder, entry.name, o.format);
       files.products.push_back(std::move(entry));
     }
   }
@@ -161,17 +162,17 @@ void make_from_list(const std::string& list, const MakeArguments& o, const Conte
   if (o.out.size() != 1 || !is_folder(o.out.front())) {
     throw UsageError("--from makes several products: --out must be one folder, as products/");
   }
-  ProductVariantsRequest files;
+  workflow::ProductVariantsRequest files;
   files.chordal_error = o.chordal_error;
   files.folder = o.out.front();
   files.command = context.command_line;
-  for (const ProductRequest& one : read_study_file(list).products) {
+  for (const records::ProductRequest& one : records::read_study_file(list).products) {
     if (!one.file.empty()) continue;  // there already
-    ProductVariantsRequest::Entry entry;
+    workflow::ProductVariantsRequest::Entry entry;
     entry.name = one.name.empty() ? title_of(one.made) : one.name;
     entry.family = one.held.family;
     entry.product = one.made;
-    entry.files = files_in_folder(files.folder, entry.name, o.format);
+    entry.files = workflow::files_in_folder(files.folder, entry.name, o.format);
     files.products.push_back(std::move(entry));
   }
   if (files.products.empty()) throw InputError(list + ": no [[product]] with a kind");
@@ -191,23 +192,23 @@ void add_output(CLI::App& verb, const std::shared_ptr<MakeArguments>& o) {
       ->capture_default_str();
 }
 
-void add_kind(CLI::App& make, Context& context, const ParametricKind& kind) {
+void add_kind(CLI::App& make, Context& context, const product::ParametricKind& kind) {
   const auto o = std::make_shared<MakeArguments>();
   o->kind = kind.name;
-  const KindParameter& first = kind.parameters.front();
+  const product::KindParameter& first = kind.parameters.front();
   CLI::App* verb = add_verb(
       make, kind.name, kind.description,
       fmt::format("palmar product make {0} {1} {2} --out {0}.step --out {0}.stl\n"
                   "         palmar product make {0} {1} {3}:{2}:{4} --out {0}s/   (a sweep)",
-                  kind.name, option_of(first.name), shortest(first.fallback),
-                  shortest(std::floor(0.8 * first.fallback)),
-                  shortest(std::max(1.0, std::floor(0.1 * first.fallback)))));
+                  kind.name, option_of(first.name), formats::shortest(first.fallback),
+                  formats::shortest(std::floor(0.8 * first.fallback)),
+                  formats::shortest(std::max(1.0, std::floor(0.1 * first.fallback)))));
   o->options.reserve(kind.parameters.size());
-  for (const KindParameter& one : kind.parameters) {
+  for (const product::KindParameter& one : kind.parameters) {
     o->options.emplace_back(one.name, "");
     verb->add_option(option_of(one.name), o->options.back().second,
                      fmt::format("{}; {}, from:to:step or a,b,c", one.meaning, range_of(one)))
-        ->default_str(shortest(one.fallback));
+        ->default_str(formats::shortest(one.fallback));
   }
   verb->add_option("--param", o->params, "The same as name=value: diameter_mm=35")
       ->allow_extra_args(false);
@@ -222,7 +223,7 @@ void add_kind(CLI::App& make, Context& context, const ParametricKind& kind) {
 }
 
 void add_plane(CLI::App& make, Context& context) {
-  const auto options = std::make_shared<PlaneProductOptions>();
+  const auto options = std::make_shared<product::PlaneProductOptions>();
   const auto out = std::make_shared<std::vector<std::string>>();
   CLI::App* verb = add_verb(make, "plane", "Flat slab whose upper face is the plane z = 0",
                             "palmar product make plane --width-mm 200 --depth-mm 100 --out p.stl");
@@ -239,9 +240,9 @@ void add_plane(CLI::App& make, Context& context) {
   verb->callback([&context, options, out] {
     context.run = [&context, options, out] {
       for (const std::string& file : *out) check_shape_output(file, false);
-      const Product product = make_plane_product(*options);
+      const product::Product product = product::make_plane_product(*options);
       for (const std::string& file : *out) {
-        write_mesh(file, product.mesh);
+        formats::write_mesh(file, product.mesh);
         note(context.common,
              fmt::format("wrote {} ({} triangles, unit: mm)", file, product.mesh.triangle_count()));
       }
@@ -267,7 +268,8 @@ void add_product_make_command(CLI::App& product, Context& context) {
   make->add_option("--out", o->out, "With --from: folder to write to, as products/");
   make->add_option("--format", o->format, "With --from: which files, as step or step,stl")
       ->capture_default_str();
-  for (const ParametricKind& kind : parametric_kinds()) add_kind(*make, context, kind);
+  for (const product::ParametricKind& kind : product::parametric_kinds())
+    add_kind(*make, context, kind);
   add_plane(*make, context);
   make->callback([&context, make, o, list, from] {
     if (!make->get_subcommands().empty()) return;
@@ -279,7 +281,7 @@ void add_product_make_command(CLI::App& product, Context& context) {
         make_from_list(*from, *o, context);
       } else {
         std::string kinds;
-        for (const std::string& name : parametric_kind_names()) kinds += name + ", ";
+        for (const std::string& name : product::parametric_kind_names()) kinds += name + ", ";
         throw UsageError("a kind of product is required: " + kinds +
                          "plane; --list shows their parameters");
       }

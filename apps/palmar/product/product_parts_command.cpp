@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 
 struct PartsArguments {
   std::string product, unit;
-  ProductPartsRequest request;
+  workflow::ProductPartsRequest request;
   CadArguments cad;
 };
 
@@ -27,7 +27,7 @@ std::string parts_point_text(const Vec3& v) {
   return fmt::format("{:.0f}, {:.0f}, {:.0f}", v.x(), v.y(), v.z());
 }
 
-Json parts_part_json(const ProductPart& part) {
+Json parts_part_json(const product::ProductPart& part) {
   Json json = {{"number", part.number},
                {"kind", name_of(part.kind)},
                {"name", part.name},
@@ -43,7 +43,7 @@ Json parts_part_json(const ProductPart& part) {
                {"joined", part.joined}};
   if (!part.is_ring) {
     Json ends = Json::array();
-    for (const PartEnd& end : part.ends) {
+    for (const product::PartEnd& end : part.ends) {
       ends.push_back({{"point_mm", parts_vector_json(end.point)},
                       {"joined", end.joined ? Json(*end.joined) : Json()}});
     }
@@ -59,7 +59,7 @@ Json parts_part_json(const ProductPart& part) {
   if (part.face_normal) json["face_normal"] = parts_vector_json(*part.face_normal);
   if (!part.waists.empty()) {
     Json waists = Json::array();
-    for (const PartWaist& waist : part.waists) {
+    for (const product::PartWaist& waist : part.waists) {
       waists.push_back({{"kind", waist.is_neck ? "neck" : "waist"},
                         {"along", waist.along},
                         {"girth_mm", waist.girth}});
@@ -67,7 +67,7 @@ Json parts_part_json(const ProductPart& part) {
     json["waists"] = std::move(waists);
   }
   Json line = Json::array();
-  for (const PartStation& s : part.line) {
+  for (const product::PartStation& s : part.line) {
     line.push_back({{"along", s.along},
                     {"centre_mm", parts_vector_json(s.centre)},
                     {"axis", parts_vector_json(s.axis)},
@@ -75,7 +75,7 @@ Json parts_part_json(const ProductPart& part) {
   }
   json["line"] = std::move(line);
   Json sections = Json::array();
-  for (const PartSection& s : part.sections) {
+  for (const product::PartSection& s : part.sections) {
     sections.push_back({{"along", s.along},
                         {"girth_mm", s.girth},
                         {"width_mm", s.width},
@@ -86,7 +86,7 @@ Json parts_part_json(const ProductPart& part) {
   return json;
 }
 
-std::string parts_part_text(const ProductPart& part) {
+std::string parts_part_text(const product::ProductPart& part) {
   std::string text = fmt::format("{:>2}  {:<5} {:<12} {:>6.0f} {:>6.0f} {:>6.0f} {:>9.0f}  ",
                                  part.number, name_of(part.kind), part.name, part.length,
                                  part.girth, part.width, part.thickness);
@@ -96,7 +96,7 @@ std::string parts_part_text(const ProductPart& part) {
     add(fmt::format("opening {:.0f} x {:.0f} mm, disc {:.0f} mm", part.opening->width,
                     part.opening->height, part.opening->disc));
   }
-  for (const PartWaist& waist : part.waists) {
+  for (const product::PartWaist& waist : part.waists) {
     add(fmt::format("{} of {:.0f} mm girth at {:.0f} %", waist.is_neck ? "neck" : "waist",
                     waist.girth, 100.0 * waist.along));
   }
@@ -112,15 +112,16 @@ int list_parts(PartsArguments& o, const Context& context) {
   o.request.file = o.product;
   o.request.reading = o.cad.options(o.unit);
   if (!o.request.out.empty()) refuse_same_file(o.product, o.request.out);
-  const auto [product, parts] = list_product_parts(o.request, make_progress(context.common));
+  const auto [product, parts] =
+      workflow::list_product_parts(o.request, make_progress(context.common));
   finish_progress();
   for (const std::string& line : product.notes) note(context.common, line);
   if (context.common.json) {
     Json list = Json::array();
-    for (const ProductPart& part : parts.parts) list.push_back(parts_part_json(part));
+    for (const product::ProductPart& part : parts.parts) list.push_back(parts_part_json(part));
     Json json = {{"product", product.name}, {"source", product.source}, {"parts", std::move(list)}};
     json["triggers"] = Json::array();
-    for (const PartTrigger& trigger : parts.triggers) {
+    for (const product::PartTrigger& trigger : parts.triggers) {
       json["triggers"].push_back({{"part", trigger.part},
                                   {"point_mm", parts_vector_json(trigger.point)},
                                   {"front", parts_vector_json(trigger.front)},
@@ -129,7 +130,7 @@ int list_parts(PartsArguments& o, const Context& context) {
                                   {"reach_mm", trigger.reach}});
     }
     json["buttons"] = Json::array();
-    for (const PartButton& button : parts.buttons) {
+    for (const product::PartButton& button : parts.buttons) {
       json["buttons"].push_back({{"part", button.part},
                                  {"point_mm", parts_vector_json(button.point)},
                                  {"normal", parts_vector_json(button.normal)},
@@ -143,13 +144,13 @@ int list_parts(PartsArguments& o, const Context& context) {
                                    parts.parts.size() == 1 ? "" : "s");
     text += fmt::format("{:>2}  {:<5} {:<12} {:>6} {:>6} {:>6} {:>9}\n", "", "kind", "name",
                         "length", "girth", "width", "thickness");
-    for (const ProductPart& part : parts.parts) text += parts_part_text(part);
-    for (const PartTrigger& trigger : parts.triggers) {
+    for (const product::ProductPart& part : parts.parts) text += parts_part_text(part);
+    for (const product::PartTrigger& trigger : parts.triggers) {
       text +=
           fmt::format("trigger before {}: {:.0f} mm long, {:.0f} mm before it, at ({})\n",
                       trigger.part, trigger.length, trigger.reach, parts_point_text(trigger.point));
     }
-    for (const PartButton& button : parts.buttons) {
+    for (const product::PartButton& button : parts.buttons) {
       text += fmt::format("button on {}: {:.0f} mm wide, {:.0f} mm high, at ({})\n", button.part,
                           button.width, button.height, parts_point_text(button.point));
     }

@@ -18,12 +18,12 @@ using Json = nlohmann::ordered_json;
 
 struct RepairArguments {
   std::string product, unit, out;
-  RepairOptions options;
+  product::RepairOptions options;
 };
 
-Json actions_json(const std::vector<RepairAction>& actions) {
+Json actions_json(const std::vector<product::RepairAction>& actions) {
   Json list = Json::array();
-  for (const RepairAction& action : actions) {
+  for (const product::RepairAction& action : actions) {
     Json places = Json::array();
     for (const Vec3& x : action.places) places.push_back({x.x(), x.y(), x.z()});
     list.push_back({{"name", action.name},
@@ -34,9 +34,9 @@ Json actions_json(const std::vector<RepairAction>& actions) {
   return list;
 }
 
-Json verdict_json(const ProductCheck& check) {
+Json verdict_json(const product::ProductCheck& check) {
   Json findings = Json::array();
-  for (const Finding& finding : check.findings) {
+  for (const product::Finding& finding : check.findings) {
     findings.push_back({{"severity", name_of(finding.severity)}, {"text", finding.text}});
   }
   return {{"verdict", name_of(check.verdict)},
@@ -48,7 +48,7 @@ Json verdict_json(const ProductCheck& check) {
           {"findings", std::move(findings)}};
 }
 
-std::string verdict_text(const char* when, const ProductCheck& check) {
+std::string verdict_text(const char* when, const product::ProductCheck& check) {
   return fmt::format("{}: {}, {} ({} triangles, Euler number {}, volume {})\n", when,
                      name_of(check.verdict), check.is_closed ? "closed" : "open", check.triangles,
                      check.euler_number, volume_text(check.volume));
@@ -57,14 +57,14 @@ std::string verdict_text(const char* when, const ProductCheck& check) {
 int repair(const RepairArguments& o, const Context& context) {
   check_shape_output(o.out, false);
   refuse_same_file(o.product, o.out);
-  const auto [before, repaired, after] =
-      repair_product({.file = o.product,
-                      .unit = parse_unit(o.unit),
-                      .out = o.out,
-                      .options = o.options,
-                      .note = [&context](const std::string& text) { note(context.common, text); }});
+  const auto [before, repaired, after] = workflow::repair_product(
+      {.file = o.product,
+       .unit = parse_unit(o.unit),
+       .out = o.out,
+       .options = o.options,
+       .note = [&context](const std::string& text) { note(context.common, text); }});
   if (context.common.json) {
-    const RepairLimits& limits = repaired.limits;
+    const product::RepairLimits& limits = repaired.limits;
     print(Json{{"product", o.product},
                {"out", o.out},
                {"weld_mm", limits.weld},
@@ -82,18 +82,20 @@ int repair(const RepairArguments& o, const Context& context) {
         "mm\n",
         o.product, repaired.limits.weld, repaired.limits.hole, repaired.limits.speck);
     text += verdict_text("before", before);
-    for (const RepairAction& action : repaired.done) text += "done     " + action.text + "\n";
+    for (const product::RepairAction& action : repaired.done)
+      text += "done     " + action.text + "\n";
     if (!repaired.has_changed()) text += "nothing to repair\n";
-    for (const RepairAction& action : repaired.left) text += "left     " + action.text + "\n";
+    for (const product::RepairAction& action : repaired.left)
+      text += "left     " + action.text + "\n";
     text += verdict_text("after", after);
-    for (const Finding& finding : after.findings) {
-      if (finding.severity == Severity::kOk) continue;
+    for (const product::Finding& finding : after.findings) {
+      if (finding.severity == product::Severity::kOk) continue;
       text += fmt::format("{:<8} {}\n", name_of(finding.severity), finding.text);
     }
     print(text);
   }
   note(context.common, "wrote " + o.out + " (unit: mm); " + o.product + " is as it was");
-  if (after.verdict >= Severity::kWarning) {
+  if (after.verdict >= product::Severity::kWarning) {
     throw CheckFailed(o.out + ": " + after.findings.front().text);
   }
   return 0;

@@ -29,7 +29,7 @@ void StudyArguments::add_to(CLI::App& verb) {
       "a table of given hands (.csv); xie2014 if not given")
       ->allow_extra_args(false);
   add("--hands", quick_.hands, "Number of hands to sample from each population; 30 if not given")
-      ->check(CLI::Range(1, QuickStudy::kMostHands));
+      ->check(CLI::Range(1, workflow::QuickStudy::kMostHands));
   add("--profile", quick_.profiles,
       "none, reduced_range, thick_gloves ...; may be given several times")
       ->allow_extra_args(false);
@@ -57,30 +57,31 @@ void StudyArguments::add_to(CLI::App& verb) {
       ->excludes(toml);
 }
 
-StudyRequest StudyArguments::request(const Context& context) const {
-  StudyRequest request;
+records::StudyRequest StudyArguments::request(const Context& context) const {
+  records::StudyRequest request;
   if (!file_.empty()) {
-    request = read_study_file(file_);
+    request = records::read_study_file(file_);
   } else {
-    QuickStudy quick = quick_;
+    workflow::QuickStudy quick = quick_;
     if (quick.products.empty()) {
       throw UsageError("what is to be studied is not said: FILE.toml or --product is required");
     }
     quick.unit = parse_unit(unit_);
     quick.holding = holds_.request();
     if (!populations_.empty()) quick.populations = populations_;
-    request = study_of(quick);
+    request = workflow::study_of(quick);
   }
   if (context.common.seed != 0) request.seed = context.common.seed;
   return request;
 }
 
-StudyShard parse_shard(const std::string& text) {
+study::StudyShard parse_shard(const std::string& text) {
   if (text.empty()) return {};
   const std::size_t slash = text.find('/');
-  const auto k = parse_integer(std::string_view(text).substr(0, slash));
-  const auto n =
-      slash == text.npos ? std::nullopt : parse_integer(std::string_view(text).substr(slash + 1));
+  const auto k = formats::parse_integer(std::string_view(text).substr(0, slash));
+  const auto n = slash == text.npos
+                     ? std::nullopt
+                     : formats::parse_integer(std::string_view(text).substr(slash + 1));
   constexpr long long kMost = 1'000'000;
   if (!k || !n || *k < 1 || *n < *k || *n > kMost) {
     throw UsageError("--shard is \"" + text + "\"; k/n with 1 <= k <= n is required, as in 2/4");
@@ -88,7 +89,7 @@ StudyShard parse_shard(const std::string& text) {
   return {static_cast<int>(*k), static_cast<int>(*n)};
 }
 
-std::string study_size_text(const StudyPlan& plan) {
+std::string study_size_text(const study::StudyPlan& plan) {
   const auto counted = [](std::size_t count, const std::string& one) {
     return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
   };
@@ -100,7 +101,7 @@ std::string study_size_text(const StudyPlan& plan) {
   add(plan.settings.size(), "setting");
   text += " x " + counted(plan.products.size(), "product");
   add(plan.grips.size(), "grip");
-  return fmt::format("{} = {} grasps", text, task_count(plan));
+  return fmt::format("{} = {} grasps", text, study::task_count(plan));
 }
 
 std::string duration_text(double seconds) {

@@ -24,20 +24,20 @@ class StudyArguments {
   /// Adds FILE and --product, --population, --hands ... to a verb.
   void add_to(CLI::App& verb);
   /// Throws UsageError, InputError.
-  StudyRequest request(const Context& context) const;
+  records::StudyRequest request(const Context& context) const;
 
  private:
   std::string file_, unit_;
   std::vector<std::string> populations_;
   HoldArguments holds_;
-  QuickStudy quick_;
+  workflow::QuickStudy quick_;
 };
 
 /// "2/4". Throws UsageError naming --shard.
-StudyShard parse_shard(const std::string& text);
+study::StudyShard parse_shard(const std::string& text);
 
 /// "30 hands x 4 products x 2 grips = 240 grasps"; only what there are several of, hands always.
-std::string study_size_text(const StudyPlan& plan);
+std::string study_size_text(const study::StudyPlan& plan);
 
 /// Time for people: "12 s", "5 min", "2.5 h".
 std::string duration_text(double seconds);

@@ -11,8 +11,9 @@
 namespace palmar::cli {
 namespace {
 
-int run_export(const StudyExportRequest& request, const Context& context) {
-  const StudyExportOutcome outcome = export_study(request, make_progress(context.common));
+int run_export(const workflow::StudyExportRequest& request, const Context& context) {
+  const workflow::StudyExportOutcome outcome =
+      workflow::export_study(request, make_progress(context.common));
   finish_progress();
   if (outcome.missing > 0) {
     note(context.common, fmt::format("{}: {} grasps are missing; the tables hold what is finished",
@@ -33,7 +34,7 @@ int run_export(const StudyExportRequest& request, const Context& context) {
 }  // namespace
 
 void add_study_export_command(CLI::App& noun, Context& context) {
-  const auto options = std::make_shared<StudyExportRequest>();
+  const auto options = std::make_shared<workflow::StudyExportRequest>();
   CLI::App* verb = add_verb(noun, "export", "Every table of a study as CSV, units in the headers",
                             "palmar study export women.palmar --out tables");
   verb->add_option("STORE", options->store, "Store of the study")->required();

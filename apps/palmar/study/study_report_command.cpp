@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 void add_report(CLI::App& noun, Context& context) {
   struct Options {
     std::string store, out;
-    double threshold = 1000.0 * kBloodFlowStop;  // kPa
-    StudyReportOptions report;
+    double threshold = 1000.0 * grasp::kBloodFlowStop;  // kPa
+    report::StudyReportOptions report;
     ReportArguments arguments;
     bool no_pictures = false, no_figures = false;
   };
@@ -43,7 +43,7 @@ void add_report(CLI::App& noun, Context& context) {
   verb->add_flag("--no-figures", o->no_figures, "No figures as SVG, PNG and PDF beside the page");
   verb->callback([&context, o] {
     context.run = [&context, o] {
-      StudyReportRequest request;
+      workflow::StudyReportRequest request;
       request.store = o->store;
       request.folder = o->out;
       request.report = o->report;
@@ -53,7 +53,8 @@ void add_report(CLI::App& noun, Context& context) {
       request.report.threshold = o->threshold / 1000.0;
       request.report.pictures = !o->no_pictures;
       request.report.figure_files = !o->no_figures;
-      const std::string page = report_study(request, make_progress(context.common)).string();
+      const std::string page =
+          workflow::report_study(request, make_progress(context.common)).string();
       finish_progress();
       print(context.common.json ? Json({{"report", page}}).dump() + "\n" : page + "\n");
       return 0;
@@ -62,7 +63,7 @@ void add_report(CLI::App& noun, Context& context) {
 }
 
 void add_compare(CLI::App& noun, Context& context) {
-  const auto o = std::make_shared<StudyCompareRequest>();
+  const auto o = std::make_shared<workflow::StudyCompareRequest>();
   const auto language = std::make_shared<std::string>("en");
   o->quantities.clear();
   CLI::App* verb = add_verb(noun, "compare", "Differences between products over the same hands",
@@ -79,10 +80,11 @@ void add_compare(CLI::App& noun, Context& context) {
       ->capture_default_str();
   verb->callback([&context, o, language] {
     context.run = [&context, o, language] {
-      StudyCompareRequest request = *o;
+      workflow::StudyCompareRequest request = *o;
       request.language = language_named(*language);
-      if (request.quantities.empty()) request.quantities = StudyCompareRequest{}.quantities;
-      const StudyCompareOutcome outcome = compare_study(request);
+      if (request.quantities.empty())
+        request.quantities = workflow::StudyCompareRequest{}.quantities;
+      const workflow::StudyCompareOutcome outcome = workflow::compare_study(request);
       print(context.common.json ? comparison_object(outcome, o->comparison).dump(2) + "\n"
                                 : comparison_text(outcome));
       return 0;

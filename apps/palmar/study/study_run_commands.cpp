@@ -14,7 +14,7 @@ namespace palmar::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-std::string summary_text(const StudyRunOutcome& outcome) {
+std::string summary_text(const workflow::StudyRunOutcome& outcome) {
   std::string text = fmt::format("{}: {}", outcome.plan.name, study_size_text(outcome.plan));
   if (outcome.shard.n > 1) text += fmt::format(", shard {}", name_of(outcome.shard));
   std::string list;
@@ -28,7 +28,7 @@ std::string summary_text(const StudyRunOutcome& outcome) {
   return text + fmt::format("results {}\n{}\n", outcome.digest, outcome.store.string());
 }
 
-Json summary_object(const StudyRunOutcome& outcome) {
+Json summary_object(const workflow::StudyRunOutcome& outcome) {
   Json counts = Json::object(), failed = Json::object();
   for (const auto& [how, count] : outcome.outcomes) counts[name_of(how)] = count;
   for (const auto& [reason, count] : outcome.reasons) failed[reason] = count;
@@ -40,7 +40,7 @@ Json summary_object(const StudyRunOutcome& outcome) {
 }
 
 /// What came of a run, for people or programs.
-int print_outcome(const StudyRunOutcome& outcome, const CommonOptions& common) {
+int print_outcome(const workflow::StudyRunOutcome& outcome, const CommonOptions& common) {
   finish_progress();
   if (common.json) {
     print(summary_object(outcome).dump(2) + "\n");
@@ -53,7 +53,7 @@ int print_outcome(const StudyRunOutcome& outcome, const CommonOptions& common) {
   return 0;
 }
 
-NoteSink notes_of(const Context& context) {
+workflow::NoteSink notes_of(const Context& context) {
   return [&context](const std::string& text) { note(context.common, text); };
 }
 
@@ -63,7 +63,7 @@ struct RunArguments {
 };
 
 int run_run(const RunArguments& arguments, const Context& context) {
-  StudyRunRequest request;
+  workflow::StudyRunRequest request;
   request.shard = parse_shard(arguments.shard);
   request.study = arguments.study.request(context);
   request.out = arguments.out;
@@ -72,22 +72,24 @@ int run_run(const RunArguments& arguments, const Context& context) {
 }
 
 int run_resume(const std::string& path, const Context& context) {
-  return print_outcome(resume_study(path, notes_of(context), make_progress(context.common)),
-                       context.common);
+  return print_outcome(
+      workflow::resume_study(path, notes_of(context), make_progress(context.common)),
+      context.common);
 }
 
 int run_plan(const StudyArguments& arguments, bool no_sample, const Context& context) {
-  const StudyPlanRequest request{
+  const workflow::StudyPlanRequest request{
       .study = arguments.request(context), .has_sample = !no_sample, .note = notes_of(context)};
-  const StudyPlanOutcome outcome = plan_study(request, make_progress(context.common));
+  const workflow::StudyPlanOutcome outcome =
+      workflow::plan_study(request, make_progress(context.common));
   finish_progress();
-  const StudyPlan& plan = outcome.plan;
-  const std::optional<StudyEstimate>& estimate = outcome.estimate;
+  const study::StudyPlan& plan = outcome.plan;
+  const std::optional<workflow::StudyEstimate>& estimate = outcome.estimate;
   const int threads = outcome.threads;
   const auto hands = static_cast<std::int64_t>(plan.hands.size());
   if (context.common.json) {
-    Json json = Json::parse(format_plan(plan));
-    json["grasps"] = task_count(plan);
+    Json json = Json::parse(records::format_plan(plan));
+    json["grasps"] = study::task_count(plan);
     if (estimate) {
       json["threads"] = threads;
       json["estimated_seconds"] = estimate->seconds(hands, threads);
@@ -98,22 +100,23 @@ int run_plan(const StudyArguments& arguments, bool no_sample, const Context& con
   }
   std::string text = fmt::format("{}: {}\n", plan.name, study_size_text(plan));
   for (std::size_t p = 0; p < plan.populations.size(); ++p) {
-    const StudyPopulation& one = plan.populations[p];
+    const study::StudyPopulation& one = plan.populations[p];
     const auto count = std::count_if(plan.hands.begin(), plan.hands.end(), [&](const auto& hand) {
       return hand.population == static_cast<int>(p);
     });
     text += fmt::format("  population {:<24} {} hand{}\n", one.population.name, count,
                         count == 1 ? "" : "s");
   }
-  for (const HandProfile& one : plan.profiles) text += fmt::format("  profile    {}\n", one.name);
-  for (const StudyProduct& one : plan.products) {
+  for (const population::HandProfile& one : plan.profiles)
+    text += fmt::format("  profile    {}\n", one.name);
+  for (const study::StudyProduct& one : plan.products) {
     text += fmt::format("  product    {:<24} {}{}\n", one.name, one.file,
                         one.posture_of.empty() ? "" : " (posture of " + one.posture_of + ")");
   }
   for (const auto& one : plan.grips) {
     text += fmt::format("  grip       {}\n", one ? name_of(*one) : "auto");
   }
-  for (const StudySetting& one : plan.settings) {
+  for (const study::StudySetting& one : plan.settings) {
     text += fmt::format("  setting    {:<24} {}{}\n", one.name, name_of(one.model),
                         one.indices ? "" : ", no indices");
   }

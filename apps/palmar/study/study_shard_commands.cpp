@@ -21,13 +21,14 @@ struct MergeArguments {
 };
 
 int run_merge(const MergeArguments& arguments, const Context& context) {
-  const StudyMergeOutcome merged = merge_shards({arguments.shards.begin(), arguments.shards.end()},
-                                                arguments.out, make_progress(context.common));
+  const workflow::StudyMergeOutcome merged =
+      workflow::merge_shards({arguments.shards.begin(), arguments.shards.end()}, arguments.out,
+                             make_progress(context.common));
   finish_progress();
   if (context.common.json) {
     const Json json = {{"store", arguments.out},
                        {"shards", merged.shards},
-                       {"grasps", task_count(merged.plan)},
+                       {"grasps", study::task_count(merged.plan)},
                        {"results_sha256", merged.digest}};
     print(json.dump(2) + "\n");
   } else {
@@ -38,7 +39,7 @@ int run_merge(const MergeArguments& arguments, const Context& context) {
   return 0;
 }
 
-Json state_json(const StudyStoreState& one) {
+Json state_json(const workflow::StudyStoreState& one) {
   Json json = {{"store", one.path.string()}, {"state", one.state},  {"shard", name_of(one.shard)},
                {"done", one.done},           {"grasps", one.total}, {"outcomes", one.outcomes},
                {"failed", one.reasons}};
@@ -47,7 +48,7 @@ Json state_json(const StudyStoreState& one) {
   return json;
 }
 
-std::string state_text(const StudyStoreState& one) {
+std::string state_text(const workflow::StudyStoreState& one) {
   std::string text = fmt::format("{:<10} ", one.state);
   if (one.total > 0) {
     text += fmt::format("shard {:<7} {:>7} of {:<7} {:>3.0f} %  ", name_of(one.shard), one.done,
@@ -65,12 +66,12 @@ std::string state_text(const StudyStoreState& one) {
 }
 
 int run_status(const std::vector<std::string>& names, const Context& context) {
-  const StudyStatus status = study_status({names.begin(), names.end()});
+  const workflow::StudyStatus status = workflow::study_status({names.begin(), names.end()});
   const int exit_code = status.is_sound() ? 0 : InputError("").exit_code();
   const std::vector<std::string>& absent = status.absent_shards;
   if (context.common.json) {
     Json list = Json::array();
-    for (const StudyStoreState& one : status.stores) list.push_back(state_json(one));
+    for (const workflow::StudyStoreState& one : status.stores) list.push_back(state_json(one));
     const Json json = {{"stores", std::move(list)},
                        {"absent_shards", absent},
                        {"done", status.done},
@@ -81,7 +82,7 @@ int run_status(const std::vector<std::string>& names, const Context& context) {
   }
   std::string text;
   std::map<std::string, int> count;
-  for (const StudyStoreState& one : status.stores) {
+  for (const workflow::StudyStoreState& one : status.stores) {
     text += state_text(one);
     ++count[one.state];
   }

@@ -14,17 +14,18 @@ namespace palmar::cli {
 namespace {
 
 struct SubmitArguments {
-  StudySubmitRequest request;
+  workflow::StudySubmitRequest request;
   std::string out;
 };
 
 int run_submit(const SubmitArguments& arguments, const Context& context) {
-  StudySubmitRequest request = arguments.request;
+  workflow::StudySubmitRequest request = arguments.request;
   request.folder = arguments.out;
   if (request.program.empty()) request.program = program_file();
   request.seed = context.common.seed;
   request.note = [&context](const std::string& text) { note(context.common, text); };
-  const StudySubmitOutcome outcome = submit_study(request, make_progress(context.common));
+  const workflow::StudySubmitOutcome outcome =
+      workflow::submit_study(request, make_progress(context.common));
   finish_progress();
   if (context.common.json) {
     const nlohmann::ordered_json json = {{"job", outcome.job},

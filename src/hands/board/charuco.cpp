@@ -13,7 +13,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::board {
 namespace {
 
 /// Corners closer to the border of the picture than this may be cut markers' guesses.
@@ -72,14 +72,14 @@ struct CharucoFinder::Impl {
   }
 };
 
-CharucoFinder::CharucoFinder(const BoardPattern& pattern) : impl_(new Impl) {
+CharucoFinder::CharucoFinder(const capture::BoardPattern& pattern) : impl_(new Impl) {
   pattern.check();
   const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_5X5_250);
   impl_->board = cv::aruco::CharucoBoard::create(pattern.squares, pattern.squares,
                                                  static_cast<float>(pattern.square),
                                                  static_cast<float>(pattern.marker), dictionary);
   constexpr int kPixels = 48;  // per square
-  const BoardPicture picture = draw(kPixels);
+  const capture::BoardPicture picture = draw(kPixels);
   cv::Mat drawn(picture.pixels, picture.pixels, CV_8UC1,
                 const_cast<std::uint8_t*>(picture.grey.data())),
       framed;
@@ -108,11 +108,11 @@ CharucoFinder::CharucoFinder(const BoardPattern& pattern) : impl_(new Impl) {
 
 CharucoFinder::~CharucoFinder() = default;
 
-BoardPicture CharucoFinder::draw(int pixels_per_square) const {
+capture::BoardPicture CharucoFinder::draw(int pixels_per_square) const {
   const cv::Size size = impl_->board->getChessboardSize() * pixels_per_square;
   cv::Mat image;
   impl_->board->draw(size, image, 0, 1);
-  BoardPicture picture;
+  capture::BoardPicture picture;
   picture.pixels = image.cols;
   for (int y = 0; y < image.rows; ++y) {
     picture.grey.insert(picture.grey.end(), image.ptr(y), image.ptr(y) + image.cols);
@@ -120,13 +120,13 @@ BoardPicture CharucoFinder::draw(int pixels_per_square) const {
   return picture;
 }
 
-std::vector<BoardCorner> CharucoFinder::find(const std::vector<std::uint8_t>& grey, int width,
-                                             int height) const {
+std::vector<capture::BoardCorner> CharucoFinder::find(const std::vector<std::uint8_t>& grey,
+                                                      int width, int height) const {
   const cv::Mat image(height, width, CV_8UC1, const_cast<std::uint8_t*>(grey.data()));
   std::vector<int> ids;
   std::vector<cv::Point2f> pixels;
   impl_->find(image, ids, pixels);
-  std::vector<BoardCorner> corners;
+  std::vector<capture::BoardCorner> corners;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const cv::Point2f& p = pixels[i];
     if (!(p.x > kBorder && p.y > kBorder && p.x < static_cast<float>(width) - kBorder &&
@@ -135,9 +135,10 @@ std::vector<BoardCorner> CharucoFinder::find(const std::vector<std::uint8_t>& gr
     }
     corners.push_back({ids[i], world_.at(ids[i]), Eigen::Vector2d(p.x, p.y)});
   }
-  std::sort(corners.begin(), corners.end(),
-            [](const BoardCorner& a, const BoardCorner& b) { return a.id < b.id; });
+  std::sort(
+      corners.begin(), corners.end(),
+      [](const capture::BoardCorner& a, const capture::BoardCorner& b) { return a.id < b.id; });
   return corners;
 }
 
-}  // namespace palmar
+}  // namespace palmar::board

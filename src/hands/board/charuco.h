@@ -7,7 +7,7 @@
 
 #include "hands/capture/photo/board_pattern.h"
 
-namespace palmar {
+namespace palmar::board {
 
 /// Draws a board and finds its corners in pictures, by OpenCV.
 ///
@@ -18,13 +18,14 @@ namespace palmar {
 class CharucoFinder {
  public:
   /// Throws UsageError as BoardPattern::check(), NumericalError if the drawn board isn't found.
-  explicit CharucoFinder(const BoardPattern& pattern);
+  explicit CharucoFinder(const capture::BoardPattern& pattern);
   ~CharucoFinder();
 
   /// The pattern with `pixels_per_square` pixels along a square.
-  BoardPicture draw(int pixels_per_square) const;
+  capture::BoardPicture draw(int pixels_per_square) const;
   /// Corners in a grey picture, row by row; ascending ids. Empty if there is no board.
-  std::vector<BoardCorner> find(const std::vector<std::uint8_t>& grey, int width, int height) const;
+  std::vector<capture::BoardCorner> find(const std::vector<std::uint8_t>& grey, int width,
+                                         int height) const;
   /// What is taken off, pixels.
   const Eigen::Vector2d& offset() const { return offset_; }
 
@@ -35,4 +36,4 @@ class CharucoFinder {
   std::vector<Vec3> world_;  ///< per id
 };
 
-}  // namespace palmar
+}  // namespace palmar::board

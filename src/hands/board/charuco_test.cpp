@@ -9,13 +9,13 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::board {
 namespace {
 
 /// The board seen by a camera without distortion from straight above: `scale` pixels per mm, its
 /// middle on `middle`; each pixel the mean of 10 x 10 points.
-std::vector<std::uint8_t> seen_from_above(const BoardPicture& board, double edge, double scale,
-                                          const Eigen::Vector2d& middle, int size) {
+std::vector<std::uint8_t> seen_from_above(const capture::BoardPicture& board, double edge,
+                                          double scale, const Eigen::Vector2d& middle, int size) {
   std::vector<std::uint8_t> image;
   constexpr int kPoints = 10;
   for (int y = 0; y < size; ++y) {
@@ -36,7 +36,7 @@ std::vector<std::uint8_t> seen_from_above(const BoardPicture& board, double edge
 }
 
 TEST(CharucoFinder, FindsCornersWhereTheyAreDrawn) {
-  const BoardPattern pattern;
+  const capture::BoardPattern pattern;
   const CharucoFinder finder(pattern);
   const Eigen::Vector2d middle(300.3, 297.6);
   constexpr double kScale = 1.4;
@@ -44,7 +44,7 @@ TEST(CharucoFinder, FindsCornersWhereTheyAreDrawn) {
       finder.find(seen_from_above(finder.draw(60), pattern.edge(), kScale, middle, 600), 600, 600);
   ASSERT_GT(corners.size(), 90U);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const BoardCorner& corner : corners) {
+  for (const capture::BoardCorner& corner : corners) {
     const Eigen::Vector2d expected =
         middle + kScale * Eigen::Vector2d(corner.world.x(), -corner.world.y());
     EXPECT_NEAR((corner.pixel - expected).norm(), 0.0, 0.2);  // pixels
@@ -55,15 +55,15 @@ TEST(CharucoFinder, FindsCornersWhereTheyAreDrawn) {
 }
 
 TEST(CharucoFinder, FindsNothingWhereThereIsNoBoard) {
-  const CharucoFinder finder(BoardPattern{});
+  const CharucoFinder finder(capture::BoardPattern{});
   EXPECT_TRUE(finder.find(std::vector<std::uint8_t>(200 * 150, 128), 200, 150).empty());
 }
 
 TEST(CharucoFinder, RefusesAnEvenBoard) {
-  BoardPattern pattern;
+  capture::BoardPattern pattern;
   pattern.squares = 10;
   EXPECT_THROW(CharucoFinder{pattern}, UsageError);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::board

@@ -6,7 +6,7 @@
 
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::board {
 namespace {
 
 /// For every descriptor of a its nearest of b, if that is distinct; else -1.
@@ -82,4 +82,4 @@ PictureMatches match_pictures(const std::vector<MaskedPicture>& pictures,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::board

@@ -8,7 +8,7 @@
 
 #include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::board {
 
 /// A grey picture and where in it points may be found.
 struct MaskedPicture {
@@ -32,4 +32,4 @@ PictureMatches match_pictures(const std::vector<MaskedPicture>& pictures,
                               const std::vector<std::array<int, 2>>& pairs, double ratio = 0.85,
                               int most_points = 3000, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::board

@@ -12,7 +12,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/numeric_jacobian.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// Turn of q about the unit vector `axis` alone, (-pi, pi]: q = twist * (turn about an axis square
@@ -32,10 +32,10 @@ struct HingeFrame {
 };
 
 /// HingeFit::axis_error of motions about the axis that was found.
-double error_of_axis(std::span<const Rigid3> motions, const HingeFit& fit) {
+double error_of_axis(std::span<const geometry::Rigid3> motions, const HingeFit& fit) {
   constexpr double kLeastWeight = 1e-12;  // of a motion without any turn
   double weights = kLeastWeight, spread = 0.0;
-  for (const Rigid3& motion : motions) {
+  for (const geometry::Rigid3& motion : motions) {
     const AxisFit own = fit_axis(motion, fit.point);
     const double sine = 2.0 * std::sin(0.5 * own.angle);
     weights += sine * sine;
@@ -51,7 +51,7 @@ double error_of_axis(std::span<const Rigid3> motions, const HingeFit& fit) {
 
 }  // namespace
 
-AxisFit fit_axis(const Rigid3& motion, const Vec3& near) {
+AxisFit fit_axis(const geometry::Rigid3& motion, const Vec3& near) {
   AxisFit fit;
   Quat q = motion.rotation.normalized();
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
@@ -77,7 +77,7 @@ AxisFit fit_axis(const Rigid3& motion, const Vec3& near) {
   return fit;
 }
 
-std::array<Vec3, 6> moment_points(const TriangleMesh& mesh) {
+std::array<Vec3, 6> moment_points(const geometry::TriangleMesh& mesh) {
   double area = 0.0;
   Vec3 first = Vec3::Zero();
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
@@ -87,7 +87,7 @@ std::array<Vec3, 6> moment_points(const TriangleMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) {
       corner[k] = mesh.vertices[t[k]] - origin;
     }
-    const double part = triangle_area(corner[0], corner[1], corner[2]);
+    const double part = geometry::triangle_area(corner[0], corner[1], corner[2]);
     const Vec3 sum = corner[0] + corner[1] + corner[2];
     Eigen::Matrix3d outer = sum * sum.transpose();
     for (const Vec3& c : corner) outer += c * c.transpose();
@@ -109,13 +109,13 @@ std::array<Vec3, 6> moment_points(const TriangleMesh& mesh) {
   return points;
 }
 
-HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points,
+HingeFit fit_hinge(std::span<const geometry::Rigid3> motions, std::span<const Vec3> points,
                    const Vec3& near) {
   if (motions.empty() || points.empty()) {
     throw UsageError("joint axis: no motions or no points to move; at least one is required");
   }
   AxisFit start;
-  for (const Rigid3& motion : motions) {
+  for (const geometry::Rigid3& motion : motions) {
     const AxisFit fit = fit_axis(motion, near);
     if (fit.angle > start.angle) start = fit;
   }
@@ -136,10 +136,11 @@ HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points
     constexpr double kSlideWeight = 0.05;  // registration errs by 0.15 mm, bones slide by 3 mm
     r.resize((rows + 1) * count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      Rigid3 turn = Rigid3::about_axis(frame.axis_at(x), frame.point_at(x), x[4 + k]);
+      geometry::Rigid3 turn =
+          geometry::Rigid3::about_axis(frame.axis_at(x), frame.point_at(x), x[4 + k]);
       turn.translation += x[4 + count + k] * frame.axis_at(x);
       r[rows * count + k] = kSlideWeight * x[4 + count + k];
-      const Rigid3& motion = motions[k];
+      const geometry::Rigid3& motion = motions[k];
       for (std::size_t i = 0; i < points.size(); ++i) {
         r.segment<3>(rows * k + 3 * static_cast<Eigen::Index>(i)) =
             turn * points[i] - motion * points[i];
@@ -148,20 +149,20 @@ HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points
   };
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Rigid3& motion = motions[k];
+    const geometry::Rigid3& motion = motions[k];
     x[4 + k] = twist_about(motion.rotation, frame.axis);
     x[4 + count + k] = (motion * near - near).dot(frame.axis);
   }
   if (count > 1) {
-    LeastSquaresProblem problem;
-    problem.evaluate = with_numeric_jacobian(residual);
+    geometry::LeastSquaresProblem problem;
+    problem.evaluate = geometry::with_numeric_jacobian(residual);
     problem.lower = Eigen::VectorXd::Constant(n, -2.0 * std::numbers::pi);
     problem.upper = -problem.lower;
     problem.lower.segment<2>(2).setConstant(-100.0);  // mm
     problem.upper.segment<2>(2).setConstant(100.0);
     problem.lower.tail(count).setConstant(-100.0);
     problem.upper.tail(count).setConstant(100.0);
-    x = solve_least_squares(problem, x).x;
+    x = geometry::solve_least_squares(problem, x).x;
   }
   fit.axis = frame.axis_at(x);
   fit.point = frame.point_at(x);
@@ -179,4 +180,4 @@ HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points
   return fit;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

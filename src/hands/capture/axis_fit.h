@@ -10,12 +10,12 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Six points with the centre and the second moments of a surface's area: for any two affine maps
 /// the mean of |A x - B x|^2 over them equals that over the surface. They stand for a bone wherever
 /// its motions are compared; mm.
-std::array<Vec3, 6> moment_points(const TriangleMesh& mesh);
+std::array<Vec3, 6> moment_points(const geometry::TriangleMesh& mesh);
 
 /// One fixed axis for several motions of a bone.
 struct HingeFit {
@@ -44,10 +44,11 @@ inline constexpr double kWithin95 = 2.4477;
 /// least over the points x_i of the bone that moves. The slides, which a fixed axis doesn't have,
 /// are found and dropped as in fit_axis(): an axis without them would tilt to make up for them. A
 /// single motion gives fit_axis(). Throws UsageError without motions.
-HingeFit fit_hinge(std::span<const Rigid3> motions, std::span<const Vec3> points, const Vec3& near);
+HingeFit fit_hinge(std::span<const geometry::Rigid3> motions, std::span<const Vec3> points,
+                   const Vec3& near);
 
 /// Turn from which an axis can be determined in the presence of what registration leaves (about
 /// a degree between two bones): then it errs by some 20 degrees.
 inline constexpr double kLeastTurn = 0.05;  // rad
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -14,7 +14,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 const Vec3 kAxis = Vec3(0.8, -0.35, 0.49).normalized();
@@ -24,12 +24,12 @@ const Vec3 kOnAxis(12.0, 40.0, -7.0);
 double off_axis(const Vec3& point) { return (point - kOnAxis).cross(kAxis).norm(); }
 
 double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b)) / kDegree;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) / geometry::kDegree;
 }
 
 /// Surface points of a bone of 40 mm that lies 20 mm beyond the joint.
 std::vector<Vec3> bone_points() {
-  TriangleMesh bone = make_box({12.0, 40.0, 9.0});
+  geometry::TriangleMesh bone = geometry::make_box({12.0, 40.0, 9.0});
   for (Vec3& v : bone.vertices) v += kOnAxis + Vec3(0.0, 40.0, 2.0);
   const std::array<Vec3, 6> points = moment_points(bone);
   return {points.begin(), points.end()};
@@ -38,8 +38,9 @@ std::vector<Vec3> bone_points() {
 TEST(FitAxis, FindsTheAxisOfTurnsFromATenthOfADegreeToNearlyAHalfTurn) {
   const Vec3 near(10.0, 42.0, -6.0);
   for (const double degrees : {0.1, 0.5, 5.0, 30.0, 90.0, 150.0, 179.0, 179.9, 179.999}) {
-    const AxisFit fit = fit_axis(Rigid3::about_axis(kAxis, kOnAxis, degrees * kDegree), near);
-    EXPECT_NEAR(fit.angle, degrees * kDegree, 1e-12) << degrees;
+    const AxisFit fit =
+        fit_axis(geometry::Rigid3::about_axis(kAxis, kOnAxis, degrees * geometry::kDegree), near);
+    EXPECT_NEAR(fit.angle, degrees * geometry::kDegree, 1e-12) << degrees;
     EXPECT_LT(angle_between(fit.axis, kAxis), 1e-8) << degrees;
     EXPECT_LT(off_axis(fit.point), 1e-8) << degrees;
     EXPECT_NEAR((fit.point - near).dot(kAxis), 0.0, 1e-8) << degrees;  // nearest to there
@@ -49,20 +50,20 @@ TEST(FitAxis, FindsTheAxisOfTurnsFromATenthOfADegreeToNearlyAHalfTurn) {
 }
 
 TEST(FitAxis, TheSlideAlongTheAxisIsDroppedAndReported) {
-  Rigid3 screw = Rigid3::about_axis(kAxis, kOnAxis, 0.7);
+  geometry::Rigid3 screw = geometry::Rigid3::about_axis(kAxis, kOnAxis, 0.7);
   screw.translation += 1.5 * kAxis;
   const AxisFit fit = fit_axis(screw, kOnAxis);
   EXPECT_NEAR(fit.slide, 1.5, 1e-12);
   EXPECT_LT(off_axis(fit.point), 1e-10);
   // Turned the other way, the axis is the other way round and so is the slide's sign.
-  Rigid3 back = Rigid3::about_axis(kAxis, kOnAxis, -0.7);
+  geometry::Rigid3 back = geometry::Rigid3::about_axis(kAxis, kOnAxis, -0.7);
   back.translation += 1.5 * kAxis;
   EXPECT_NEAR(fit_axis(back, kOnAxis).slide, -1.5, 1e-12);
   EXPECT_LT(angle_between(fit_axis(back, kOnAxis).axis, -kAxis), 1e-8);
 }
 
 TEST(FitAxis, AQuaternionAndItsNegativeAreTheSameMotion) {
-  Rigid3 motion = Rigid3::about_axis(kAxis, kOnAxis, 1.0);
+  geometry::Rigid3 motion = geometry::Rigid3::about_axis(kAxis, kOnAxis, 1.0);
   motion.rotation.coeffs() = -motion.rotation.coeffs();
   EXPECT_NEAR(fit_axis(motion, kOnAxis).angle, 1.0, 1e-12);
   EXPECT_LT(angle_between(fit_axis(motion, kOnAxis).axis, kAxis), 1e-8);
@@ -80,7 +81,7 @@ TEST(MomentPoints, HaveTheSecondMomentsOfTheSurface) {
   // Surface of a box a x b x c: x^2 integrates to a^3 (b + c) / 6 over the four sides along x and
   // to a^2 b c / 2 over the two ends; the area is 2 (a b + b c + c a).
   const double a = 12.0, b = 40.0, c = 9.0;
-  TriangleMesh box = make_box({a, b, c}, 3);
+  geometry::TriangleMesh box = geometry::make_box({a, b, c}, 3);
   for (Vec3& v : box.vertices) v += Vec3(100.0, -50.0, 20.0);
   const std::array<Vec3, 6> points = moment_points(box);
   Vec3 mean = Vec3::Zero();
@@ -95,9 +96,11 @@ TEST(MomentPoints, HaveTheSecondMomentsOfTheSurface) {
 
 TEST(FitHinge, SeveralTurnsAboutOneAxisGiveItExactly) {
   const std::vector<Vec3> points = bone_points();
-  const std::vector<double> angles = {70.0 * kDegree, -12.0 * kDegree, 25.0 * kDegree};
-  std::vector<Rigid3> motions;
-  for (const double angle : angles) motions.push_back(Rigid3::about_axis(kAxis, kOnAxis, angle));
+  const std::vector<double> angles = {70.0 * geometry::kDegree, -12.0 * geometry::kDegree,
+                                      25.0 * geometry::kDegree};
+  std::vector<geometry::Rigid3> motions;
+  for (const double angle : angles)
+    motions.push_back(geometry::Rigid3::about_axis(kAxis, kOnAxis, angle));
   const HingeFit fit = fit_hinge(motions, points, kOnAxis);
   EXPECT_LT(angle_between(fit.axis, kAxis), 1e-5);
   EXPECT_LT(off_axis(fit.point), 1e-5);
@@ -107,9 +110,9 @@ TEST(FitHinge, SeveralTurnsAboutOneAxisGiveItExactly) {
 
 TEST(FitHinge, SlidesDontTiltTheAxis) {
   const std::vector<Vec3> points = bone_points();
-  std::vector<Rigid3> motions;
+  std::vector<geometry::Rigid3> motions;
   for (const double angle : {0.4, -0.4}) {
-    motions.push_back(Rigid3::about_axis(kAxis, kOnAxis, angle));
+    motions.push_back(geometry::Rigid3::about_axis(kAxis, kOnAxis, angle));
     motions.back().translation += 3.0 * angle * kAxis;  // a screw
   }
   const HingeFit fit = fit_hinge(motions, points, kOnAxis);
@@ -123,8 +126,8 @@ TEST(FitHinge, TwoAxesGiveTheOneBetweenThem) {
   // Two equal turns about axes 6 degrees apart, one each way: the best axis lies half way.
   const std::vector<Vec3> points = bone_points();
   const Vec3 other = (kAxis + 0.1 * kAxis.unitOrthogonal()).normalized();
-  const std::vector<Rigid3> motions = {Rigid3::about_axis(kAxis, kOnAxis, 0.8),
-                                       Rigid3::about_axis(other, kOnAxis, 0.8)};
+  const std::vector<geometry::Rigid3> motions = {geometry::Rigid3::about_axis(kAxis, kOnAxis, 0.8),
+                                                 geometry::Rigid3::about_axis(other, kOnAxis, 0.8)};
   const HingeFit fit = fit_hinge(motions, points, kOnAxis);
   EXPECT_LT(angle_between(fit.axis, (kAxis + other).normalized()), 1.0);
   EXPECT_GT(fit.rms, 0.1);
@@ -136,10 +139,10 @@ TEST(FitTwoAxes, FindsTwoSkewAxesFromFourLimitPostures) {
   const Vec3 on_second = kOnAxis + 4.0 * kAxis.cross(second).normalized();
   const std::vector<std::array<double, 2>> angles = {
       {0.45, 0.06}, {-0.40, -0.05}, {0.05, 0.55}, {-0.04, -0.35}};
-  std::vector<Rigid3> motions;
+  std::vector<geometry::Rigid3> motions;
   for (const auto& [a, b] : angles) {
-    motions.push_back(Rigid3::about_axis(kAxis, kOnAxis, a) *
-                      Rigid3::about_axis(second, on_second, b));
+    motions.push_back(geometry::Rigid3::about_axis(kAxis, kOnAxis, a) *
+                      geometry::Rigid3::about_axis(second, on_second, b));
   }
   const std::vector<MainAxis> main = {MainAxis::kFirst, MainAxis::kFirst, MainAxis::kSecond,
                                       MainAxis::kSecond};
@@ -163,7 +166,7 @@ TEST(FitTwoAxes, FindsTwoSkewAxesFromFourLimitPostures) {
 
 TEST(FitTwoAxes, AnAxisThatNothingTurnsAboutStaysAtThePrior) {
   const std::vector<Vec3> points = bone_points();
-  const std::vector<Rigid3> motions = {Rigid3::about_axis(kAxis, kOnAxis, 1.2)};
+  const std::vector<geometry::Rigid3> motions = {geometry::Rigid3::about_axis(kAxis, kOnAxis, 1.2)};
   TwoAxisPrior prior;
   prior.near = kOnAxis;
   prior.first = kAxis;
@@ -177,12 +180,13 @@ TEST(FitTwoAxes, AnAxisThatNothingTurnsAboutStaysAtThePrior) {
 
 /// A motion as registration shows it: the bone, 40 mm from the joint, turned wrongly by `turn`
 /// [rad] about each axis and shifted by `shift` [mm], standard deviations.
-Rigid3 seen(const Rigid3& motion, double turn, double shift, RandomStream& random) {
+geometry::Rigid3 seen(const geometry::Rigid3& motion, double turn, double shift,
+                      RandomStream& random) {
   const auto draw = [&](double sd) {
     return Vec3(sd * random.normal(), sd * random.normal(), sd * random.normal());
   };
   const Vec3 wrong = draw(turn), centre = motion * (kOnAxis + Vec3(0.0, 40.0, 2.0));
-  Rigid3 error = Rigid3::about_axis(wrong.normalized(), centre, wrong.norm());
+  geometry::Rigid3 error = geometry::Rigid3::about_axis(wrong.normalized(), centre, wrong.norm());
   error.translation += draw(shift);
   return error * motion;
 }
@@ -194,10 +198,11 @@ double hinge_coverage(int count, double least, double most, double turn_error) {
   int inside = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     RandomStream random(7, static_cast<std::uint64_t>(trial));
-    std::vector<Rigid3> motions;
+    std::vector<geometry::Rigid3> motions;
     for (int k = 0; k < count; ++k) {
-      const double angle = (least + (most - least) * random.uniform()) * kDegree;
-      motions.push_back(seen(Rigid3::about_axis(kAxis, kOnAxis, angle), turn_error, 0.05, random));
+      const double angle = (least + (most - least) * random.uniform()) * geometry::kDegree;
+      motions.push_back(
+          seen(geometry::Rigid3::about_axis(kAxis, kOnAxis, angle), turn_error, 0.05, random));
     }
     const HingeFit fit = fit_hinge(motions, points, kOnAxis);
     const double off = std::asin(std::min(1.0, fit.axis.cross(kAxis).norm()));
@@ -209,11 +214,11 @@ double hinge_coverage(int count, double least, double most, double turn_error) {
 TEST(FitHinge, ItsErrorIsThatOfTheTurnsOverTheTurns) {
   const std::vector<Vec3> points = bone_points();
   const auto error_of = [&](std::vector<double> degrees) {
-    std::vector<Rigid3> motions;
+    std::vector<geometry::Rigid3> motions;
     for (const double angle : degrees) {
-      motions.push_back(Rigid3::about_axis(kAxis, kOnAxis, angle * kDegree));
+      motions.push_back(geometry::Rigid3::about_axis(kAxis, kOnAxis, angle * geometry::kDegree));
     }
-    return fit_hinge(motions, points, kOnAxis).axis_error / kDegree;
+    return fit_hinge(motions, points, kOnAxis).axis_error / geometry::kDegree;
   };
   // 1.13 degrees over three, over sixty (its chord); four like turns show twice as much as one,
   // and a small one beside a large one hardly anything.
@@ -262,15 +267,19 @@ TEST(FitTwoAxes, NineteenOfTwentyAxesLieWithinTheirErrors) {
     } while (random.uniform() > std::exp(-0.5 * square * square));
     // A fist that spreads or draws in by what nobody knows, and spread fingers that hardly bend.
     const auto motion = [&](double a, double b) {
-      return seen(Rigid3::about_axis(bends, kOnAxis, a) * Rigid3::about_axis(spreads, kOnAxis, b),
-                  0.3 * kDegree, 0.05, random);
+      return seen(geometry::Rigid3::about_axis(bends, kOnAxis, a) *
+                      geometry::Rigid3::about_axis(spreads, kOnAxis, b),
+                  0.3 * geometry::kDegree, 0.05, random);
     };
-    const std::vector<Rigid3> motions = {motion(1.1, prior.by_first_sd * random.normal()),
-                                         motion(prior.by_second_sd * random.normal(), 0.26)};
+    const std::vector<geometry::Rigid3> motions = {
+        motion(1.1, prior.by_first_sd * random.normal()),
+        motion(prior.by_second_sd * random.normal(), 0.26)};
     const std::vector<MainAxis> main = {MainAxis::kFirst, MainAxis::kSecond};
     const TwoAxisFit fit = fit_two_axes(motions, main, points, prior);
-    first += angle_between(fit.first_axis, bends) * kDegree <= kWithin95 * fit.first_error;
-    second += angle_between(fit.second_axis, spreads) * kDegree <= kWithin95 * fit.second_error;
+    first +=
+        angle_between(fit.first_axis, bends) * geometry::kDegree <= kWithin95 * fit.first_error;
+    second +=
+        angle_between(fit.second_axis, spreads) * geometry::kDegree <= kWithin95 * fit.second_error;
   }
   for (const int inside : {first, second}) {
     EXPECT_GE(inside, 0.90 * kTrials);
@@ -285,4 +294,4 @@ TEST(FitHinge, WithoutMotionsSaysSo) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -14,28 +14,44 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-constexpr double kLeastLimit = 2.0 * kDegree;  // a limit nearer to the reference posture isn't one
+constexpr double kLeastLimit =
+    2.0 * geometry::kDegree;  // a limit nearer to the reference posture isn't one
 constexpr const char* kMetacarpal = "thumb_metacarpal";
 
 /// One of the four limit postures.
 struct Limit {
-  ScanPosture posture;
+  hand::ScanPosture posture;
   MainAxis axis;
   double sense;  ///< +1 for flexion and abduction
-  CmcLimit ThumbCmc::*place;
-  std::optional<Rigid3> motion;
+  hand::CmcLimit hand::ThumbCmc::*place;
+  std::optional<geometry::Rigid3> motion;
   double angle = 0.0;  ///< about its axis, as measured; sense included
 };
 
 std::array<Limit, 4> limits_in(const MotionsByPosture& motions) {
   std::array<Limit, 4> limits = {
-      {{ScanPosture::kThumbFlexion, MainAxis::kFirst, 1.0, &ThumbCmc::flexion, {}, 0.0},
-       {ScanPosture::kThumbExtension, MainAxis::kFirst, -1.0, &ThumbCmc::extension, {}, 0.0},
-       {ScanPosture::kThumbAbduction, MainAxis::kSecond, 1.0, &ThumbCmc::abduction, {}, 0.0},
-       {ScanPosture::kThumbAdduction, MainAxis::kSecond, -1.0, &ThumbCmc::adduction, {}, 0.0}}};
+      {{hand::ScanPosture::kThumbFlexion, MainAxis::kFirst, 1.0, &hand::ThumbCmc::flexion, {}, 0.0},
+       {hand::ScanPosture::kThumbExtension,
+        MainAxis::kFirst,
+        -1.0,
+        &hand::ThumbCmc::extension,
+        {},
+        0.0},
+       {hand::ScanPosture::kThumbAbduction,
+        MainAxis::kSecond,
+        1.0,
+        &hand::ThumbCmc::abduction,
+        {},
+        0.0},
+       {hand::ScanPosture::kThumbAdduction,
+        MainAxis::kSecond,
+        -1.0,
+        &hand::ThumbCmc::adduction,
+        {},
+        0.0}}};
   for (Limit& limit : limits) {
     const auto found = motions.find(limit.posture);
     if (found != motions.end()) limit.motion = motion_between(found->second, "", kMetacarpal);
@@ -60,10 +76,11 @@ Vec3 pivot_of(const std::array<Limit, 4>& limits, const Vec3& seat) {
 
 /// Fixed axes by the motions of each pair alone; where none is known, the joint's.
 FixedAxisCmc fixed_axes(const std::array<Limit, 4>& limits, const ReferenceBone& bone,
-                        const JointDof& flexion, const JointDof& abduction, const Vec3& centre) {
+                        const hand::JointDof& flexion, const hand::JointDof& abduction,
+                        const Vec3& centre) {
   FixedAxisCmc fixed{flexion.axis, flexion.centre, abduction.axis, abduction.centre};
   for (const MainAxis which : {MainAxis::kFirst, MainAxis::kSecond}) {
-    std::vector<Rigid3> motions;
+    std::vector<geometry::Rigid3> motions;
     for (const Limit& limit : limits) {
       if (limit.axis == which && limit.motion) motions.push_back(*limit.motion);
     }
@@ -80,7 +97,7 @@ FixedAxisCmc fixed_axes(const std::array<Limit, 4>& limits, const ReferenceBone&
 
 }  // namespace
 
-void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture& motions,
+void measure_cmc(ReferenceHand& hand, const hand::Hand& model, const MotionsByPosture& motions,
                  JointMeasures& measures) {
   Vec3& node = hand.ray[0].node[0];
   const auto bone = hand.bones.find(kMetacarpal);
@@ -95,22 +112,22 @@ void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture&
   node = pivot_of(limits, node);
 
   // Flexion is fixed to the trapezium: its axis lies in the palm as the model's does.
-  JointDof flexion = model.skeleton.dof(Dof::kThumbCmcFlexion);
-  JointDof abduction = model.skeleton.dof(Dof::kThumbCmcAbduction);
-  const Joint& drawn = model.skeleton.joint(JointId::kThumbCmc);
-  abduction.axis = hand.from_model(Finger::kThumb, 0, abduction.axis);
+  hand::JointDof flexion = model.skeleton.dof(hand::Dof::kThumbCmcFlexion);
+  hand::JointDof abduction = model.skeleton.dof(hand::Dof::kThumbCmcAbduction);
+  const hand::Joint& drawn = model.skeleton.joint(hand::JointId::kThumbCmc);
+  abduction.axis = hand.from_model(hand::Finger::kThumb, 0, abduction.axis);
   abduction.centre =
-      node + hand.scale *
-                 hand.from_model(Finger::kThumb, 0,
-                                 model.skeleton.dof(Dof::kThumbCmcAbduction).centre - drawn.centre);
+      node + hand.scale * hand.from_model(hand::Finger::kThumb, 0,
+                                          model.skeleton.dof(hand::Dof::kThumbCmcAbduction).centre -
+                                              drawn.centre);
   flexion.centre = node + hand.scale * (flexion.centre - drawn.centre);
   const double flexion_up = flexion.upper - flexion.reference;
   const double flexion_down = flexion.lower - flexion.reference;
-  for (JointDof* dof : {&flexion, &abduction}) {
+  for (hand::JointDof* dof : {&flexion, &abduction}) {
     dof->source = "axis: the model's, moved onto the bones (" + dof->source + ")";
   }
 
-  std::vector<Rigid3> known;
+  std::vector<geometry::Rigid3> known;
   std::vector<MainAxis> main;
   for (const Limit& limit : limits) {
     if (!limit.motion) continue;
@@ -150,7 +167,7 @@ void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture&
   // Zero of flexion: the reference posture; of abduction: metacarpal in the plane of the palm.
   const double abduction_up = abduction.upper - abduction.reference;
   const double abduction_down = abduction.lower - abduction.reference;
-  const Vec3 along = hand.nodes(Finger::kThumb).direction(0);
+  const Vec3 along = hand.nodes(hand::Finger::kThumb).direction(0);
   const Vec3 across = (along - along.dot(abduction.axis) * abduction.axis).normalized();
   flexion.reference = 0.0;
   abduction.reference = std::asin(std::clamp(across.z(), -1.0, 1.0));
@@ -160,15 +177,15 @@ void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture&
   bool has_flexion = false, has_abduction = false;
   for (std::size_t k = 0; k < limits.size(); ++k) {
     Limit& limit = limits[k];
-    CmcLimit& place = measures.skeleton.thumb_cmc.*limit.place;
+    hand::CmcLimit& place = measures.skeleton.thumb_cmc.*limit.place;
     if (limit.motion && limit.angle < kLeastLimit) {
       measures.notes.push_back(
           fmt::format("{}: the thumb's metacarpal is {:.0f} degrees from the reference posture in "
                       "that sense; the model's range is taken there instead.",
-                      name_of(limit.posture), limit.angle / kDegree));
+                      name_of(limit.posture), limit.angle / geometry::kDegree));
       limit.motion.reset();
     }
-    const JointDof& dof = limit.axis == MainAxis::kFirst ? flexion : abduction;
+    const hand::JointDof& dof = limit.axis == MainAxis::kFirst ? flexion : abduction;
     if (limit.motion) {
       place.q = limit.motion->rotation;
       if (place.q.w() < 0.0) place.q.coeffs() = -place.q.coeffs();
@@ -176,7 +193,8 @@ void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture&
       (limit.axis == MainAxis::kFirst ? has_flexion : has_abduction) = true;
     } else {
       limit.angle = std::max(model_angle[k], kLeastLimit);
-      const Rigid3 turn = Rigid3::about_axis(dof.axis, dof.centre, limit.sense * limit.angle);
+      const geometry::Rigid3 turn =
+          geometry::Rigid3::about_axis(dof.axis, dof.centre, limit.sense * limit.angle);
       place = {turn.rotation, turn * node - node};
     }
   }
@@ -186,14 +204,14 @@ void measure_cmc(ReferenceHand& hand, const Hand& model, const MotionsByPosture&
   abduction.lower = abduction.reference - limits[3].angle;
   if (has_flexion) flexion.source += "; range: scanned limits";
   if (has_abduction) abduction.source += "; range: scanned limits";
-  measures.measured(Dof::kThumbCmcFlexion) = has_flexion;
-  measures.measured(Dof::kThumbCmcAbduction) = has_abduction;
-  measures.skeleton.joints[index_of(JointId::kThumbCmc)] = {
-      JointId::kThumbCmc, node, {abduction, flexion}};
+  measures.measured(hand::Dof::kThumbCmcFlexion) = has_flexion;
+  measures.measured(hand::Dof::kThumbCmcAbduction) = has_abduction;
+  measures.skeleton.joints[index_of(hand::JointId::kThumbCmc)] = {
+      hand::JointId::kThumbCmc, node, {abduction, flexion}};
   measures.fixed_cmc = {flexion.axis, flexion.centre, abduction.axis, abduction.centre};
   if (bone != hand.bones.end()) {
     measures.fixed_cmc = fixed_axes(limits, bone->second, flexion, abduction, node);
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,10 +8,10 @@
 
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 
-std::vector<std::string> impossible_dimensions(const HandDimensions& found,
-                                               const HandDimensions& model) {
+std::vector<std::string> impossible_dimensions(const hand::HandDimensions& found,
+                                               const hand::HandDimensions& model) {
   constexpr double kCreaseAside = 2.0;  // mm; of the short segments it is a large share
   struct Ratio {
     std::string what;
@@ -20,15 +20,15 @@ std::vector<std::string> impossible_dimensions(const HandDimensions& found,
   };
   std::vector<Ratio> all;
   std::vector<double> ratios;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentDimensions &mine = found.segment[s], &usual = model.segment[s];
-    const std::string name(name_of(static_cast<Segment>(s)));
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    const hand::SegmentDimensions &mine = found.segment[s], &usual = model.segment[s];
+    const std::string name(name_of(static_cast<hand::Segment>(s)));
     all.push_back({name + " is {:.0f} mm long", mine.length, usual.length, kCreaseAside});
     all.push_back({name + " is {:.0f} mm wide", mine.width, usual.width});
     all.push_back({name + " is {:.0f} mm thick", mine.thickness, usual.thickness});
   }
   for (const Ratio& one : all) ratios.push_back(one.value / one.expected);
-  const double size = median(std::move(ratios));
+  const double size = statistics::median(std::move(ratios));
   std::vector<std::string> clauses;
   for (const Ratio& one : all) {
     const double expected = size * one.expected;
@@ -39,4 +39,4 @@ std::vector<std::string> impossible_dimensions(const HandDimensions& found,
   return clauses;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -12,31 +12,31 @@
 #include "palmar/population/palm_ruler.h"
 #include "palmar/population/survey_figures.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-constexpr HandDimension kLength{DimensionKind::kHandLength};
-constexpr HandDimension kWidth{DimensionKind::kHandWidth};
-constexpr HandDimension kCircumference{DimensionKind::kHandCircumference};
-constexpr HandDimension kPalm{DimensionKind::kSegmentLength, Segment::kPalm};
+constexpr hand::HandDimension kLength{hand::DimensionKind::kHandLength};
+constexpr hand::HandDimension kWidth{hand::DimensionKind::kHandWidth};
+constexpr hand::HandDimension kCircumference{hand::DimensionKind::kHandCircumference};
+constexpr hand::HandDimension kPalm{hand::DimensionKind::kSegmentLength, hand::Segment::kPalm};
 
-bool has(const Population& population, HandDimension dimension) {
-  for (const Stratum& stratum : population.strata) {
-    if (!moments_of(stratum, dimension)) return false;
+bool has(const population::Population& population, hand::HandDimension dimension) {
+  for (const population::Stratum& stratum : population.strata) {
+    if (!population::moments_of(stratum, dimension)) return false;
   }
   return true;
 }
 
 /// Terms of a finger's length in the population's dimensions; empty if it lacks one.
-std::vector<std::pair<HandDimension, double>> terms_of(Finger finger,
-                                                       const Population& population) {
-  std::vector<std::pair<HandDimension, double>> terms;
+std::vector<std::pair<hand::HandDimension, double>> terms_of(
+    hand::Finger finger, const population::Population& population) {
+  std::vector<std::pair<hand::HandDimension, double>> terms;
   // The middle finger is what hand length and palm leave.
-  if (finger == Finger::kMiddle) {
+  if (finger == hand::Finger::kMiddle) {
     terms = {{kLength, 1.0}, {kPalm, -1.0}};
   } else {
-    for (const auto& segment : segments_of(finger)) {
-      if (segment) terms.push_back({{DimensionKind::kSegmentLength, *segment}, 1.0});
+    for (const auto& segment : hand::segments_of(finger)) {
+      if (segment) terms.push_back({{hand::DimensionKind::kSegmentLength, *segment}, 1.0});
     }
   }
   for (const auto& [dimension, factor] : terms) {
@@ -52,21 +52,22 @@ struct FingerShare {
 
 FingerShare finger_share() {
   double survey = 0.0;
-  for (const Sex sex : {Sex::kFemale, Sex::kMale}) {
-    const AnsurFigures& figures = ansur2_figures(sex);
+  for (const grasp::Sex sex : {grasp::Sex::kFemale, grasp::Sex::kMale}) {
+    const population::AnsurFigures& figures = population::ansur2_figures(sex);
     survey += 0.5 * (1.0 - figures.palm.mean / figures.length.mean);
   }
-  const double own = 1.0 - template_palm_share();
+  const double own = 1.0 - population::template_palm_share();
   return {own, 0.5 * (own + survey), (own - survey) / std::sqrt(12.0)};
 }
 
 /// The fingers as one measure in the template's ruler, which the population's means follow.
-std::optional<KnownMeasure> fingers_of(const RestOfHand& rest, const Population& population) {
-  KnownMeasure all{{}, 0.0, 0.0, "fingers"};
+std::optional<population::KnownMeasure> fingers_of(const RestOfHand& rest,
+                                                   const population::Population& population) {
+  population::KnownMeasure all{{}, 0.0, 0.0, "fingers"};
   int count = 0;
   for (std::size_t f = 0; f < rest.finger.size(); ++f) {
     if (!(rest.finger[f] > 0.0)) continue;
-    const auto terms = terms_of(static_cast<Finger>(f + 1), population);
+    const auto terms = terms_of(static_cast<hand::Finger>(f + 1), population);
     if (terms.empty()) continue;
     all.terms.insert(all.terms.end(), terms.begin(), terms.end());
     all.value += rest.finger[f];
@@ -85,10 +86,10 @@ std::optional<KnownMeasure> fingers_of(const RestOfHand& rest, const Population&
 
 }  // namespace
 
-RestOfHand RestOfHand::of(const HandDimensions& dimensions) {
+RestOfHand RestOfHand::of(const hand::HandDimensions& dimensions) {
   RestOfHand rest;
   for (std::size_t f = 0; f < rest.finger.size(); ++f) {
-    for (const auto& segment : segments_of(static_cast<Finger>(f + 1))) {
+    for (const auto& segment : hand::segments_of(static_cast<hand::Finger>(f + 1))) {
       if (segment) rest.finger[f] += dimensions.segment[index_of(*segment)].length;
     }
   }
@@ -98,30 +99,31 @@ RestOfHand RestOfHand::of(const HandDimensions& dimensions) {
 }
 
 std::optional<ExpectedLength> expected_hand_length(const RestOfHand& rest,
-                                                   const Population& population) {
-  std::vector<KnownMeasure> known;
+                                                   const population::Population& population) {
+  std::vector<population::KnownMeasure> known;
   if (!has(population, kLength)) return {};
   if (const auto fingers = fingers_of(rest, population)) known.push_back(*fingers);
   if (rest.width > 0.0 && has(population, kWidth)) {
-    known.push_back(KnownMeasure::of(kWidth, rest.width, rest.width_sd));
+    known.push_back(population::KnownMeasure::of(kWidth, rest.width, rest.width_sd));
   }
   if (rest.circumference > 0.0 && has(population, kCircumference)) {
-    known.push_back(KnownMeasure::of(kCircumference, rest.circumference, rest.circumference_sd));
+    known.push_back(
+        population::KnownMeasure::of(kCircumference, rest.circumference, rest.circumference_sd));
   }
   if (rest.by_skin > 0.0) {
-    known.push_back(KnownMeasure::of(kLength, rest.by_skin, kLengthBySkinSd));
+    known.push_back(population::KnownMeasure::of(kLength, rest.by_skin, kLengthBySkinSd));
   }
   if (known.empty()) return {};
-  const PersonEstimate estimate = estimate_person(population, known);
+  const population::PersonEstimate estimate = population::estimate_person(population, known);
   if (!estimate.notes.empty()) return {};
-  for (const EstimatedDimension& one : estimate.dimensions) {
+  for (const population::EstimatedDimension& one : estimate.dimensions) {
     if (one.dimension == kLength) return ExpectedLength{one.value, one.sd};
   }
   return {};
 }
 
 std::string length_doubt(double length, double length_sd, const RestOfHand& rest,
-                         const Population& population) {
+                         const population::Population& population) {
   auto expected = expected_hand_length(rest, population);
   if (!expected) return {};
   expected->sd = std::hypot(expected->sd, length_sd);
@@ -132,14 +134,15 @@ std::string length_doubt(double length, double length_sd, const RestOfHand& rest
       length, expected->value, expected->range());
 }
 
-std::string length_doubt(const std::vector<KnownMeasure>& measures, const Population& population) {
+std::string length_doubt(const std::vector<population::KnownMeasure>& measures,
+                         const population::Population& population) {
   RestOfHand rest;
   rest.finger_sd = 0.0;
   double length = 0.0, length_sd = 0.0;
-  for (const KnownMeasure& one : measures) {
-    const HandDimension first = one.terms.front().first;
-    const std::optional<Finger> finger = finger_of(first.segment);
-    if (one.terms.size() == 3 && finger && *finger != Finger::kThumb) {
+  for (const population::KnownMeasure& one : measures) {
+    const hand::HandDimension first = one.terms.front().first;
+    const std::optional<hand::Finger> finger = hand::finger_of(first.segment);
+    if (one.terms.size() == 3 && finger && *finger != hand::Finger::kThumb) {
       rest.finger[index_of(*finger) - 1] = one.value;
       rest.finger_sd = std::max(rest.finger_sd, one.sd);
     }
@@ -158,10 +161,10 @@ std::string length_doubt(const std::vector<KnownMeasure>& measures, const Popula
   return length > 0.0 ? length_doubt(length, length_sd, rest, population) : "";
 }
 
-std::string length_doubt(const HandDimensions& dimensions, double by_skin) {
+std::string length_doubt(const hand::HandDimensions& dimensions, double by_skin) {
   RestOfHand rest = RestOfHand::of(dimensions);
   rest.by_skin = by_skin;
-  return length_doubt(dimensions.hand_length, 0.0, rest, population_named("ansur2"));
+  return length_doubt(dimensions.hand_length, 0.0, rest, population::population_named("ansur2"));
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -11,7 +11,7 @@
 #include "palmar/population/person_estimate.h"
 #include "palmar/population/population.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// What is known of a hand but its length. 0: unknown.
 struct RestOfHand {
@@ -23,7 +23,7 @@ struct RestOfHand {
   double circumference_sd = 3.0;
   double by_skin = 0.0;  ///< the length by where the skin's shape lets one expect the wrist's
                          ///< crease, mm
-  static RestOfHand of(const HandDimensions& dimensions);
+  static RestOfHand of(const hand::HandDimensions& dimensions);
 };
 
 /// Standard deviation of the length by the skin's shape without the wrist's line, mm: the root mean
@@ -48,17 +48,18 @@ struct ExpectedLength {
 /// Nothing if nothing of the rest is known, or if some of it is so rare (one in a thousand) that
 /// the hand is none of these people's: a child's among adults.
 std::optional<ExpectedLength> expected_hand_length(const RestOfHand& rest,
-                                                   const Population& population);
+                                                   const population::Population& population);
 
 /// A sentence for the user if `length` (its error's deviation: `length_sd`, mm) isn't within what
 /// is expected; empty otherwise. Of 100 hands that were measured well one is named.
 std::string length_doubt(double length, double length_sd, const RestOfHand& rest,
-                         const Population& population);
+                         const population::Population& population);
 
 /// The same of what was measured on a photograph (measures_of()); empty without a hand length.
-std::string length_doubt(const std::vector<KnownMeasure>& measures, const Population& population);
+std::string length_doubt(const std::vector<population::KnownMeasure>& measures,
+                         const population::Population& population);
 
 /// The same of a whole hand among ANSUR II's men and women.
-std::string length_doubt(const HandDimensions& dimensions, double by_skin = 0.0);
+std::string length_doubt(const hand::HandDimensions& dimensions, double by_skin = 0.0);
 
-}  // namespace palmar
+}  // namespace palmar::capture

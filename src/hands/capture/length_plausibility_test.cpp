@@ -9,7 +9,7 @@
 
 #include "palmar/population/built_in_populations.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::HasSubstr;
@@ -69,7 +69,7 @@ class Crowd {
 /// Share of a thousand hands that are named, their wrist's crease `off` too far from the fingers.
 double named(double off, bool has_skin, double least_ruler, double largest_ruler) {
   Crowd crowd(7);
-  const Population& people = population_named("ansur2");
+  const population::Population& people = population::population_named("ansur2");
   constexpr int kPeople = 1000;
   int count = 0;
   for (int k = 0; k < kPeople; ++k) {
@@ -87,7 +87,7 @@ TEST(ExpectedHandLength, FollowsTheSurveysRegressionOnBreadth) {
   RestOfHand rest;
   rest.width = kMen.breadth + kMen.breadth_sd;
   rest.width_sd = 0.0;
-  const auto expected = expected_hand_length(rest, population_named("ansur2_men"));
+  const auto expected = expected_hand_length(rest, population::population_named("ansur2_men"));
   ASSERT_TRUE(expected.has_value());
   EXPECT_NEAR(expected->value, kMen.length + kMen.r_lw * kMen.length_sd, 0.01);
   EXPECT_NEAR(expected->sd, kMen.length_sd * std::sqrt(1.0 - kMen.r_lw * kMen.r_lw), 0.01);
@@ -100,9 +100,9 @@ TEST(ExpectedHandLength, LiesBetweenTheRulersOfSurveyAndTemplate) {
   RestOfHand rest;
   const double middle = kMen.length - kMen.palm;
   rest.finger[1] = middle;
-  const auto by_survey = expected_hand_length(rest, population_named("ansur2_men"));
+  const auto by_survey = expected_hand_length(rest, population::population_named("ansur2_men"));
   rest.finger[1] = 0.448 * kMen.length;
-  const auto by_template = expected_hand_length(rest, population_named("ansur2_men"));
+  const auto by_template = expected_hand_length(rest, population::population_named("ansur2_men"));
   ASSERT_TRUE(by_survey && by_template);
   EXPECT_LT(by_survey->value, kMen.length);
   EXPECT_GT(by_template->value, kMen.length);
@@ -133,7 +133,7 @@ TEST(LengthDoubt, SaysWhatIsExpectedAndWhereToLook) {
   RestOfHand rest;
   rest.width = kMen.breadth;
   rest.by_skin = kMen.length;
-  const Population& people = population_named("ansur2_men");
+  const population::Population& people = population::population_named("ansur2_men");
   EXPECT_THAT(length_doubt(kMen.length, 0.0, rest, people), IsEmpty());
   // 8.2 mm by the breadth and 3 mm by the skin: 2.8 mm together, 7 mm on either side.
   EXPECT_THAT(length_doubt(kMen.length + 11.5, 0.0, rest, people),
@@ -144,7 +144,7 @@ TEST(LengthDoubt, SaysWhatIsExpectedAndWhereToLook) {
 }
 
 TEST(LengthDoubt, OfAHandThatIsNoneOfThesePeoplesNothingIsSaid) {
-  const Population& adults = population_named("ansur2");
+  const population::Population& adults = population::population_named("ansur2");
   RestOfHand child;  // five years; Snyder et al. 1977
   child.width = 56.0;
   child.circumference = 135.0;
@@ -155,15 +155,18 @@ TEST(LengthDoubt, OfAHandThatIsNoneOfThesePeoplesNothingIsSaid) {
 }
 
 TEST(LengthDoubt, ReadsMeasuresOfAPhotograph) {
-  const Population& people = population_named("ansur2_men");
-  const HandDimension length{DimensionKind::kHandLength}, width{DimensionKind::kHandWidth};
-  KnownMeasure index{{}, 70.0, 2.5, "index finger"};
-  for (const Segment s : {Segment::kIndexProximal, Segment::kIndexMiddle, Segment::kIndexDistal}) {
-    index.terms.push_back({{DimensionKind::kSegmentLength, s}, 1.0});
+  const population::Population& people = population::population_named("ansur2_men");
+  const hand::HandDimension length{hand::DimensionKind::kHandLength},
+      width{hand::DimensionKind::kHandWidth};
+  population::KnownMeasure index{{}, 70.0, 2.5, "index finger"};
+  for (const hand::Segment s :
+       {hand::Segment::kIndexProximal, hand::Segment::kIndexMiddle, hand::Segment::kIndexDistal}) {
+    index.terms.push_back({{hand::DimensionKind::kSegmentLength, s}, 1.0});
   }
   const auto photo = [&](double hand) {
-    return std::vector<KnownMeasure>{KnownMeasure::of(length, hand, 2.0),
-                                     KnownMeasure::of(width, kMen.breadth, 1.2), index};
+    return std::vector<population::KnownMeasure>{
+        population::KnownMeasure::of(length, hand, 2.0),
+        population::KnownMeasure::of(width, kMen.breadth, 1.2), index};
   };
   EXPECT_THAT(length_doubt(photo(183.0), people), IsEmpty());
   EXPECT_THAT(length_doubt(photo(213.0), people), HasSubstr("Hand length is 213 mm"));
@@ -171,4 +174,4 @@ TEST(LengthDoubt, ReadsMeasuresOfAPhotograph) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/least_cost_pairs.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 void MarkerMatchOptions::check() const {
   const auto require = [](const char* name, double value, double low, double high) {
@@ -65,4 +65,4 @@ std::vector<std::optional<int>> match_markers(const std::vector<Vec3>& expected,
   return match;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Pairs points one to one so that the sum of squared distances is least, where leaving a point
 /// alone costs gate^2. Returns for each expected point the index of the one found there.
@@ -28,4 +28,4 @@ std::vector<std::optional<int>> match_markers(const std::vector<Vec3>& expected,
                                               const std::vector<Vec3>& found,
                                               const MarkerMatchOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

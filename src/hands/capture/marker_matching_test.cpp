@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 Vec3 somewhere(RandomStream& random, double size) {
@@ -101,4 +101,4 @@ TEST(MarkerMatching, NamesTheOptionThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

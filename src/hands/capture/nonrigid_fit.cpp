@@ -16,7 +16,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/rotation.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -33,11 +33,11 @@ struct Pull {
 /// A surface that partners are looked for on.
 class Partners {
  public:
-  Partners(const TriangleMesh& mesh, const FitSurface& surface)
-      : mesh_(mesh), surface_(surface), normal_(vertex_normals(mesh)), query_(mesh) {}
+  Partners(const geometry::TriangleMesh& mesh, const FitSurface& surface)
+      : mesh_(mesh), surface_(surface), normal_(geometry::vertex_normals(mesh)), query_(mesh) {}
 
   struct Found {
-    ClosestPoint foot;
+    geometry::ClosestPoint foot;
     Vec3 normal;
   };
   std::optional<Found> of(const Vec3& point, const Vec3& normal, int part, double reach,
@@ -61,10 +61,10 @@ class Partners {
   const Vec3& normal(std::size_t vertex) const { return normal_[vertex]; }
 
  private:
-  const TriangleMesh& mesh_;
+  const geometry::TriangleMesh& mesh_;
   const FitSurface& surface_;
   std::vector<Vec3> normal_;
-  ClosestPointQuery query_;
+  geometry::ClosestPointQuery query_;
 };
 
 double weight_of(double distance, double scale) {
@@ -81,7 +81,7 @@ class Fitter {
         options_(options),
         start_(moving.mesh.vertices),
         mesh_(moving.mesh),
-        neighbours_(vertex_neighbours(build_topology(moving.mesh))),
+        neighbours_(geometry::vertex_neighbours(geometry::build_topology(moving.mesh))),
         on_fixed_(fixed.mesh, fixed) {
     for (const FitPin& pin : pins) {
       pins_.push_back({pin.vertex, pin.share, pin.place, options.pin_weight});
@@ -192,14 +192,14 @@ class Fitter {
     }
     if (!(before > 0.0)) return Eigen::RowVector3d::Zero();
     const double size = std::clamp(std::sqrt(after / before), 0.6, 1.6);
-    return (size * (fit_rotation(cross) * coordinate_[v])).transpose();
+    return (size * (geometry::fit_rotation(cross) * coordinate_[v])).transpose();
   }
 
   const FitSurface& moving_;
   const FitSurface& fixed_;
   NonrigidFitOptions options_;
   std::vector<Vec3> start_;
-  TriangleMesh mesh_;
+  geometry::TriangleMesh mesh_;
   std::vector<std::vector<int>> neighbours_;
   Partners on_fixed_;
   std::vector<Pull> pins_;
@@ -248,4 +248,4 @@ std::vector<Vec3> fit_nonrigidly(const FitSurface& moving, const FitSurface& fix
   return fitter.vertices();
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

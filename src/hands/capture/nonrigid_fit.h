@@ -8,12 +8,12 @@
 #include "palmar/core/progress.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// A surface that is bent onto another one, or that other one. Points of different parts are never
 /// partners, but part 0 goes with every part: fingers that touch aren't mixed.
 struct FitSurface {
-  TriangleMesh mesh;            ///< oriented outwards, mm
+  geometry::TriangleMesh mesh;  ///< oriented outwards, mm
   std::vector<int> part;        ///< per vertex
   std::vector<char> is_silent;  ///< per vertex: has no partner (a cap, a marker, a fixture)
 };
@@ -56,4 +56,4 @@ std::vector<Vec3> fit_nonrigidly(const FitSurface& moving, const FitSurface& fix
                                  const NonrigidFitOptions& options = {},
                                  const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -12,10 +12,10 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/repair/self_intersection.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-FitSurface surface(TriangleMesh mesh, int part = 0) {
+FitSurface surface(geometry::TriangleMesh mesh, int part = 0) {
   FitSurface result;
   result.part.assign(mesh.vertices.size(), part);
   result.is_silent.assign(mesh.vertices.size(), 0);
@@ -35,15 +35,15 @@ FitSurface joined(const FitSurface& a, const FitSurface& b) {
   return result;
 }
 
-TriangleMesh moved(TriangleMesh mesh, const Vec3& scale, const Vec3& by) {
+geometry::TriangleMesh moved(geometry::TriangleMesh mesh, const Vec3& scale, const Vec3& by) {
   for (Vec3& v : mesh.vertices) v = v.cwiseProduct(scale) + by;
   return mesh;
 }
 
 TEST(NonrigidFit, BendsABallOntoAnEllipsoid) {
   const Vec3 half_axes(17.0, 14.0, 22.0), middle(2.0, -1.5, 1.0);
-  const FitSurface moving = surface(make_icosphere(15.0, 3));
-  const FitSurface fixed = surface(moved(make_icosphere(1.0, 4), half_axes, middle));
+  const FitSurface moving = surface(geometry::make_icosphere(15.0, 3));
+  const FitSurface fixed = surface(moved(geometry::make_icosphere(1.0, 4), half_axes, middle));
   const std::vector<Vec3> bent = fit_nonrigidly(moving, fixed);
   double worst = 0.0;
   for (const Vec3& v : bent) {
@@ -54,16 +54,17 @@ TEST(NonrigidFit, BendsABallOntoAnEllipsoid) {
     worst = std::max(worst, std::abs(f) / slope.norm());
   }
   EXPECT_LT(worst, 0.2);  // the last stiffness draws in where the curvature is highest
-  const TriangleMesh result{bent, moving.mesh.triangles};
-  EXPECT_TRUE(find_self_crossings(result).empty());
-  const std::vector<double> angles = smallest_angles(result);
+  const geometry::TriangleMesh result{bent, moving.mesh.triangles};
+  EXPECT_TRUE(geometry::find_self_crossings(result).empty());
+  const std::vector<double> angles = geometry::smallest_angles(result);
   EXPECT_GT(*std::min_element(angles.begin(), angles.end()), 0.3);  // rad
 }
 
 TEST(NonrigidFit, WhatHasNoPartnerFollowsItsSurroundings) {
-  const FitSurface moving = surface(make_icosphere(15.0, 3));
-  FitSurface fixed = surface(moved(make_icosphere(15.0, 4), Vec3::Ones(), Vec3(3.0, 0.0, 0.0)));
-  const std::vector<Vec3> up = vertex_normals(fixed.mesh);
+  const FitSurface moving = surface(geometry::make_icosphere(15.0, 3));
+  FitSurface fixed =
+      surface(moved(geometry::make_icosphere(15.0, 4), Vec3::Ones(), Vec3(3.0, 0.0, 0.0)));
+  const std::vector<Vec3> up = geometry::vertex_normals(fixed.mesh);
   for (std::size_t v = 0; v < up.size(); ++v) {
     if (up[v].z() < 0.8) continue;
     fixed.mesh.vertices[v] += 4.0 * up[v];  // a bump that is no skin
@@ -78,8 +79,10 @@ TEST(NonrigidFit, WhatHasNoPartnerFollowsItsSurroundings) {
 TEST(NonrigidFit, PartsKeepToThemselves) {
   const auto pair = [](int subdivisions, double x) {
     return joined(
-        surface(moved(make_icosphere(8.0, subdivisions), Vec3::Ones(), Vec3(-x, 0, 0)), 1),
-        surface(moved(make_icosphere(8.0, subdivisions), Vec3::Ones(), Vec3(x, 0, 0)), 2));
+        surface(moved(geometry::make_icosphere(8.0, subdivisions), Vec3::Ones(), Vec3(-x, 0, 0)),
+                1),
+        surface(moved(geometry::make_icosphere(8.0, subdivisions), Vec3::Ones(), Vec3(x, 0, 0)),
+                2));
   };
   const FitSurface moving = pair(3, 9.0), fixed = pair(4, 8.1);
   const std::vector<Vec3> bent = fit_nonrigidly(moving, fixed);
@@ -90,8 +93,8 @@ TEST(NonrigidFit, PartsKeepToThemselves) {
 }
 
 TEST(NonrigidFit, PinsHoldWhereTheShapeDoesNot) {
-  const FitSurface moving = surface(make_icosphere(15.0, 3));
-  const FitSurface fixed = surface(make_icosphere(15.0, 4));
+  const FitSurface moving = surface(geometry::make_icosphere(15.0, 3));
+  const FitSurface fixed = surface(geometry::make_icosphere(15.0, 4));
   // A ball may be turned any way: four pins turn it by 0.2 rad about z.
   const Eigen::AngleAxisd turn(0.2, Vec3::UnitZ());
   std::vector<FitPin> pins;
@@ -122,4 +125,4 @@ TEST(NonrigidFit, NamesTheOptionThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace palmar {
+namespace palmar::capture {
 
 /// A place in a picture (pixels) or on a sheet (mm).
 using Vec2 = Eigen::Vector2d;
@@ -12,4 +12,4 @@ using Vec2 = Eigen::Vector2d;
 /// A colour, or a place that is projected for every pixel of a photograph: single precision does.
 using Vec3f = Eigen::Vector3f;
 
-}  // namespace palmar
+}  // namespace palmar::capture

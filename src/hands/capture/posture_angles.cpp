@@ -12,7 +12,7 @@
 #include "palmar/geometry/least_squares.h"
 #include "palmar/geometry/numeric_jacobian.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// One angle that is looked for.
@@ -20,7 +20,7 @@ struct Angle {
   double start = 0.0, lower = 0.0, upper = 0.0;  ///< rad
 };
 
-using Placed = std::map<std::string, Rigid3>;
+using Placed = std::map<std::string, geometry::Rigid3>;
 
 /// Angles at which `place` comes nearest to the bones' motions; those without room stay.
 std::vector<double> nearest_angles(const std::vector<Angle>& angles,
@@ -50,8 +50,8 @@ std::vector<double> nearest_angles(const std::vector<Angle>& angles,
     r.resize(m + n);
     Eigen::Index row = 0;
     for (const auto& [name, bone] : bones) {
-      const Rigid3& model = placed.at(name);
-      const Rigid3& seen = motions.bone.at(name);
+      const geometry::Rigid3& model = placed.at(name);
+      const geometry::Rigid3& seen = motions.bone.at(name);
       for (const Vec3& p : bone->points) {
         r.segment<3>(row) = model * p - seen * p;
         row += 3;
@@ -62,8 +62,8 @@ std::vector<double> nearest_angles(const std::vector<Angle>& angles,
       r[m + j] = 1e-3 * (x[j] - angles[free[j]].start);
     }
   };
-  LeastSquaresProblem problem;
-  problem.evaluate = with_numeric_jacobian(residual);
+  geometry::LeastSquaresProblem problem;
+  problem.evaluate = geometry::with_numeric_jacobian(residual);
   problem.lower.resize(n);
   problem.upper.resize(n);
   Eigen::VectorXd x(n);
@@ -73,28 +73,28 @@ std::vector<double> nearest_angles(const std::vector<Angle>& angles,
     problem.upper[j] = angle.upper;
     x[j] = std::clamp(angle.start, angle.lower, angle.upper);
   }
-  const LeastSquaresSolution found = solve_least_squares(
+  const geometry::LeastSquaresSolution found = geometry::solve_least_squares(
       problem, x, {.max_iterations = 100, .gradient_tolerance = 1e-8, .step_tolerance = 1e-9});
   for (Eigen::Index j = 0; j < n; ++j) all[free[j]] = found.x[j];
   return all;
 }
 
-std::vector<Dof> dofs_of(const Skeleton& skeleton, Finger finger) {
-  std::vector<Dof> dofs;
-  const auto add = [&](JointId id) {
-    for (const JointDof& dof : skeleton.joint(id).dofs) dofs.push_back(dof.dof);
+std::vector<hand::Dof> dofs_of(const hand::Skeleton& skeleton, hand::Finger finger) {
+  std::vector<hand::Dof> dofs;
+  const auto add = [&](hand::JointId id) {
+    for (const hand::JointDof& dof : skeleton.joint(id).dofs) dofs.push_back(dof.dof);
   };
-  if (finger == Finger::kThumb) add(JointId::kThumbCmc);
-  for (const auto& segment : segments_of(finger)) {
-    if (segment) add(joint_of(*segment));
+  if (finger == hand::Finger::kThumb) add(hand::JointId::kThumbCmc);
+  for (const auto& segment : hand::segments_of(finger)) {
+    if (segment) add(hand::joint_of(*segment));
   }
   return dofs;
 }
 
-std::vector<Angle> angles_of(const Skeleton& skeleton, const std::vector<Dof>& dofs) {
+std::vector<Angle> angles_of(const hand::Skeleton& skeleton, const std::vector<hand::Dof>& dofs) {
   std::vector<Angle> angles;
-  for (const Dof d : dofs) {
-    const JointDof& dof = skeleton.dof(d);
+  for (const hand::Dof d : dofs) {
+    const hand::JointDof& dof = skeleton.dof(d);
     angles.push_back({dof.reference, dof.lower, dof.upper});
   }
   return angles;
@@ -102,10 +102,10 @@ std::vector<Angle> angles_of(const Skeleton& skeleton, const std::vector<Dof>& d
 
 }  // namespace
 
-Placed bones_of_finger(const PosedSkeleton& posed, Finger finger) {
+Placed bones_of_finger(const hand::PosedSkeleton& posed, hand::Finger finger) {
   Placed placed;
-  if (finger == Finger::kThumb) placed["thumb_metacarpal"] = posed.thumb_metacarpal;
-  for (const auto& segment : segments_of(finger)) {
+  if (finger == hand::Finger::kThumb) placed["thumb_metacarpal"] = posed.thumb_metacarpal;
+  for (const auto& segment : hand::segments_of(finger)) {
     if (segment) {
       placed[phalanx_name(*segment)] = posed.segment[index_of(*segment)];
     }
@@ -113,16 +113,16 @@ Placed bones_of_finger(const PosedSkeleton& posed, Finger finger) {
   return placed;
 }
 
-Posture fit_angles(const Skeleton& skeleton, const ReferenceHand& hand,
-                   const PostureMotions& motions) {
-  Posture posture = reference_posture(skeleton);
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
-    const std::vector<Dof> dofs = dofs_of(skeleton, finger);
+hand::Posture fit_angles(const hand::Skeleton& skeleton, const ReferenceHand& hand,
+                         const PostureMotions& motions) {
+  hand::Posture posture = hand::reference_posture(skeleton);
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
+    const std::vector<hand::Dof> dofs = dofs_of(skeleton, finger);
     const auto place = [&](const std::vector<double>& angle) {
-      Posture p = reference_posture(skeleton);
+      hand::Posture p = hand::reference_posture(skeleton);
       for (std::size_t k = 0; k < dofs.size(); ++k) p[dofs[k]] = angle[k];
-      return bones_of_finger(pose_skeleton(skeleton, p), finger);
+      return bones_of_finger(hand::pose_skeleton(skeleton, p), finger);
     };
     const std::vector<double> angle =
         nearest_angles(angles_of(skeleton, dofs), place, hand, motions);
@@ -138,12 +138,13 @@ Posture fit_angles(const Skeleton& skeleton, const ReferenceHand& hand,
     if (fit_axis(found->second, Vec3::Zero()).angle >= kLeastWristTurn) forearm.bone.insert(*found);
   }
   if (forearm.bone.empty()) return posture;
-  const std::vector<Dof> wrist = {Dof::kWristFlexion, Dof::kWristDeviation, Dof::kWristPronation};
+  const std::vector<hand::Dof> wrist = {hand::Dof::kWristFlexion, hand::Dof::kWristDeviation,
+                                        hand::Dof::kWristPronation};
   const auto place = [&](const std::vector<double>& angle) {
-    Posture p = reference_posture(skeleton);
+    hand::Posture p = hand::reference_posture(skeleton);
     for (std::size_t k = 0; k < wrist.size(); ++k) p[wrist[k]] = angle[k];
     Placed placed;
-    const Rigid3 moved = pose_skeleton(skeleton, p).forearm;
+    const geometry::Rigid3 moved = hand::pose_skeleton(skeleton, p).forearm;
     for (const auto& [name, motion] : forearm.bone) placed[name] = moved;
     return placed;
   };
@@ -153,27 +154,29 @@ Posture fit_angles(const Skeleton& skeleton, const ReferenceHand& hand,
   return posture;
 }
 
-Placed fit_fixed_axis_thumb(const Skeleton& skeleton, const FixedAxisCmc& cmc,
+Placed fit_fixed_axis_thumb(const hand::Skeleton& skeleton, const FixedAxisCmc& cmc,
                             const ReferenceHand& hand, const PostureMotions& motions,
-                            ScanPosture posture) {
+                            hand::ScanPosture posture) {
   const bool is_flexion =
-      posture == ScanPosture::kThumbFlexion || posture == ScanPosture::kThumbExtension;
-  const bool is_abduction =
-      posture == ScanPosture::kThumbAbduction || posture == ScanPosture::kThumbAdduction;
+      posture == hand::ScanPosture::kThumbFlexion || posture == hand::ScanPosture::kThumbExtension;
+  const bool is_abduction = posture == hand::ScanPosture::kThumbAbduction ||
+                            posture == hand::ScanPosture::kThumbAdduction;
   const double reach = 0.75 * std::numbers::pi;
   // The CMC joint's angles count from the reference posture here; its range isn't its business.
   std::vector<Angle> angles = {{0.0, is_abduction ? 0.0 : -reach, is_abduction ? 0.0 : reach},
                                {0.0, is_flexion ? 0.0 : -reach, is_flexion ? 0.0 : reach}};
-  const std::vector<Dof> hinges = {Dof::kThumbMpFlexion, Dof::kThumbIpFlexion};
+  const std::vector<hand::Dof> hinges = {hand::Dof::kThumbMpFlexion, hand::Dof::kThumbIpFlexion};
   for (const Angle& angle : angles_of(skeleton, hinges)) angles.push_back(angle);
   const auto place = [&](const std::vector<double>& angle) {
     Placed placed;
-    Rigid3 motion = cmc.displacement(angle[0], angle[1]);
+    geometry::Rigid3 motion = cmc.displacement(angle[0], angle[1]);
     placed["thumb_metacarpal"] = motion;
-    const std::array<Segment, 2> phalanges = {Segment::kThumbProximal, Segment::kThumbDistal};
+    const std::array<hand::Segment, 2> phalanges = {hand::Segment::kThumbProximal,
+                                                    hand::Segment::kThumbDistal};
     for (std::size_t k = 0; k < 2; ++k) {
-      const JointDof& dof = skeleton.dof(hinges[k]);
-      motion = motion * Rigid3::about_axis(dof.axis, dof.centre, angle[k + 2] - dof.reference);
+      const hand::JointDof& dof = skeleton.dof(hinges[k]);
+      motion =
+          motion * geometry::Rigid3::about_axis(dof.axis, dof.centre, angle[k + 2] - dof.reference);
       placed[phalanx_name(phalanges[k])] = motion;
     }
     return placed;
@@ -181,4 +184,4 @@ Placed fit_fixed_axis_thumb(const Skeleton& skeleton, const FixedAxisCmc& cmc,
   return place(nearest_angles(angles, place, hand, motions));
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -10,22 +10,23 @@
 #include "palmar/geometry/remesh/split_edges.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// Per point: nearer to the solid than `range`, or inside.
-std::vector<char> is_touched(const std::vector<Vec3>& points, const MeshDistance& by,
+std::vector<char> is_touched(const std::vector<Vec3>& points, const geometry::MeshDistance& by,
                              double range) {
-  std::vector<DistanceSample> samples(points.size());
+  std::vector<geometry::DistanceSample> samples(points.size());
   by.sample(points, range, samples);
   std::vector<char> result;
   result.reserve(points.size());
-  for (const DistanceSample& s : samples) result.push_back(s.distance < range);
+  for (const geometry::DistanceSample& s : samples) result.push_back(s.distance < range);
   return result;
 }
 
-double area_touched(const TriangleMesh& skin, const MeshDistance& product, double range) {
-  const std::vector<double> area = vertex_areas(skin);
+double area_touched(const geometry::TriangleMesh& skin, const geometry::MeshDistance& product,
+                    double range) {
+  const std::vector<double> area = geometry::vertex_areas(skin);
   const std::vector<char> touched = is_touched(skin.vertices, product, range);
   double sum = 0.0;
   for (std::size_t v = 0; v < area.size(); ++v) sum += touched[v] ? area[v] : 0.0;
@@ -34,11 +35,11 @@ double area_touched(const TriangleMesh& skin, const MeshDistance& product, doubl
 
 }  // namespace
 
-std::optional<double> mean_skin_error(const Hand& hand, const Posture& posture,
+std::optional<double> mean_skin_error(const hand::Hand& hand, const hand::Posture& posture,
                                       const std::vector<int>& vertices, const SkinScan& scan) {
   constexpr double kReach = 15.0;  // mm
-  const std::vector<Vec3> skin = pose_skin(hand, posture);
-  const std::vector<Vec3> all_normals = vertex_normals(skin, hand.skin.triangles);
+  const std::vector<Vec3> skin = hand::pose_skin(hand, posture);
+  const std::vector<Vec3> all_normals = geometry::vertex_normals(skin, hand.skin.triangles);
   std::vector<Vec3> point, normal;
   for (const int v : vertices) {
     point.push_back(skin[v]);
@@ -55,30 +56,31 @@ std::optional<double> mean_skin_error(const Hand& hand, const Posture& posture,
   return sum / count;
 }
 
-ContactOverlap contact_overlap(const TriangleMesh& posed_skin, const TriangleMesh& scanned_skin,
-                               const TriangleMesh& product, double range) {
+ContactOverlap contact_overlap(const geometry::TriangleMesh& posed_skin,
+                               const geometry::TriangleMesh& scanned_skin,
+                               const geometry::TriangleMesh& product, double range) {
   if (!(range > 0.0 && range <= 50.0)) {
     throw UsageError("contact overlap: the range is " + std::to_string(range) +
                      " mm; above 0 to 50 mm is allowed");
   }
-  const MeshDistance to_product(product), to_hand(posed_skin), to_scan(scanned_skin);
+  const geometry::MeshDistance to_product(product), to_hand(posed_skin), to_scan(scanned_skin);
   ContactOverlap overlap;
   overlap.hand_area = area_touched(posed_skin, to_product, range);
   overlap.scanned_area = area_touched(scanned_skin, to_product, range);
   // The product in pieces of about a millimetre: its triangles may be as large as it is.
   constexpr double kPiece = 1.0;  // mm
   Box3 skins;
-  for (const TriangleMesh* skin : {&posed_skin, &scanned_skin}) {
+  for (const geometry::TriangleMesh* skin : {&posed_skin, &scanned_skin}) {
     for (const Vec3& v : skin->vertices) skins.extend(v);
   }
-  const TriangleMesh fine =
-      split_long_edges(product, kPiece, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+  const geometry::TriangleMesh fine =
+      geometry::split_long_edges(product, kPiece, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
         Box3 box(a);
         box.extend(b);
         box.extend(c);
         return box.exteriorDistance(skins) <= range;
       });
-  const std::vector<double> area = vertex_areas(fine);
+  const std::vector<double> area = geometry::vertex_areas(fine);
   const std::vector<char> by_hand = is_touched(fine.vertices, to_hand, range);
   const std::vector<char> by_scan = is_touched(fine.vertices, to_scan, range);
   double hand = 0.0, scan = 0.0;
@@ -94,4 +96,4 @@ ContactOverlap contact_overlap(const TriangleMesh& posed_skin, const TriangleMes
   return overlap;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

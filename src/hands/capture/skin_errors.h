@@ -8,12 +8,12 @@
 #include "hands/capture/skin_registration.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Mean distance from some vertices of a hand's posed skin to the skin scanned in that posture
 /// (hand frame), mm; spots, caps and places without skin within 15 mm left out. Nothing if none is
 /// left.
-std::optional<double> mean_skin_error(const Hand& hand, const Posture& posture,
+std::optional<double> mean_skin_error(const hand::Hand& hand, const hand::Posture& posture,
                                       const std::vector<int>& vertices, const SkinScan& scan);
 
 /// How well the contact areas of two skins on one product agree (Xie 2014, 2.4).
@@ -29,7 +29,8 @@ struct ContactOverlap {
 /// Contact is where skin comes within `range` [mm] of the product or into it. Areas of contact are
 /// compared on the product: a point of its surface is touched by a skin that lies nearer than
 /// `range`, or beyond it. All in one frame.
-ContactOverlap contact_overlap(const TriangleMesh& posed_skin, const TriangleMesh& scanned_skin,
-                               const TriangleMesh& product, double range = 2.0);
+ContactOverlap contact_overlap(const geometry::TriangleMesh& posed_skin,
+                               const geometry::TriangleMesh& scanned_skin,
+                               const geometry::TriangleMesh& product, double range = 2.0);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,18 +7,18 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 // A slab of skin of 40 x 40 mm whose face stands `gap` over the product's top, moved along x.
-TriangleMesh slab(double gap, double x) {
-  TriangleMesh mesh = make_box({40.0, 40.0, 10.0}, 40);
+geometry::TriangleMesh slab(double gap, double x) {
+  geometry::TriangleMesh mesh = geometry::make_box({40.0, 40.0, 10.0}, 40);
   for (Vec3& v : mesh.vertices) v += Vec3(x, 0.0, gap + 5.0);
   return mesh;
 }
 
-TriangleMesh table() {
-  TriangleMesh mesh = make_box({200.0, 200.0, 20.0});
+geometry::TriangleMesh table() {
+  geometry::TriangleMesh mesh = geometry::make_box({200.0, 200.0, 20.0});
   for (Vec3& v : mesh.vertices) v.z() -= 10.0;
   return mesh;
 }
@@ -52,4 +52,4 @@ TEST(ContactOverlap, IsNoneBeyondTheRange) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

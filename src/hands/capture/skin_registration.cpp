@@ -17,21 +17,22 @@
 #include "palmar/geometry/repair/self_intersection.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// Which finger a point in space belongs to (1 thumb ... 5 little), 0 for palm and webs.
 class Fingers {
  public:
-  explicit Fingers(const Skeleton& skeleton) {
-    for (int f = 0; f < kFingerCount; ++f) {
-      const auto finger = static_cast<Finger>(f);
+  explicit Fingers(const hand::Skeleton& skeleton) {
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      const auto finger = static_cast<hand::Finger>(f);
       Ray& ray = ray_[f];
-      const auto chain = segments_of(finger);
-      ray.node.push_back(finger == Finger::kThumb ? skeleton.joint(JointId::kThumbCmc).centre
-                                                  : skeleton.joint(JointId::kWrist).centre);
+      const auto chain = hand::segments_of(finger);
+      ray.node.push_back(finger == hand::Finger::kThumb
+                             ? skeleton.joint(hand::JointId::kThumbCmc).centre
+                             : skeleton.joint(hand::JointId::kWrist).centre);
       for (const auto& s : chain) {
-        if (s) ray.node.push_back(skeleton.joint(joint_of(*s)).centre);
+        if (s) ray.node.push_back(skeleton.joint(hand::joint_of(*s)).centre);
       }
       ray.node.push_back(skeleton.fingertips[f]);
     }
@@ -41,7 +42,7 @@ class Fingers {
     constexpr double kFree = 0.4;  // of the first phalanx; nearer the joint lies the web
     double best = std::numeric_limits<double>::max();
     int part = 0;
-    for (int f = 0; f < kFingerCount; ++f) {
+    for (int f = 0; f < hand::kFingerCount; ++f) {
       const Ray& ray = ray_[f];
       for (std::size_t k = 0; k + 1 < ray.node.size(); ++k) {
         const Vec3 along = ray.node[k + 1] - ray.node[k];
@@ -60,13 +61,13 @@ class Fingers {
   struct Ray {
     std::vector<Vec3> node;
   };
-  std::array<Ray, kFingerCount> ray_;
+  std::array<Ray, hand::kFingerCount> ray_;
 };
 
 /// The model's cut through the forearm: faces proximally, beyond the wrist.
-std::vector<char> cut_of(const Hand& hand) {
-  const std::vector<Vec3> normal = triangle_normals(hand.skin);
-  const double wrist = hand.skeleton.joint(JointId::kWrist).centre.y();
+std::vector<char> cut_of(const hand::Hand& hand) {
+  const std::vector<Vec3> normal = geometry::triangle_normals(hand.skin);
+  const double wrist = hand.skeleton.joint(hand::JointId::kWrist).centre.y();
   std::vector<char> is_cut(hand.skin.vertices.size(), 0);
   for (std::size_t t = 0; t < normal.size(); ++t) {
     if (normal[t].y() > -0.8) continue;
@@ -77,12 +78,12 @@ std::vector<char> cut_of(const Hand& hand) {
   return is_cut;
 }
 
-FitSurface scanned_surface(const SkinScan& scan, const Skeleton& skeleton) {
+FitSurface scanned_surface(const SkinScan& scan, const hand::Skeleton& skeleton) {
   FitSurface surface;
   surface.mesh = scan.skin;
   const Fingers fingers(skeleton);
-  const std::vector<Vec3> normal = vertex_normals(scan.skin);
-  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
+  const std::vector<Vec3> normal = geometry::vertex_normals(scan.skin);
+  const double wrist = skeleton.joint(hand::JointId::kWrist).centre.y();
   surface.is_silent.assign(scan.skin.vertices.size(), 0);
   surface.part.resize(scan.skin.vertices.size());
   // A spot of radius r stands on the skin; its rim is rounded off over about as much again.
@@ -95,21 +96,22 @@ FitSurface scanned_surface(const SkinScan& scan, const Skeleton& skeleton) {
       if ((p - marker).squaredNorm() < bump * bump) surface.is_silent[v] = 1;
     }
   });
-  for (const auto& edge : boundary_edges(build_topology(scan.skin))) {
+  for (const auto& edge : geometry::boundary_edges(geometry::build_topology(scan.skin))) {
     for (const int v : edge) surface.is_silent[v] = 1;
   }
   return surface;
 }
 
 /// Parts surfaces that went through each other, a little at a time.
-void part_crossings(TriangleMesh& skin) {
+void part_crossings(geometry::TriangleMesh& skin) {
   constexpr int kRounds = 30;
   constexpr double kGap = 0.05;  // mm
-  const std::vector<std::vector<int>> neighbours = vertex_neighbours(build_topology(skin));
+  const std::vector<std::vector<int>> neighbours =
+      geometry::vertex_neighbours(geometry::build_topology(skin));
   for (int round = 0; round < kRounds; ++round) {
-    const CrossingDepth crossing = crossing_depth(skin);
+    const geometry::CrossingDepth crossing = geometry::crossing_depth(skin);
     if (crossing.pairs.empty()) return;
-    const std::vector<Vec3> normal = vertex_normals(skin);
+    const std::vector<Vec3> normal = geometry::vertex_normals(skin);
     std::vector<Vec3> move(skin.vertices.size(), Vec3::Zero());
     for (std::size_t k = 0; k < crossing.vertex.size(); ++k) {
       const int v = crossing.vertex[k];
@@ -143,13 +145,13 @@ void part_crossings(TriangleMesh& skin) {
 }
 
 /// Distances at the end: of skin distal of the wrist that lies over scanned skin.
-void measure(const FitSurface& moving, const SkinScan& scan, const Skeleton& skeleton,
+void measure(const FitSurface& moving, const SkinScan& scan, const hand::Skeleton& skeleton,
              RegisteredSkin& result) {
   constexpr double kReach = 5.0;  // mm
-  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
-  const std::vector<double> area = vertex_areas(moving.mesh);
-  const std::vector<double> distance =
-      distances_to_scan(moving.mesh.vertices, vertex_normals(moving.mesh), scan, skeleton, kReach);
+  const double wrist = skeleton.joint(hand::JointId::kWrist).centre.y();
+  const std::vector<double> area = geometry::vertex_areas(moving.mesh);
+  const std::vector<double> distance = distances_to_scan(
+      moving.mesh.vertices, geometry::vertex_normals(moving.mesh), scan, skeleton, kReach);
   result.has_partner.assign(distance.size(), 0);
   std::vector<double> partnered;
   double all = 0.0, with = 0.0;
@@ -172,10 +174,11 @@ void measure(const FitSurface& moving, const SkinScan& scan, const Skeleton& ske
 }
 
 /// Throws InputError unless half of the skin has scanned skin near.
-void require_near(const TriangleMesh& skin, const SkinScan& scan, const Skeleton& skeleton) {
+void require_near(const geometry::TriangleMesh& skin, const SkinScan& scan,
+                  const hand::Skeleton& skeleton) {
   constexpr double kNear = 12.0;  // mm
   const std::vector<double> distance =
-      distances_to_scan(skin.vertices, vertex_normals(skin), scan, skeleton, kNear);
+      distances_to_scan(skin.vertices, geometry::vertex_normals(skin), scan, skeleton, kNear);
   const auto near =
       std::count_if(distance.begin(), distance.end(), [](double d) { return d >= 0; });
   if (2 * near >= static_cast<std::ptrdiff_t>(distance.size())) return;
@@ -186,12 +189,12 @@ void require_near(const TriangleMesh& skin, const SkinScan& scan, const Skeleton
 }
 
 /// Share of the scanned skin distal of the wrist that the registered one doesn't cover.
-double left_over_share(const TriangleMesh& skin, const FitSurface& fixed,
-                       const Skeleton& skeleton) {
+double left_over_share(const geometry::TriangleMesh& skin, const FitSurface& fixed,
+                       const hand::Skeleton& skeleton) {
   constexpr double kFar = 2.0;  // mm
-  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
-  const ClosestPointQuery query(skin);
-  const std::vector<double> area = vertex_areas(fixed.mesh);
+  const double wrist = skeleton.joint(hand::JointId::kWrist).centre.y();
+  const geometry::ClosestPointQuery query(skin);
+  const std::vector<double> area = geometry::vertex_areas(fixed.mesh);
   double all = 0.0, over = 0.0;
   for (std::size_t v = 0; v < area.size(); ++v) {
     const Vec3& p = fixed.mesh.vertices[v];
@@ -203,24 +206,24 @@ double left_over_share(const TriangleMesh& skin, const FitSurface& fixed,
 }
 
 /// Fingers of the segments: 1 thumb ... 5 little, 0 palm.
-std::vector<int> parts_of(const std::vector<Segment>& segments) {
+std::vector<int> parts_of(const std::vector<hand::Segment>& segments) {
   std::vector<int> part;
-  for (const Segment s : segments) {
-    const auto finger = finger_of(s);
+  for (const hand::Segment s : segments) {
+    const auto finger = hand::finger_of(s);
     part.push_back(finger ? static_cast<int>(*finger) + 1 : 0);
   }
   return part;
 }
 
 /// Where joints and fingertips are in a posture; axes stay as they are.
-Skeleton posed_centres(const Skeleton& skeleton, const Posture& posture) {
-  const PosedSkeleton posed = pose_skeleton(skeleton, posture);
-  Skeleton result = skeleton;
-  for (int f = 0; f < kFingerCount; ++f) {
-    Rigid3 carrier = f == 0 ? posed.thumb_metacarpal : Rigid3{};
-    for (const auto& segment : segments_of(static_cast<Finger>(f))) {
+hand::Skeleton posed_centres(const hand::Skeleton& skeleton, const hand::Posture& posture) {
+  const hand::PosedSkeleton posed = hand::pose_skeleton(skeleton, posture);
+  hand::Skeleton result = skeleton;
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    geometry::Rigid3 carrier = f == 0 ? posed.thumb_metacarpal : geometry::Rigid3{};
+    for (const auto& segment : hand::segments_of(static_cast<hand::Finger>(f))) {
       if (!segment) continue;
-      Vec3& centre = result.joints[index_of(joint_of(*segment))].centre;
+      Vec3& centre = result.joints[index_of(hand::joint_of(*segment))].centre;
       centre = carrier * centre;
       carrier = posed.segment[index_of(*segment)];
     }
@@ -233,10 +236,10 @@ Skeleton posed_centres(const Skeleton& skeleton, const Posture& posture) {
 
 std::vector<double> distances_to_scan(const std::vector<Vec3>& point,
                                       const std::vector<Vec3>& normal, const SkinScan& scan,
-                                      const Skeleton& skeleton, double reach) {
+                                      const hand::Skeleton& skeleton, double reach) {
   const FitSurface fixed = scanned_surface(scan, skeleton);
-  const ClosestPointQuery query(fixed.mesh);
-  const std::vector<Vec3> fixed_normal = vertex_normals(fixed.mesh);
+  const geometry::ClosestPointQuery query(fixed.mesh);
+  const std::vector<Vec3> fixed_normal = geometry::vertex_normals(fixed.mesh);
   std::vector<double> distance(point.size(), -1.0);
   parallel_for(static_cast<int>(point.size()), [&](int i) {
     const auto foot = query.closest(point[i], reach);
@@ -252,10 +255,11 @@ std::vector<double> distances_to_scan(const std::vector<Vec3>& point,
   return distance;
 }
 
-std::vector<Vec3> bend_posed_skin(const Hand& hand, const Posture& posture, const SkinScan& scan,
-                                  const std::vector<FitPin>& pins, const Progress& progress) {
+std::vector<Vec3> bend_posed_skin(const hand::Hand& hand, const hand::Posture& posture,
+                                  const SkinScan& scan, const std::vector<FitPin>& pins,
+                                  const Progress& progress) {
   const FitSurface moving{
-      {pose_skin(hand, posture), hand.skin.triangles}, parts_of(hand.segment), cut_of(hand)};
+      {hand::pose_skin(hand, posture), hand.skin.triangles}, parts_of(hand.segment), cut_of(hand)};
   // The posed skin is near already; the scan shows how far muscle and folds differ.
   const NonrigidFitOptions options{
       .stiffness = 20.0, .last_stiffness = 1.0, .levels = 4, .rounds = 3};
@@ -263,11 +267,11 @@ std::vector<Vec3> bend_posed_skin(const Hand& hand, const Posture& posture, cons
                         options, progress);
 }
 
-Vec3 fingertip_of(const std::vector<Vec3>& skin, const std::vector<Segment>& segment,
-                  const Skeleton& skeleton, Finger finger) {
-  const auto chain = segments_of(finger);
-  const Segment last = chain[2] ? *chain[2] : *chain[1];
-  const Vec3& joint = skeleton.joint(joint_of(last)).centre;
+Vec3 fingertip_of(const std::vector<Vec3>& skin, const std::vector<hand::Segment>& segment,
+                  const hand::Skeleton& skeleton, hand::Finger finger) {
+  const auto chain = hand::segments_of(finger);
+  const hand::Segment last = chain[2] ? *chain[2] : *chain[1];
+  const Vec3& joint = skeleton.joint(hand::joint_of(last)).centre;
   double farthest = 0.0;
   for (std::size_t v = 0; v < skin.size(); ++v) {
     if (segment[v] == last) farthest = std::max(farthest, (skin[v] - joint).norm());
@@ -283,8 +287,8 @@ Vec3 fingertip_of(const std::vector<Vec3>& skin, const std::vector<Segment>& seg
   return joint + farthest * sum.normalized();
 }
 
-RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skeleton& skeleton,
-                             const Progress& progress) {
+RegisteredSkin register_skin(const hand::Hand& model, const SkinScan& scan,
+                             const hand::Skeleton& skeleton, const Progress& progress) {
   progress.update(0.0, "posing the model by the joints");
   RegisteredSkin result;
   result.start = posed_model(model, skeleton);
@@ -302,4 +306,4 @@ RegisteredSkin register_skin(const Hand& model, const SkinScan& scan, const Skel
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -13,7 +13,7 @@
 #include "palmar/geometry/least_squares.h"
 #include "palmar/geometry/numeric_jacobian.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// One axis near its prior: x tilts it by two angles and shifts it across by two lengths.
@@ -29,7 +29,7 @@ struct AxisFrame {
 };
 
 /// Angles about two axes whose sum comes nearest to the rotation vector of a motion.
-Eigen::Vector2d angles_near(const Rigid3& motion, const Vec3& first, const Vec3& second) {
+Eigen::Vector2d angles_near(const geometry::Rigid3& motion, const Vec3& first, const Vec3& second) {
   const AxisFit turn = fit_axis(motion, Vec3::Zero());
   Eigen::Matrix<double, 3, 2> axes;
   axes << first, second;
@@ -39,7 +39,7 @@ Eigen::Vector2d angles_near(const Rigid3& motion, const Vec3& first, const Vec3&
 
 }  // namespace
 
-TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxis> main,
+TwoAxisFit fit_two_axes(std::span<const geometry::Rigid3> motions, std::span<const MainAxis> main,
                         std::span<const Vec3> points, const TwoAxisPrior& prior) {
   if (motions.empty() || points.empty() || main.size() != motions.size()) {
     throw UsageError(
@@ -51,7 +51,7 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
   const Eigen::Index n = slides + 2 * count;  // the axes; angles of each motion; its slides
   const auto per_motion = static_cast<Eigen::Index>(points.size()) * 3;
   const auto screw = [](const Vec3& axis, const Vec3& point, double angle, double slide) {
-    Rigid3 motion = Rigid3::about_axis(axis, point, angle);
+    geometry::Rigid3 motion = geometry::Rigid3::about_axis(axis, point, angle);
     motion.translation += slide * axis;
     return motion;
   };
@@ -59,10 +59,10 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
     r.resize(per_motion * count + 9 + 4 * count);
     const Eigen::Vector4d a = x.head<4>(), b = x.segment<4>(4);
     for (Eigen::Index k = 0; k < count; ++k) {
-      const Rigid3 turn =
+      const geometry::Rigid3 turn =
           screw(first.axis_at(a), first.point_at(a), x[8 + 2 * k], x[slides + 2 * k]) *
           screw(second.axis_at(b), second.point_at(b), x[9 + 2 * k], x[slides + 1 + 2 * k]);
-      const Rigid3& motion = motions[k];
+      const geometry::Rigid3& motion = motions[k];
       for (std::size_t i = 0; i < points.size(); ++i) {
         r.segment<3>(per_motion * k + 3 * static_cast<Eigen::Index>(i)) =
             (turn * points[i] - motion * points[i]) / prior.point_sd;
@@ -83,8 +83,8 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
       r[p + 10 + 2 * k] = x[9 + 2 * k] / (m == MainAxis::kFirst ? prior.by_first_sd : kFree);
     }
   };
-  LeastSquaresProblem problem;
-  problem.evaluate = with_numeric_jacobian(residual);
+  geometry::LeastSquaresProblem problem;
+  problem.evaluate = geometry::with_numeric_jacobian(residual);
   problem.lower = Eigen::VectorXd::Constant(n, -std::numbers::pi);
   problem.upper = -problem.lower;
   for (const Eigen::Index j : {2, 6}) {
@@ -97,8 +97,8 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
   for (Eigen::Index k = 0; k < count; ++k) {
     x.segment<2>(8 + 2 * k) = angles_near(motions[k], first.axis, second.axis);
   }
-  const LeastSquaresSolution solution =
-      solve_least_squares(problem, x, {.gradient_tolerance = 1e-8, .step_tolerance = 1e-10});
+  const geometry::LeastSquaresSolution solution = geometry::solve_least_squares(
+      problem, x, {.gradient_tolerance = 1e-8, .step_tolerance = 1e-10});
   x = solution.x;
 
   TwoAxisFit fit;
@@ -125,4 +125,4 @@ TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxi
   return fit;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

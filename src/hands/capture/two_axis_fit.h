@@ -9,7 +9,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Two axes of a joint: the bone turns about `second` (fixed to it), then about `first` (fixed to
 /// the proximal bone); they may be skew. What slides along either is found and dropped, as in
@@ -44,7 +44,7 @@ struct TwoAxisPrior {
 enum class MainAxis { kFirst, kSecond, kEither };
 
 /// Least squares over all motions, axes and angles; the prior decides what the motions don't show.
-TwoAxisFit fit_two_axes(std::span<const Rigid3> motions, std::span<const MainAxis> main,
+TwoAxisFit fit_two_axes(std::span<const geometry::Rigid3> motions, std::span<const MainAxis> main,
                         std::span<const Vec3> points, const TwoAxisPrior& prior);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "palmar/core/progress.h"
 #include "hands/imaging/volume.h"
+#include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::images {
 
 /// One series of DICOM files.
 struct DicomSeries {
@@ -40,7 +40,7 @@ struct SeriesChoice {
 
 /// An image read from files.
 struct ImageFile {
-  Volume image;
+  imaging::Volume image;
   std::string description;  ///< series' description, or the file's name
   std::string laterality;
   std::vector<std::string> notes;  ///< duplicates left out, small irregularities: sentences
@@ -72,9 +72,10 @@ struct DicomHeader {
 /// Writes one MR series, a file per slice, 16 bits, with the tags of an MR image: position,
 /// orientation, spacing, frame of reference. UIDs are made from the content: same input, same
 /// bytes. `folder` is created; throws OutputError.
-void write_dicom_series(const std::string& folder, const Volume& image, const DicomHeader& header);
+void write_dicom_series(const std::string& folder, const imaging::Volume& image,
+                        const DicomHeader& header);
 
 /// Writes NIfTI, gzipped if `path` says so.
-void write_image(const std::string& path, const Volume& image);
+void write_image(const std::string& path, const imaging::Volume& image);
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -14,7 +14,7 @@
 #include "palmar/formats/process/program_missing.h"
 #include "palmar/formats/process/worker.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -43,8 +43,8 @@ struct Fragments {
     const std::size_t first = at;
     std::size_t behind_table = first;
     while (at <= file.size() && file.size() - at >= 8) {
-      if (read_value<std::uint32_t>(file, at) != 0xE000FFFE) return;  // the delimiter
-      const auto length = read_value<std::uint32_t>(file, at + 4);
+      if (formats::read_value<std::uint32_t>(file, at) != 0xE000FFFE) return;  // the delimiter
+      const auto length = formats::read_value<std::uint32_t>(file, at + 4);
       if (length > file.size() - at - 8) break;
       if (at == first) {
         table = file.substr(at + 8, length);
@@ -71,7 +71,7 @@ std::string packed_frame(const DicomSlice& slice, const Fragments& fragments) {
     to = frame + 1;
   } else if (frames > 1 && fragments.table.size() == 4 * frames) {
     const auto piece_at = [&](std::size_t f) {
-      const auto offset = read_value<std::uint32_t>(fragments.table, 4 * f);
+      const auto offset = formats::read_value<std::uint32_t>(fragments.table, 4 * f);
       const auto found =
           std::lower_bound(fragments.start.begin(), fragments.start.end(), std::uint64_t{offset});
       if (found == fragments.start.end() || *found != offset) {
@@ -208,14 +208,14 @@ std::string unpacked_rle(const DicomSlice& slice, std::string_view packed) {
   const std::size_t count =
       static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
   const auto depth = static_cast<std::size_t>(slice.bits_allocated / 8);
-  if (packed.size() < 64 || read_value<std::uint32_t>(packed, 0) != depth) {
+  if (packed.size() < 64 || formats::read_value<std::uint32_t>(packed, 0) != depth) {
     fail(slice.name(), "its run lengths don't fit the pixels' size");
   }
   if (packed.size() * 64 < count * depth) fail(slice.name(), "its run lengths end too early");
   std::string bytes(count * depth, '\0');
   for (std::size_t s = 0; s < depth; ++s) {
-    const auto start = read_value<std::uint32_t>(packed, 4 + 4 * s);
-    const auto end = s + 1 < depth ? read_value<std::uint32_t>(packed, 8 + 4 * s)
+    const auto start = formats::read_value<std::uint32_t>(packed, 4 + 4 * s);
+    const auto end = s + 1 < depth ? formats::read_value<std::uint32_t>(packed, 8 + 4 * s)
                                    : static_cast<std::uint32_t>(packed.size());
     if (start < 64 || end < start || end > packed.size()) {
       fail(slice.name(), "its run lengths are damaged");
@@ -233,7 +233,7 @@ class PackedFrames {
   std::string of(const DicomSlice& slice) {
     if (slice.path != path_) {
       path_ = slice.path;
-      file_ = read_file(path_, kMaxImageBytes);
+      file_ = formats::read_file(path_, kMaxImageBytes);
       fragments_ = Fragments(slice, file_);
     }
     return packed_frame(slice, fragments_);
@@ -257,14 +257,14 @@ std::string object_of(const std::vector<DicomSlice>& slices) {
 /// Runs the child on slices of one transfer syntax.
 void unpack(const std::vector<DicomSlice>& slices, const Progress& progress,
             std::map<std::string, std::string>& result) {
-  static const Worker kDicom = {.program = "palmar-dicom",
-                                .variable = "PALMAR_DICOM",
-                                .name = "the DICOM program",
-                                .crashed = "the decoder crashed",
-                                .reason = "its compressed pixels are damaged"};
-  if (!std::filesystem::exists(program_of(kDicom))) {
-    throw ProgramMissing(program_of(kDicom).string() +
-                         " isn't there, which compressed DICOM files are unpacked with");
+  static const formats::Worker kDicom = {.program = "palmar-dicom",
+                                         .variable = "PALMAR_DICOM",
+                                         .name = "the DICOM program",
+                                         .crashed = "the decoder crashed",
+                                         .reason = "its compressed pixels are damaged"};
+  if (!std::filesystem::exists(formats::program_of(kDicom))) {
+    throw formats::ProgramMissing(formats::program_of(kDicom).string() +
+                                  " isn't there, which compressed DICOM files are unpacked with");
   }
   Json frames = Json::array();
   std::string packed;
@@ -296,17 +296,17 @@ void unpack(const std::vector<DicomSlice>& slices, const Progress& progress,
                     "for a byte are read",
                     object, 1e-6 * pixels, packed.size(), kMostPixelsPerByte));
   }
-  const WorkerFolder folder;
-  write_file(folder.path() / "packed.bin", packed);
-  const WorkerLimits limits = {
+  const formats::WorkerFolder folder;
+  formats::write_file(folder.path() / "packed.bin", packed);
+  const formats::WorkerLimits limits = {
       .seconds = 30.0 + 1e-5 * pixels,
       .memory_mb = 1024.0 + 16e-6 * pixels + 2e-6 * static_cast<double>(packed.size()),
       .is_fixed = true};
-  run_worker(
+  formats::run_worker(
       kDicom, "unpack",
       Json{{"transfer_syntax", slices[0].transfer_syntax}, {"frames", std::move(frames)}}.dump(),
       folder, object, limits, progress);
-  const std::string unpacked = read_file(folder.path() / "pixels.bin");
+  const std::string unpacked = formats::read_file(folder.path() / "pixels.bin");
   std::size_t at = 0;
   for (const DicomSlice& slice : slices) {
     const std::size_t size = static_cast<std::size_t>(slice.rows) *
@@ -360,4 +360,4 @@ std::map<std::string, std::string> unpacked_pixels(const std::vector<DicomSlice>
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "palmar/core/progress.h"
 #include "hands/images/dicom_slice.h"
+#include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::images {
 
 /// Name of a transfer syntax whose pixels are compressed in a way that isn't read ("MPEG-2"); ""
 /// for run lengths (RLE), JPEG, JPEG-LS and JPEG 2000, which are.
@@ -30,4 +30,4 @@ std::string unread_compression(std::string_view transfer_syntax);
 std::map<std::string, std::string> unpacked_pixels(const std::vector<DicomSlice>& slices,
                                                    const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -9,14 +9,14 @@
 #include <cstdlib>
 #include <random>
 
+#include "hands/images/dicom_test_files.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "hands/images/dicom_test_files.h"
 #include "palmar/formats/process/external_program.h"
 #include "palmar/formats/process/program_missing.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,10 +112,10 @@ std::string run_lengths() {
 
 /// A folder with two slices.
 ImageFile read_two(const std::string& first, const std::string& second) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   fs::create_directories(folder / "s");
-  write_file(folder / "s/0", first);
-  write_file(folder / "s/1", second);
+  formats::write_file(folder / "s/0", first);
+  formats::write_file(folder / "s/1", second);
   return read_image(folder / "s");
 }
 
@@ -170,25 +170,25 @@ TEST(DicomCompressed, FramesOfOneFileAreTakenApart) {
   frames.number(0x00280101, 12);
   frames.number(0x00280102, 11);
   frames.element.erase(0x7FE00010);
-  const TestFolder folder;
+  const formats::TestFolder folder;
   fs::create_directories(folder / "s");
   const std::vector<std::string> parts = {kJpegLs, kJpegLs.substr(0, 40), kJpegLs.substr(40)};
   const std::string table =
       DicomTestFile::four_bytes(0) + DicomTestFile::four_bytes(8 + kJpegLs.size());
-  write_file(folder / "s/0", frames.bytes() + fragments(table, parts));
-  const Volume image = read_image(folder / "s").image;
+  formats::write_file(folder / "s/0", frames.bytes() + fragments(table, parts));
+  const imaging::Volume image = read_image(folder / "s").image;
   ASSERT_EQ(image.value.size(), 24U);
   for (std::size_t v = 0; v < 24; ++v) {
     EXPECT_EQ(image.value[v], 2.0F * kPixels[v % 12] + 1.0F) << v;  // rescaled
   }
-  write_file(folder / "s/0", frames.bytes() + fragments("", parts));
-  EXPECT_THAT(message_of<InputError>([&] { read_image(folder / "s"); }),
+  formats::write_file(folder / "s/0", frames.bytes() + fragments("", parts));
+  EXPECT_THAT(formats::message_of<InputError>([&] { read_image(folder / "s"); }),
               HasSubstr("s/0: 3 compressed pieces of 2 frames, without a table"));
 }
 
 TEST(DicomCompressed, DamageAndOtherCompressionAreRefusedByName) {
   const auto message = [&](const std::string& syntax, const std::string& packed) {
-    return message_of<InputError>([&] {
+    return formats::message_of<InputError>([&] {
       read_two(DicomTestFile::slice(2, 2, 0).bytes(), compressed_slice(1.0, syntax, packed));
     });
   };
@@ -209,7 +209,7 @@ TEST(DicomCompressed, DamageAndOtherCompressionAreRefusedByName) {
   EXPECT_THAT(message(kLosslessJpeg, jpeg("", 1, bytes_of({0xAC, 0xFF, 0x00, 0x7F}))),
               HasSubstr("has 1 component of 8 bits; the file says 1 of up to 16"));
   const std::string cut = kJpegLs.substr(0, kJpegLs.size() - 20);
-  EXPECT_THAT(message_of<InputError>([&] {
+  EXPECT_THAT(formats::message_of<InputError>([&] {
                 read_two(DicomTestFile::slice(4, 3, 0).bytes(),
                          compressed_pixels(1.0, "1.2.840.10008.1.2.4.80", cut));
               }),
@@ -218,7 +218,7 @@ TEST(DicomCompressed, DamageAndOtherCompressionAreRefusedByName) {
 
 TEST(DicomCompressed, AMissingProgramIsNamed) {
   ::setenv("PALMAR_DICOM", "/nowhere/palmar-dicom", 1);
-  const std::string message = message_of<ProgramMissing>([] {
+  const std::string message = formats::message_of<formats::ProgramMissing>([] {
     read_two(compressed_pixels(0.0, "1.2.840.10008.1.2.4.80", kJpegLs),
              compressed_pixels(1.0, "1.2.840.10008.1.2.4.80", kJpegLs));
   });
@@ -227,11 +227,12 @@ TEST(DicomCompressed, AMissingProgramIsNamed) {
 }
 
 TEST(DicomCompressed, WhatAnotherProgramCompressesReadsBackExactly) {
-  if (!find_program("dcmcjpeg") || !find_program("dcmcrle") || !find_program("dcmcjpls")) {
+  if (!formats::find_program("dcmcjpeg") || !formats::find_program("dcmcrle") ||
+      !formats::find_program("dcmcjpls")) {
     GTEST_SKIP() << "dcmcjpeg, dcmcrle and dcmcjpls (Debian package dcmtk) aren't installed";
   }
-  const TestFolder folder;
-  Volume image;
+  const formats::TestFolder folder;
+  imaging::Volume image;
   image.grid.size = {23, 17, 2};
   std::mt19937 random(1);
   for (std::size_t v = 0; v < image.grid.count(); ++v) {
@@ -246,14 +247,15 @@ TEST(DicomCompressed, WhatAnotherProgramCompressesReadsBackExactly) {
       std::vector<std::string> arguments(way.begin() + 1, way.end());
       arguments.push_back("s/" + slice);
       arguments.push_back("c/" + slice);
-      ASSERT_EQ(run_program(*find_program(way[0]), arguments, folder.path(), "log"), 0);
+      ASSERT_EQ(
+          formats::run_program(*formats::find_program(way[0]), arguments, folder.path(), "log"), 0);
     }
     EXPECT_EQ(read_image(folder / "c").image.value, image.value) << way.back();
   }
 }
 
 TEST(DicomCompressed, FuzzedFilesAreReadOrRefusedByNameSoon) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   fs::create_directories(folder / "s");
   const std::string whole[] = {
       compressed_slice(1.0, kRle, run_lengths()),
@@ -284,4 +286,4 @@ TEST(DicomCompressed, FuzzedFilesAreReadOrRefusedByNameSoon) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::images

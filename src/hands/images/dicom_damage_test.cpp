@@ -5,13 +5,13 @@
 
 #include <random>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/file.h"
 #include "hands/images/dicom.h"
 #include "hands/images/dicom_test_files.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,13 +19,13 @@ using ::testing::HasSubstr;
 
 /// What reading says of a folder; "" if it reads.
 std::string message_for(const fs::path& path) {
-  return message_of<InputError>([&] { read_image(path); });
+  return formats::message_of<InputError>([&] { read_image(path); });
 }
 
 /// What reading says of four slices, the third of which `change` has altered.
 template <typename Change>
 std::string with_changed_slice(const Change& change) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   write_test_series(folder / "s");
   DicomTestFile file = DicomTestFile::slice(4, 3, 4.0, 200);
   change(file);
@@ -34,7 +34,7 @@ std::string with_changed_slice(const Change& change) {
 }
 
 TEST(DicomDamage, FoldersWithoutASeriesAreNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   fs::create_directories(folder / "empty/inner");
   EXPECT_THAT(message_for(folder / "empty"),
               HasSubstr("empty: is empty; DICOM files are required"));
@@ -42,7 +42,7 @@ TEST(DicomDamage, FoldersWithoutASeriesAreNamed) {
   EXPECT_THAT(message_for(folder / "empty"), HasSubstr("none of its 1 file is DICOM"));
   EXPECT_THAT(message_for(folder / "none"), HasSubstr("none: no such file or folder"));
   EXPECT_THAT(
-      message_of<InputError>([&] { find_dicom_series(folder / "empty/a.txt"); }),
+      formats::message_of<InputError>([&] { find_dicom_series(folder / "empty/a.txt"); }),
       HasSubstr("is no DICOM file; a folder of them, or one of several frames, is required"));
   write_test_series(folder / "s");
   EXPECT_THAT(message_for(folder / "s/1.dcm"),
@@ -50,7 +50,7 @@ TEST(DicomDamage, FoldersWithoutASeriesAreNamed) {
 }
 
 TEST(DicomDamage, MissingSlicesAreNamedByPosition) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   for (int k = 0; k < 9; ++k) {
     if (k == 3 || k == 6 || k == 7) continue;
     DicomTestFile::slice(4, 3, 2.0 * k).write(folder / ("s/" + std::to_string(k) + ".dcm"));
@@ -69,7 +69,7 @@ TEST(DicomDamage, UnevenSlicesAreNamed) {
 }
 
 TEST(DicomDamage, TwoImagesAtOnePlaceContradict) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   write_test_series(folder / "s");
   DicomTestFile::slice(4, 3, 4.0, 999).write(folder / "s/x.dcm");
   const std::string message = message_for(folder / "s");
@@ -112,7 +112,7 @@ TEST(DicomDamage, WhatIsNoGreyVolumeIsNamed) {
 }
 
 TEST(DicomDamage, FramesWithoutAPlaceAreNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const auto message = [&](const DicomTestFile& file) {
     file.write(folder / "s/all.dcm");
     return message_for(folder / "s");
@@ -159,7 +159,7 @@ TEST(DicomDamage, TagsThatCannotBeAreNamed) {
 }
 
 TEST(DicomDamage, CutOrOverwrittenFilesAreNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const std::string whole = DicomTestFile::slice(4, 3, 4.0, 200).bytes();
   const auto message_with = [&](const std::string& bytes) {
     write_test_series(folder / "s");
@@ -179,7 +179,7 @@ TEST(DicomDamage, CutOrOverwrittenFilesAreNamed) {
 }
 
 TEST(DicomDamage, FuzzedFilesAreReadOrRefusedByName) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   std::mt19937 random(7);
   const auto any = [&](std::size_t below) { return static_cast<std::size_t>(random()) % below; };
   const std::string whole = DicomTestFile::slice(4, 3, 4.0, 200).bytes();
@@ -205,7 +205,7 @@ TEST(DicomDamage, FuzzedFilesAreReadOrRefusedByName) {
 }
 
 TEST(DicomDamage, DroppedDoubledAndShuffledSlicesAreDistinguished) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   std::mt19937 random(3);
   constexpr int kSlices = 12;
   for (int n = 0; n < 60; ++n) {
@@ -242,17 +242,19 @@ TEST(DicomDamage, DroppedDoubledAndShuffledSlicesAreDistinguished) {
 }
 
 TEST(DicomDamage, AnImageThatIsNotFiniteIsNotWritten) {
-  const TestFolder folder;
-  Volume image;
+  const formats::TestFolder folder;
+  imaging::Volume image;
   image.grid.size = {2, 2, 2};
   image.value.assign(8, 1.0F);
   image.value[3] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THAT(message_of<OutputError>([&] { write_dicom_series(folder / "s", image, {}); }),
-              HasSubstr("values that aren't finite"));
+  EXPECT_THAT(
+      formats::message_of<OutputError>([&] { write_dicom_series(folder / "s", image, {}); }),
+      HasSubstr("values that aren't finite"));
   image.value.pop_back();
-  EXPECT_THAT(message_of<OutputError>([&] { write_dicom_series(folder / "s", image, {}); }),
-              HasSubstr("7 values for 8 voxels"));
+  EXPECT_THAT(
+      formats::message_of<OutputError>([&] { write_dicom_series(folder / "s", image, {}); }),
+      HasSubstr("7 values for 8 voxels"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::images

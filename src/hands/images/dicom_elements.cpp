@@ -9,7 +9,7 @@
 #include "palmar/formats/bytes.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 constexpr std::uint32_t kUndefined = 0xFFFFFFFF;
@@ -94,10 +94,10 @@ class ElementWalk {
   }
 
   std::uint16_t read16(std::size_t ahead = 0) const {
-    return read_value<std::uint16_t>(bytes_, static_cast<std::size_t>(position_) + ahead);
+    return formats::read_value<std::uint16_t>(bytes_, static_cast<std::size_t>(position_) + ahead);
   }
   std::uint32_t read32(std::size_t ahead = 0) const {
-    return read_value<std::uint32_t>(bytes_, static_cast<std::size_t>(position_) + ahead);
+    return formats::read_value<std::uint32_t>(bytes_, static_cast<std::size_t>(position_) + ahead);
   }
 
   bool looks_explicit() const {
@@ -374,7 +374,7 @@ std::optional<std::vector<double>> DicomAttributes::numbers(DicomTag tag) const 
   std::string_view rest = found->second.substr(0, kLongestNumbers);
   while (true) {
     const std::size_t end = rest.find('\\');
-    const auto number = parse_double(without_padding(rest.substr(0, end)));
+    const auto number = formats::parse_double(without_padding(rest.substr(0, end)));
     if (!number || !std::isfinite(*number)) return std::nullopt;
     result.push_back(*number);
     if (end == std::string_view::npos) return result;
@@ -390,19 +390,19 @@ std::optional<double> DicomAttributes::number(DicomTag tag) const {
 std::optional<int> DicomAttributes::integer(DicomTag tag) const {
   const auto found = value.find(tag);
   if (found == value.end() || found->second.size() < 2) return std::nullopt;
-  return read_value<std::uint16_t>(found->second, 0);
+  return formats::read_value<std::uint16_t>(found->second, 0);
 }
 
 std::optional<std::uint32_t> DicomAttributes::integer32(DicomTag tag) const {
   const auto found = value.find(tag);
   if (found == value.end() || found->second.size() < 4) return std::nullopt;
-  return read_value<std::uint32_t>(found->second, 0);
+  return formats::read_value<std::uint32_t>(found->second, 0);
 }
 
 std::optional<double> DicomAttributes::float64(DicomTag tag) const {
   const auto found = value.find(tag);
   if (found == value.end() || found->second.size() < 8) return std::nullopt;
-  const auto number = read_value<double>(found->second, 0);
+  const auto number = formats::read_value<double>(found->second, 0);
   return std::isfinite(number) ? std::optional<double>(number) : std::nullopt;
 }
 
@@ -416,8 +416,8 @@ bool looks_like_dicom(std::string_view head) {
   if (head.size() >= 132 && head.substr(128, 4) == "DICM") return true;
   // Without a preamble: the group's length (0008,0000), the character set (0008,0005), the image
   // type (0008,0008) or the SOP class (0008,0016).
-  if (head.size() < 64 || read_value<std::uint16_t>(head, 0) != 0x0008) return false;
-  const auto element = read_value<std::uint16_t>(head, 2);
+  if (head.size() < 64 || formats::read_value<std::uint16_t>(head, 0) != 0x0008) return false;
+  const auto element = formats::read_value<std::uint16_t>(head, 2);
   return element == 0x0000 || element == 0x0005 || element == 0x0008 || element == 0x0016;
 }
 
@@ -427,4 +427,4 @@ DicomElements dicom_elements(std::string_view bytes, std::uint64_t file_bytes) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace palmar {
+namespace palmar::images {
 
 /// Group and element of a DICOM attribute as one number: (0028,0010) is 0x00280010.
 using DicomTag = std::uint32_t;
@@ -65,4 +65,4 @@ bool looks_like_dicom(std::string_view head);
 /// Elements of a file of `file_bytes` bytes whose beginning is `bytes`, up to Pixel Data.
 DicomElements dicom_elements(std::string_view bytes, std::uint64_t file_bytes);
 
-}  // namespace palmar
+}  // namespace palmar::images

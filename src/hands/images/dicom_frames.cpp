@@ -11,7 +11,7 @@
 #include "hands/images/dicom_plane.h"
 #include "hands/images/dicom_readout.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 constexpr double kFarthest = 1e5;  // mm from the first frame
@@ -160,4 +160,4 @@ std::vector<DicomSlice> frames_of(const DicomElements& elements, const DicomSlic
   return has_groups ? grouped_frames(elements, whole) : stacked_frames(elements, whole);
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -7,7 +7,7 @@
 #include "hands/images/dicom_elements.h"
 #include "hands/images/dicom_slice.h"
 
-namespace palmar {
+namespace palmar::images {
 
 /// The slices of a file, one for each frame, from what `whole` says of all of them. What is wrong
 /// goes into `damage`.
@@ -23,4 +23,4 @@ namespace palmar {
 /// Source: DICOM PS3.3 (2023), C.7.6.16 (functional groups), C.8.8.3.2 (Grid Frame Offset Vector).
 std::vector<DicomSlice> frames_of(const DicomElements& elements, const DicomSlice& whole);
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -7,12 +7,12 @@
 
 #include <bit>
 
-#include "palmar/core/error.h"
 #include "hands/images/dicom.h"
 #include "hands/images/dicom_test_files.h"
+#include "palmar/core/error.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,13 +45,13 @@ DicomTestFile frame_of_echo(double z, double echo_time) {
 }
 
 std::string message_for(const DicomTestFile& file) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   file.write(folder / "one.dcm");
-  return message_of<InputError>([&] { read_image(folder / "one.dcm"); });
+  return formats::message_of<InputError>([&] { read_image(folder / "one.dcm"); });
 }
 
 TEST(DicomFrames, OneFileIsOneSeriesWithoutItsFolder) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   multi_frame_file(4, 3, {4.0, 0.0, 2.0}).write(folder / "s/one.dcm");
   write_test_series(folder / "s");  // isn't meant
   const auto series = find_dicom_series(folder / "s/one.dcm");
@@ -64,27 +64,27 @@ TEST(DicomFrames, OneFileIsOneSeriesWithoutItsFolder) {
   EXPECT_EQ(file.image.value[0], 201.0F);  // the frame at z = 0 is the second: 2 * 100 + 1
   EXPECT_EQ(read_image(folder / "s/one.dcm", {7, ""}).image.value, file.image.value);
   EXPECT_THAT(
-      message_of<InputError>([&] {
+      formats::message_of<InputError>([&] {
         read_image(folder / "s/one.dcm", {8, ""});
       }),
       HasSubstr("one.dcm: no series with number 8; there are:\n  7 \"t1 coronal\", 3 slices"));
 }
 
 TEST(DicomFrames, EnhancedFilesOfOneFrameEachMakeASeries) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   for (int k = 0; k < 3; ++k) {
     multi_frame_file(4, 3, {1.5 * k}).write(folder / ("s/" + std::to_string(k) + ".dcm"));
   }
-  const Volume image = read_image(folder / "s").image;
+  const imaging::Volume image = read_image(folder / "s").image;
   EXPECT_EQ(image.grid.size, (std::array<int, 3>{4, 3, 3}));
   EXPECT_LT((image.grid.spacing - Vec3(0.25, 0.5, 1.5)).norm(), 1e-12);
   EXPECT_EQ(image.value[11], 23.0F);
-  EXPECT_THAT(message_of<InputError>([&] { read_image(folder / "s/1.dcm"); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { read_image(folder / "s/1.dcm"); }),
               HasSubstr("s/1.dcm: is one DICOM file of one slice; the folder with its series is"));
 }
 
 TEST(DicomFrames, AnImageInTwoFilesIsReadFromTheirFolder) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   for (const int part : {0, 1}) {
     DicomTestFile file = multi_frame_file(4, 3, {2.0 * part, 2.0 * part + 1.0});
     file.number(0x00209162, part + 1);
@@ -92,13 +92,13 @@ TEST(DicomFrames, AnImageInTwoFilesIsReadFromTheirFolder) {
     file.write(folder / ("s/" + std::to_string(part)));
   }
   EXPECT_EQ(read_image(folder / "s").image.grid.size, (std::array<int, 3>{4, 3, 4}));
-  EXPECT_THAT(message_of<InputError>([&] { read_image(folder / "s/1"); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { read_image(folder / "s/1"); }),
               HasSubstr("s/1: is one of 2 files of one image (In-concatenation Total Number "
                         "(0020,9163)); the folder with all of them is required"));
 }
 
 TEST(DicomFrames, SideOfTheHandComesFromFrameAnatomy) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   DicomTestFile file = multi_frame_file(4, 3, {0.0, 1.0});
   DicomTestFile anatomy, frame, position;
   anatomy.text(0x00209072, "CS", "L");
@@ -126,7 +126,7 @@ TEST(DicomFrames, TwoEchoesInOneFileAreToldApart) {
 }
 
 TEST(DicomFrames, OffsetsPlaceFramesAlongTheNormal) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   DicomTestFile file = old_style_file();
   file.text(0x00200032, "DS", "-10\\20\\30");
   file.text(0x3004000C, "DS", "0\\-2.5");
@@ -144,7 +144,7 @@ TEST(DicomFrames, OffsetsPlaceFramesAlongTheNormal) {
 }
 
 TEST(DicomFrames, SpacingBetweenSlicesPlacesFramesWithANote) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   DicomTestFile file = old_style_file();
   file.text(0x00180088, "DS", "1.2");
   file.write(folder / "one.dcm");
@@ -196,11 +196,11 @@ TEST(DicomFrames, TheFrameWithAWrongPlaceIsNamed) {
 }
 
 TEST(DicomFrames, AFileThatIsNoImageIsNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   std::ofstream(folder / "a.txt") << "text";
-  EXPECT_THAT(message_of<InputError>([&] { find_dicom_series(folder / "a.txt"); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { find_dicom_series(folder / "a.txt"); }),
               HasSubstr("a.txt: is no DICOM file"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::images

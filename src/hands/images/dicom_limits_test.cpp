@@ -11,15 +11,15 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/file.h"
 #include "hands/images/dicom.h"
 #include "hands/images/gdcm_test_files.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/formats/process/child_process.h"
 #include "palmar/formats/process/worker.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 using ::testing::AllOf;
@@ -34,12 +34,12 @@ constexpr bool kIsSlow = true;  // the sanitizer reserves terabytes; addresses a
 constexpr bool kIsSlow = false;
 #endif
 
-const Worker& dicom_program() {
-  static const Worker program = {.program = "palmar-dicom",
-                                 .variable = "PALMAR_DICOM",
-                                 .name = "the DICOM program",
-                                 .crashed = "the decoder crashed",
-                                 .reason = "its compressed pixels are damaged"};
+const formats::Worker& dicom_program() {
+  static const formats::Worker program = {.program = "palmar-dicom",
+                                          .variable = "PALMAR_DICOM",
+                                          .name = "the DICOM program",
+                                          .crashed = "the decoder crashed",
+                                          .reason = "its compressed pixels are damaged"};
   return program;
 }
 
@@ -51,7 +51,7 @@ double seconds_of(const std::function<void()>& body) {
 
 /// A folder with what palmar-dicom is asked: the first frame of a file that GDCM packed.
 struct Request {
-  WorkerFolder folder;
+  formats::WorkerFolder folder;
   std::string text;
 
   Request(const GdcmImage& image, const std::string& syntax) {
@@ -66,22 +66,23 @@ struct Request {
     ask(image.columns, image.rows, syntax);
   }
   void ask(int columns, int rows, const std::string& syntax) {
-    write_file(folder.path() / "packed.bin", stream);
+    formats::write_file(folder.path() / "packed.bin", stream);
     const Json frame = {{"name", "one.dcm"}, {"bytes", stream.size()}, {"columns", columns},
                         {"rows", rows},      {"bits_allocated", 16},   {"bits_stored", 12},
                         {"high_bit", 11},    {"is_signed", false}};
     text = Json{{"transfer_syntax", syntax}, {"frames", Json::array({frame})}}.dump();
   }
   /// What becomes of it within these limits; "" if the frame is unpacked.
-  std::string message(const WorkerLimits& limits) const {
-    return message_of<InputError>(
-        [&] { run_worker(dicom_program(), "unpack", text, folder, "one.dcm", limits); });
+  std::string message(const formats::WorkerLimits& limits) const {
+    return formats::message_of<InputError>(
+        [&] { formats::run_worker(dicom_program(), "unpack", text, folder, "one.dcm", limits); });
   }
   /// Exit code of the program alone.
-  ChildResult result(const ChildLimits& limits) const {
-    write_file(folder.path() / "request.json", text);
-    return run_child(program_of(dicom_program()), {"unpack", folder.path().string()},
-                     folder.path() / "log", limits, {}, {});
+  formats::ChildResult result(const formats::ChildLimits& limits) const {
+    formats::write_file(folder.path() / "request.json", text);
+    return formats::run_child(formats::program_of(dicom_program()),
+                              {"unpack", folder.path().string()}, folder.path() / "log", limits, {},
+                              {});
   }
 
   std::string stream;
@@ -101,8 +102,10 @@ GdcmImage one_frame(int columns, int rows, gdcm::TransferSyntax::TSType syntax) 
 
 TEST(DicomLimits, TheProgramSaysByItsExitCodeWhatHappened) {
   const auto run = [](const std::vector<std::string>& arguments) {
-    const TestFolder folder;
-    return run_child(program_of(dicom_program()), arguments, folder / "log", {}, {}, {}).code;
+    const formats::TestFolder folder;
+    return formats::run_child(formats::program_of(dicom_program()), arguments, folder / "log", {},
+                              {}, {})
+        .code;
   };
   EXPECT_EQ(run({}), 2);
   EXPECT_EQ(run({"pack", "/tmp"}), 2);
@@ -112,7 +115,7 @@ TEST(DicomLimits, TheProgramSaysByItsExitCodeWhatHappened) {
   request.stream.erase(request.stream.size() / 2, request.stream.size() / 4);
   request.ask(37, 29, kJpegLsSyntax);
   EXPECT_EQ(request.result({}).code, 3);
-  const Json error = Json::parse(read_file(request.folder.path() / "error.json"));
+  const Json error = Json::parse(formats::read_file(request.folder.path() / "error.json"));
   EXPECT_THAT(error.at("message").get<std::string>(),
               StartsWith("one.dcm: its compressed image is damaged"));
   EXPECT_EQ(error.at("exit_code"), 3);
@@ -134,7 +137,7 @@ TEST(DicomLimits, TimeIsKept) {
 
 TEST(DicomLimits, AStreamThatIsCutOffDoesNotKeepTheDecoderBusyForEver) {
   // The first 100 bytes of JPEG-LS: GDCM 3.0.21 (CharLS 2.4.1) is still at it after minutes.
-  const TestFolder folder;
+  const formats::TestFolder folder;
   GdcmImage image = one_frame(256, 256, gdcm::TransferSyntax::JPEGLSLossless);
   Request request(image, kJpegLsSyntax);
   request.stream.resize(100);
@@ -148,12 +151,12 @@ TEST(DicomLimits, AStreamThatIsCutOffDoesNotKeepTheDecoderBusyForEver) {
   // The reader doesn't let it come that far: each stream has to have its end marker.
   image.frames = 2;
   image.write(folder / "one.dcm");
-  std::string bytes = read_file(folder / "one.dcm");
+  std::string bytes = formats::read_file(folder / "one.dcm");
   const std::size_t end = bytes.find("\xFF\xD9");
   ASSERT_NE(end, std::string::npos);
   bytes[end + 1] = '\x12';
-  write_file(folder / "one.dcm", bytes);
-  EXPECT_THAT(message_of<InputError>([&] { read_image(folder / "one.dcm"); }),
+  formats::write_file(folder / "one.dcm", bytes);
+  EXPECT_THAT(formats::message_of<InputError>([&] { read_image(folder / "one.dcm"); }),
               HasSubstr("one.dcm (frame 1): its compressed image is cut off: the end marker is "
                         "missing"));
 }
@@ -181,7 +184,7 @@ TEST(DicomLimits, MemoryIsKept) {
 std::string message_within(double seconds, const std::filesystem::path& path) {
   std::string message;
   const double taken =
-      seconds_of([&] { message = message_of<InputError>([&] { read_image(path); }); });
+      seconds_of([&] { message = formats::message_of<InputError>([&] { read_image(path); }); });
   EXPECT_LT(taken, seconds) << "s: " << message;
   return message;
 }
@@ -189,13 +192,13 @@ std::string message_within(double seconds, const std::filesystem::path& path) {
 TEST(DicomLimits, ASmallFileThatClaimsAnEnormousImageIsRefusedAtOnce) {
   for (const auto syntax :
        {gdcm::TransferSyntax::JPEG2000Lossless, gdcm::TransferSyntax::JPEGLSLossless}) {
-    const TestFolder folder;
+    const formats::TestFolder folder;
     GdcmImage image = one_frame(64, 48, syntax);
     image.frames = 2;
     image.write(folder / "one.dcm");
-    const std::string whole = read_file(folder / "one.dcm");
+    const std::string whole = formats::read_file(folder / "one.dcm");
     const auto message_with = [&](const std::string& bytes) {
-      write_file(folder / "one.dcm", bytes);
+      formats::write_file(folder / "one.dcm", bytes);
       return message_within(10.0, folder / "one.dcm");
     };
     EXPECT_THAT(message_with(claiming_size(whole, 65535, 65535)),
@@ -203,7 +206,7 @@ TEST(DicomLimits, ASmallFileThatClaimsAnEnormousImageIsRefusedAtOnce) {
     EXPECT_THAT(message_with(claiming_size(whole, 16000, 16000)),
                 AllOf(HasSubstr("one.dcm: says it has 512 million pixels in "),
                       HasSubstr("compressed bytes; up to 1000 pixels for a byte are read")));
-    write_file(folder / "one.dcm", whole);
+    formats::write_file(folder / "one.dcm", whole);
     make_old_style(folder / "one.dcm", {{0x00200032, "0\\0\\0"},
                                         {0x00200037, "1\\0\\0\\0\\1\\0"},
                                         {0x00280030, "1\\1"},
@@ -220,11 +223,12 @@ TEST(DicomLimits, AClaimJustBelowTheBoundCostsLittle) {
   // 2 x 2800 x 2800 pixels, 63 MB as numbers: small enough to be tried.
   for (const auto& [name, syntax] : packed_syntaxes()) {
     if (name != "JPEG-LS" && name != "JPEG 2000") continue;
-    const TestFolder folder;
+    const formats::TestFolder folder;
     GdcmImage image = one_frame(64, 48, syntax);
     image.frames = 2;
     image.write(folder / "one.dcm");
-    write_file(folder / "one.dcm", claiming_size(read_file(folder / "one.dcm"), 2800, 2800));
+    formats::write_file(folder / "one.dcm",
+                        claiming_size(formats::read_file(folder / "one.dcm"), 2800, 2800));
     EXPECT_THAT(message_within(kIsSlow ? 120.0 : 30.0, folder / "one.dcm"),
                 AnyOf("", HasSubstr("one.dcm")))
         << name;
@@ -235,14 +239,14 @@ TEST(DicomLimits, CutAndFlippedFilesAreReadOrRefusedByNameSoon) {
   std::mt19937 random(11);
   const auto any = [&](std::size_t below) { return static_cast<std::size_t>(random()) % below; };
   for (const auto& [name, syntax] : packed_syntaxes()) {
-    const TestFolder folder;
+    const formats::TestFolder folder;
     GdcmImage image;
     image.columns = 64;
     image.rows = 48;
     image.frames = 3;
     image.syntax = syntax;
     image.write(folder / "one.dcm");
-    const std::string whole = read_file(folder / "one.dcm");
+    const std::string whole = formats::read_file(folder / "one.dcm");
     const std::size_t pixels = whole.find(std::string("\xE0\x7F\x10\x00OB", 6));
     ASSERT_NE(pixels, std::string::npos);
     int refused = 0;
@@ -258,7 +262,7 @@ TEST(DicomLimits, CutAndFlippedFilesAreReadOrRefusedByNameSoon) {
                 whole.substr(whole.size() - 8);
       }
       if (n % 4 == 1) bytes.resize(pixels + any(bytes.size() - pixels));
-      write_file(folder / "one.dcm", bytes);
+      formats::write_file(folder / "one.dcm", bytes);
       const std::string message = message_within(60.0, folder / "one.dcm");
       EXPECT_THAT(message, AnyOf("", HasSubstr("one.dcm"))) << name;
       refused += message.empty() ? 0 : 1;
@@ -268,4 +272,4 @@ TEST(DicomLimits, CutAndFlippedFilesAreReadOrRefusedByNameSoon) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::images

@@ -5,13 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/file.h"
 #include "hands/images/dicom.h"
 #include "hands/images/gdcm_test_files.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 using ::testing::AllOf;
@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 
 /// Every voxel has the formula's value at the formula's place: i along (0, 1, 0), j along (0, 0,
 /// -1), k along their normal (-1, 0, 0).
-void expect_formula(const Volume& image, const std::string& what) {
+void expect_formula(const imaging::Volume& image, const std::string& what) {
   ASSERT_EQ(image.grid.size, (std::array<int, 3>{37, 29, 5})) << what;
   for (int k = 0; k < 5; ++k) {
     const Vec3 place(-10 - 1.5 * k, 20 + 0.25 * 36, 5 - 0.5 * 28);  // of the last pixel, mm
@@ -39,7 +39,7 @@ TEST(DicomPackedFrames, EnhancedFilesOfAnotherProgramReadExactly) {
   auto ways = packed_syntaxes();
   ways.emplace_back("explicit", gdcm::TransferSyntax::ExplicitVRLittleEndian);
   for (const auto& [name, syntax] : ways) {
-    const TestFolder folder;
+    const formats::TestFolder folder;
     GdcmImage image;
     image.syntax = syntax;
     image.write(folder / "s/one.dcm");
@@ -56,7 +56,7 @@ TEST(DicomPackedFrames, OldStyleFilesReadByOffsetsAndBySpacing) {
   auto ways = packed_syntaxes();
   ways.emplace_back("explicit", gdcm::TransferSyntax::ExplicitVRLittleEndian);
   for (const auto& [name, syntax] : ways) {
-    const TestFolder folder;
+    const formats::TestFolder folder;
     GdcmImage image;
     image.syntax = syntax;
     image.write(folder / "offsets.dcm");
@@ -79,14 +79,14 @@ TEST(DicomPackedFrames, OldStyleFilesReadByOffsetsAndBySpacing) {
 }
 
 TEST(DicomPackedFrames, AFrameThatIsMissingOrSpoiltIsNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   GdcmImage image;
   image.syntax = gdcm::TransferSyntax::JPEGLSLossless;
   image.write(folder / "one.dcm");
-  const std::string whole = read_file(folder / "one.dcm");
+  const std::string whole = formats::read_file(folder / "one.dcm");
   const auto message_with = [&](const std::string& bytes) {
-    write_file(folder / "one.dcm", bytes);
-    return message_of<InputError>([&] { read_image(folder / "one.dcm"); });
+    formats::write_file(folder / "one.dcm", bytes);
+    return formats::message_of<InputError>([&] { read_image(folder / "one.dcm"); });
   };
   // The third stream says it has 36 columns.
   std::size_t stream = 0;
@@ -105,4 +105,4 @@ TEST(DicomPackedFrames, AFrameThatIsMissingOrSpoiltIsNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::images

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 constexpr double kSquare = 1e-3;  // cosine between axes that still counts as square
@@ -87,4 +87,4 @@ std::string read_rescaling(const DicomAttributes& attributes, DicomSlice& slice)
   return {};
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

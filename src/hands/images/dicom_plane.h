@@ -7,7 +7,7 @@
 #include "hands/images/dicom_elements.h"
 #include "hands/images/dicom_slice.h"
 
-namespace palmar {
+namespace palmar::images {
 
 /// Reads Image Orientation, Image Position and Pixel Spacing, those of a file or of a frame;
 /// returns why they can't be used, with tag, value and what is allowed, or "".
@@ -18,4 +18,4 @@ std::string read_plane(const DicomAttributes& attributes, DicomSlice& slice);
 /// The same for Rescale Slope and Intercept.
 std::string read_rescaling(const DicomAttributes& attributes, DicomSlice& slice);
 
-}  // namespace palmar
+}  // namespace palmar::images

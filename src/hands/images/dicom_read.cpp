@@ -6,16 +6,16 @@
 #include <cmath>
 #include <filesystem>
 
-#include "palmar/core/error.h"
-#include "palmar/core/parallel.h"
-#include "palmar/formats/bytes.h"
-#include "palmar/formats/file.h"
 #include "hands/images/dicom_compressed.h"
 #include "hands/images/dicom_slice.h"
 #include "hands/images/image_formats.h"
 #include "hands/imaging/odd_slices.h"
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
+#include "palmar/formats/bytes.h"
+#include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 std::string listing(const std::vector<DicomStack>& stacks) {
@@ -152,10 +152,10 @@ double stored_value(const DicomSlice& slice, std::string_view bytes, std::size_t
       raw = static_cast<unsigned char>(bytes[index]);
       break;
     case 16:
-      raw = read_value<std::uint16_t>(bytes, 2 * index);
+      raw = formats::read_value<std::uint16_t>(bytes, 2 * index);
       break;
     default:
-      raw = read_value<std::uint32_t>(bytes, 4 * index);
+      raw = formats::read_value<std::uint32_t>(bytes, 4 * index);
   }
   raw >>= slice.high_bit + 1 - slice.bits_stored;
   const std::uint64_t range = std::uint64_t{1} << slice.bits_stored;
@@ -178,7 +178,7 @@ DicomPixels::DicomPixels(const std::vector<DicomSlice>& slices, const Progress& 
       packed_pixels += static_cast<double>(slice.columns) * slice.rows;
       check_image_size(slice.path, packed_pixels, 1.0, 1.0);
     } else if (slice.frames > 1 && !file_.contains(slice.path)) {
-      file_[slice.path] = read_file(slice.path, kMaxImageBytes);
+      file_[slice.path] = formats::read_file(slice.path, kMaxImageBytes);
     }
   }
   if (!packed.empty()) unpacked_ = unpacked_pixels(packed, progress);
@@ -198,7 +198,7 @@ std::vector<float> DicomPixels::values(const DicomSlice& slice) const {
     if (slice.frames > 1) {
       bytes = file_.at(slice.path);
     } else {
-      bytes = own = read_file(slice.path, kMaxImageBytes);
+      bytes = own = formats::read_file(slice.path, kMaxImageBytes);
     }
   }
   if (offset > bytes.size() || bytes.size() - offset < size) {
@@ -225,7 +225,7 @@ ImageFile read_dicom(const std::string& path, const SeriesChoice& choice,
   const DicomSlice& first = slices.front();
   check_image_size(path, first.columns, first.rows, static_cast<double>(slices.size()));
 
-  VolumeGrid& grid = file.image.grid;
+  imaging::VolumeGrid& grid = file.image.grid;
   grid.size = {first.columns, first.rows, static_cast<int>(slices.size())};
   const double last = slices.back().along_normal() - first.along_normal();
   grid.spacing =
@@ -248,11 +248,11 @@ ImageFile read_dicom(const std::string& path, const SeriesChoice& choice,
                 file.image.value.begin() + static_cast<std::ptrdiff_t>(s * plane));
     });
   }
-  for (const OddSlice& odd : odd_slices(file.image)) {
+  for (const imaging::OddSlice& odd : imaging::odd_slices(file.image)) {
     file.odd_slices.push_back(
         odd_slice_text(slices[static_cast<std::size_t>(odd.index)].name(), odd));
   }
   return file;
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 /// Samples along the read-out: the first of Acquisition Matrix' numbers (of the read-out along rows
@@ -40,4 +40,4 @@ Vec3 fat_shift_of(const DicomAttributes& attributes, const DicomSlice& slice) {
          (is_along ? slice.row : slice.column);
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -5,7 +5,7 @@
 #include "hands/images/dicom_elements.h"
 #include "hands/images/dicom_slice.h"
 
-namespace palmar {
+namespace palmar::images {
 
 /// By how much fat's protons precess more slowly than water's.
 inline constexpr double kFatBelowWater = 3.35e-6;  // of the frequency
@@ -22,4 +22,4 @@ inline constexpr double kFatBelowWater = 3.35e-6;  // of the frequency
 /// plane. Source: Brown et al. 2014, Magnetic Resonance Imaging, 2nd ed., chapter 17 (3.35 ppm).
 Vec3 fat_shift_of(const DicomAttributes& attributes, const DicomSlice& slice);
 
-}  // namespace palmar
+}  // namespace palmar::images

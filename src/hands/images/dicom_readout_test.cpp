@@ -8,12 +8,12 @@
 #include "hands/images/dicom_test_files.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 // A scanner of 1.5 tesla, 110 Hz a pixel; pixels of 0.25 mm along the rows, 0.5 mm down.
 Vec3 shift_of(const std::vector<std::pair<std::uint32_t, std::string>>& others) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   for (int k = 0; k < 3; ++k) {
     DicomTestFile file = DicomTestFile::slice(4, 3, k, 10 * k);
     file.text(0x00180084, "DS", "63.87");
@@ -55,8 +55,8 @@ TEST(DicomReadout, WhatTheFileDoesntSayIsNoShift) {
 }
 
 TEST(DicomReadout, WhatIsWrittenIsReadAgain) {
-  const TestFolder folder;
-  Volume image;
+  const formats::TestFolder folder;
+  imaging::Volume image;
   image.grid.size = {4, 3, 3};
   image.grid.spacing = Vec3(0.8, 0.8, 1.0);
   image.value.assign(image.grid.count(), 5.0F);
@@ -67,4 +67,4 @@ TEST(DicomReadout, WhatIsWrittenIsReadAgain) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::images

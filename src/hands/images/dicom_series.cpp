@@ -9,13 +9,13 @@
 #include <set>
 #include <tuple>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/file.h"
 #include "hands/images/dicom_compressed.h"
 #include "hands/images/dicom_elements.h"
 #include "hands/images/dicom_slice.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 namespace fs = std::filesystem;
@@ -370,7 +370,7 @@ std::vector<DicomSeries> find_dicom_series(const std::string& path) {
 
 bool is_dicom_file(const std::string& path) {
   std::error_code ignored;
-  return fs::is_regular_file(path, ignored) && looks_like_dicom(read_ends(path, 512).head);
+  return fs::is_regular_file(path, ignored) && looks_like_dicom(formats::read_ends(path, 512).head);
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

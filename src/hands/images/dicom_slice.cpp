@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/file.h"
 #include "hands/images/dicom_elements.h"
 #include "hands/images/dicom_frames.h"
 #include "hands/images/dicom_plane.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 constexpr std::size_t kHeadBytes = 16384;  // most headers; longer ones are read again, whole
@@ -73,12 +73,12 @@ std::string DicomSlice::name() const {
 }
 
 std::vector<DicomSlice> read_dicom_headers(const std::string& path) {
-  FileEnds ends = read_ends(path, kHeadBytes);
+  formats::FileEnds ends = formats::read_ends(path, kHeadBytes);
   if (!looks_like_dicom(ends.head)) return {};
   DicomElements elements = dicom_elements(ends.head, ends.bytes);
   std::string whole;
   if (elements.is_partial) {
-    whole = read_file(path, kMaxImageBytes);
+    whole = formats::read_file(path, kMaxImageBytes);
     elements = dicom_elements(whole, whole.size());
   }
   // A folder's index, as on a CD, is no slice.
@@ -134,4 +134,4 @@ void check_image_size(const std::string& what, double width, double height, doub
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

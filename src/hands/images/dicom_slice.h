@@ -11,7 +11,7 @@
 #include "hands/images/dicom.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::images {
 
 /// What a DICOM file says about its image, without the pixels.
 struct DicomSlice {
@@ -89,4 +89,4 @@ inline constexpr std::uint64_t kMaxImageBytes = std::uint64_t{2} << 30;
 /// Throws InputError naming `what` if an image of this size is empty or above kMaxImageBytes.
 void check_image_size(const std::string& what, double width, double height, double slices);
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "hands/images/dicom_test_files.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "hands/images/dicom_test_files.h"
 #include "palmar/formats/process/external_program.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,8 +22,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-Volume oblique_image() {
-  Volume image;
+imaging::Volume oblique_image() {
+  imaging::Volume image;
   image.grid.size = {7, 5, 6};
   image.grid.spacing = Vec3(0.78, 0.9, 1.3);
   image.grid.axes = Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized()).toRotationMatrix();
@@ -34,7 +34,7 @@ Volume oblique_image() {
   return image;
 }
 
-void expect_same_grid(const VolumeGrid& a, const VolumeGrid& b) {
+void expect_same_grid(const imaging::VolumeGrid& a, const imaging::VolumeGrid& b) {
   EXPECT_EQ(a.size, b.size);
   EXPECT_LT((a.spacing - b.spacing).norm(), 1e-9);
   EXPECT_LT((a.axes - b.axes).norm(), 1e-9);
@@ -42,8 +42,8 @@ void expect_same_grid(const VolumeGrid& a, const VolumeGrid& b) {
 }
 
 TEST(DicomSeries, ObliqueImageWithNegativeValuesReadsBack) {
-  const TestFolder folder;
-  const Volume image = oblique_image();
+  const formats::TestFolder folder;
+  const imaging::Volume image = oblique_image();
   DicomHeader header;
   header.description = "thumb flexion";
   header.laterality = "L";
@@ -62,8 +62,8 @@ TEST(DicomSeries, ObliqueImageWithNegativeValuesReadsBack) {
 }
 
 TEST(DicomSeries, WholeNumbersAreKeptExactly) {
-  const TestFolder folder;
-  Volume image = oblique_image();
+  const formats::TestFolder folder;
+  imaging::Volume image = oblique_image();
   for (std::size_t v = 0; v < image.value.size(); ++v) {
     image.value[v] = static_cast<float>(v % 2 == 0 ? v : 30000 - v);
   }
@@ -72,31 +72,33 @@ TEST(DicomSeries, WholeNumbersAreKeptExactly) {
 }
 
 TEST(DicomSeries, SlicesStackedAgainstTheirNormalLieWhereTheyWere) {
-  const TestFolder folder;
-  Volume image = oblique_image();
+  const formats::TestFolder folder;
+  imaging::Volume image = oblique_image();
   image.grid.axes.col(2) *= -1.0;  // left-handed
   write_dicom_series(folder / "s", image, {});
-  const Volume read = read_image(folder / "s").image;
+  const imaging::Volume read = read_image(folder / "s").image;
   const Vec3 voxel(2, 3, 1);
   const Vec3 at = read.grid.to_voxel(image.grid.to_patient(voxel));
   EXPECT_LT((at - Vec3(2, 3, 4)).norm(), 1e-9);  // the six slices the other way round
-  EXPECT_NEAR(value_at(read, at), value_at(image, voxel), 0.5 / 64);
+  EXPECT_NEAR(imaging::value_at(read, at), imaging::value_at(image, voxel), 0.5 / 64);
 }
 
 TEST(DicomSeries, SameImageGivesSameBytes) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   write_dicom_series(folder / "a", oblique_image(), {});
   write_dicom_series(folder / "b", oblique_image(), {});
-  EXPECT_EQ(read_file(folder / "a/slice-0003.dcm"), read_file(folder / "b/slice-0003.dcm"));
-  EXPECT_NE(read_file(folder / "a/slice-0003.dcm"), read_file(folder / "a/slice-0004.dcm"));
+  EXPECT_EQ(formats::read_file(folder / "a/slice-0003.dcm"),
+            formats::read_file(folder / "b/slice-0003.dcm"));
+  EXPECT_NE(formats::read_file(folder / "a/slice-0003.dcm"),
+            formats::read_file(folder / "a/slice-0004.dcm"));
 }
 
 TEST(DicomSeries, VoxelsLieWhereTheTagsSay) {
   // Spacing: 0.5 mm between rows, 0.25 mm between columns, 2 mm between slices.
-  const TestFolder folder;
+  const formats::TestFolder folder;
   write_test_series(folder / "s");
   const ImageFile file = read_image(folder / "s");
-  const VolumeGrid& grid = file.image.grid;
+  const imaging::VolumeGrid& grid = file.image.grid;
   EXPECT_EQ(grid.size, (std::array<int, 3>{4, 3, 4}));
   EXPECT_LT((grid.spacing - Vec3(0.25, 0.5, 2.0)).norm(), 1e-12);
   EXPECT_LT((grid.to_patient(Vec3(2, 1, 3)) - Vec3(-9.5, 20.5, 6.0)).norm(), 1e-9);
@@ -104,20 +106,20 @@ TEST(DicomSeries, VoxelsLieWhereTheTagsSay) {
 }
 
 TEST(DicomSeries, OrderComesFromPositionsWhateverTheNamesAndFolders) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const char* const names[] = {"z", "sub/a.dcm", "b.IMA", "deep/er/c"};
   for (int k = 0; k < 4; ++k) {
     DicomTestFile::slice(4, 3, 2.0 * k, 100 * k).write(folder / names[k]);
   }
   std::ofstream(folder / "notes.txt") << "no image";
-  const Volume image = read_image(folder.path()).image;
+  const imaging::Volume image = read_image(folder.path()).image;
   for (int k = 0; k < 4; ++k) {
     EXPECT_EQ(image.value[image.grid.at(0, 0, k)], 100.0F * static_cast<float>(k));
   }
 }
 
 TEST(DicomSeries, ImplicitSyntaxAndMissingPreambleRead) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   for (int k = 0; k < 3; ++k) {
     DicomTestFile file = DicomTestFile::slice(4, 3, k, 10 * k);
     file.is_explicit = false;
@@ -128,7 +130,7 @@ TEST(DicomSeries, ImplicitSyntaxAndMissingPreambleRead) {
 }
 
 TEST(DicomSeries, SequencesOfUnknownLengthArePassedOver) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   // Two items, one of them of unknown length with a sequence in it.
   const std::string item("\xFE\xFF\x00\xE0", 4), item_end("\xFE\xFF\x0D\xE0\0\0\0\0", 8),
       end("\xFE\xFF\xDD\xE0\0\0\0\0", 8), unknown("\xFF\xFF\xFF\xFF", 4);
@@ -148,7 +150,7 @@ TEST(DicomSeries, SequencesOfUnknownLengthArePassedOver) {
 }
 
 TEST(DicomSeries, StoredBitsBecomeIntensities) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   for (int k = 0; k < 2; ++k) {
     DicomTestFile file = DicomTestFile::slice(2, 2, k);
     file.number(0x00280101, 12);  // 12 bits, signed; the upper 4 hold something else
@@ -164,7 +166,7 @@ TEST(DicomSeries, StoredBitsBecomeIntensities) {
 }
 
 TEST(DicomSeries, GapsBetweenSlicesCount) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   for (int k = 0; k < 3; ++k) {
     DicomTestFile file = DicomTestFile::slice(4, 3, 1.5 * k);
     file.text(0x00180050, "DS", "1");
@@ -176,7 +178,7 @@ TEST(DicomSeries, GapsBetweenSlicesCount) {
 }
 
 TEST(DicomSeries, IdenticalDoublesAreLeftOut) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   write_test_series(folder / "s");
   fs::copy(folder / "s/2.dcm", folder / "s/copy.dcm");
   const ImageFile file = read_image(folder / "s");
@@ -185,7 +187,7 @@ TEST(DicomSeries, IdenticalDoublesAreLeftOut) {
 }
 
 TEST(DicomSeries, OneOfSeveralIsChosen) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   write_test_series(folder / "a");
   for (int k = 0; k < 4; ++k) {
     DicomTestFile file = DicomTestFile::slice(4, 3, k, 1000);
@@ -212,18 +214,18 @@ TEST(DicomSeries, OneOfSeveralIsChosen) {
   EXPECT_EQ(series[1].refusal, "");
   EXPECT_EQ(series[2].number, 9);
 
-  const std::string message = message_of<InputError>([&] { read_image(folder.path()); });
+  const std::string message = formats::message_of<InputError>([&] { read_image(folder.path()); });
   EXPECT_THAT(message, HasSubstr("several series; choose one"));
   EXPECT_THAT(message, HasSubstr("7 \"t1 coronal\", 4 slices of 4 x 3"));
   EXPECT_THAT(message, HasSubstr("9 \"Grasp\", 4 slices of 4 x 3"));
   EXPECT_EQ(read_image(folder.path(), {9, ""}).image.value[0], 1000.0F);
   EXPECT_EQ(read_image(folder.path(), {std::nullopt, "gras"}).image.value[0], 1000.0F);
   EXPECT_EQ(read_image(folder.path(), {7, "t1"}).image.value[0], 0.0F);
-  EXPECT_THAT(message_of<InputError>([&] {
+  EXPECT_THAT(formats::message_of<InputError>([&] {
                 read_image(folder.path(), {5, ""});
               }),
               HasSubstr("no series with number 5; there are:\n  1 \"scout\""));
-  EXPECT_THAT(message_of<InputError>([&] {
+  EXPECT_THAT(formats::message_of<InputError>([&] {
                 read_image(folder.path(), {1, ""});
               }),
               HasSubstr("series 1 \"scout\": slices are in 3 directions"));
@@ -233,7 +235,7 @@ TEST(DicomSeries, OneOfSeveralIsChosen) {
 
 TEST(DicomSeries, FramesOfOneFileBecomeSlices) {
   for (const bool is_open : {false, true}) {  // sequences with lengths, with delimiters
-    const TestFolder folder;
+    const formats::TestFolder folder;
     multi_frame_file(4, 3, {4.0, 0.0, 2.0}, is_open).write(folder / "s/all.dcm");
     const auto series = find_dicom_series(folder / "s");
     ASSERT_EQ(series.size(), 1U);
@@ -250,9 +252,9 @@ TEST(DicomSeries, FramesOfOneFileBecomeSlices) {
 }
 
 TEST(DicomSeries, AFileOfAnotherProgramReads) {
-  const auto program = find_program("dump2dcm");
+  const auto program = formats::find_program("dump2dcm");
   if (!program) GTEST_SKIP() << "dump2dcm (Debian package dcmtk) isn't installed";
-  const TestFolder folder;
+  const formats::TestFolder folder;
   fs::create_directories(folder / "s");
   for (int k = 0; k < 2; ++k) {
     std::ofstream(folder / "dump.txt")
@@ -266,10 +268,11 @@ TEST(DicomSeries, AFileOfAnotherProgramReads) {
            "(0028,0103) US 0\n(7fe0,0010) OW "
         << (k == 0 ? "0005\\0006" : "0007\\0008") << "\n";
     // Sequences with unknown length once, with known length once.
-    ASSERT_EQ(run_program(*program, {k == 0 ? "-e" : "+e", "dump.txt", "s/" + std::to_string(k)},
-                          folder.path(), "log"),
-              0)
-        << read_file(folder / "log");
+    ASSERT_EQ(
+        formats::run_program(*program, {k == 0 ? "-e" : "+e", "dump.txt", "s/" + std::to_string(k)},
+                             folder.path(), "log"),
+        0)
+        << formats::read_file(folder / "log");
   }
   // Rows along +y, columns along +x: the normal is -z, so that the higher slice comes first.
   const ImageFile file = read_image(folder / "s");
@@ -279,18 +282,18 @@ TEST(DicomSeries, AFileOfAnotherProgramReads) {
 }
 
 TEST(DicomSeries, AnotherProgramFindsNoErrorInWhatIsWritten) {
-  const auto program = find_program("dciodvfy");
+  const auto program = formats::find_program("dciodvfy");
   if (!program) GTEST_SKIP() << "dciodvfy (Debian package dicom3tools) isn't installed";
-  const TestFolder folder;
+  const formats::TestFolder folder;
   DicomHeader header;
   header.laterality = "R";
   header.description = "reference";
   write_dicom_series(folder / "s", oblique_image(), header);
-  EXPECT_EQ(run_program(*program, {"s/slice-0001.dcm"}, folder.path(), "log"), 0);
-  const std::string log = read_file(folder / "log");
+  EXPECT_EQ(formats::run_program(*program, {"s/slice-0001.dcm"}, folder.path(), "log"), 0);
+  const std::string log = formats::read_file(folder / "log");
   EXPECT_THAT(log, HasSubstr("MRImage"));
   EXPECT_THAT(log, ::testing::Not(HasSubstr("Error")));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::images

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace palmar {
+namespace palmar::images {
 
 /// A DICOM file put together by hand, element by element, as PS3.5 section 7.1 has it: knows
 /// nothing of Palmar's own writer.
@@ -150,4 +150,4 @@ inline void write_test_series(const std::filesystem::path& folder) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -7,23 +7,23 @@
 #include <cstring>
 #include <filesystem>
 
+#include "hands/images/dicom.h"
+#include "hands/images/dicom_elements.h"
+#include "hands/images/dicom_readout.h"
 #include "palmar/core/error.h"
 #include "palmar/core/version.h"
 #include "palmar/formats/bytes.h"
 #include "palmar/formats/file.h"
-#include "hands/images/dicom.h"
-#include "hands/images/dicom_elements.h"
-#include "hands/images/dicom_readout.h"
 #include "palmar/formats/sha256.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 constexpr std::string_view kMrImageStorage = "1.2.840.10008.5.1.4.1.1.4";
 
 /// "2.25." and a number of 128 bits (DICOM PS3.5, B.2), here the first ones of a hash.
 std::string uid_of(const std::string& text) {
-  const std::string hex = sha256_hex(text).substr(0, 32);
+  const std::string hex = formats::sha256_hex(text).substr(0, 32);
   std::string decimal = "0";  // hex to decimal, digit by digit
   for (const char digit : hex) {
     int carry = digit <= '9' ? digit - '0' : digit - 'a' + 10;
@@ -71,18 +71,18 @@ class DataSet {
   void text(DicomTag tag, const char* vr, std::string value) {
     if (value.size() % 2 != 0) value += std::string_view(vr) == "UI" ? '\0' : ' ';
     head(tag, vr);
-    append_value(bytes_, static_cast<std::uint16_t>(value.size()));
+    formats::append_value(bytes_, static_cast<std::uint16_t>(value.size()));
     bytes_ += value;
   }
   void number(DicomTag tag, int value) {
     head(tag, "US");
-    append_value(bytes_, std::uint16_t{2});
-    append_value(bytes_, static_cast<std::uint16_t>(value));
+    formats::append_value(bytes_, std::uint16_t{2});
+    formats::append_value(bytes_, static_cast<std::uint16_t>(value));
   }
   void raw(DicomTag tag, const char* vr, const std::string& value) {
     head(tag, vr);
-    append_value(bytes_, std::uint16_t{0});
-    append_value(bytes_, static_cast<std::uint32_t>(value.size() + value.size() % 2));
+    formats::append_value(bytes_, std::uint16_t{0});
+    formats::append_value(bytes_, static_cast<std::uint32_t>(value.size() + value.size() % 2));
     bytes_ += value;
     if (value.size() % 2 != 0) bytes_ += '\0';
   }
@@ -90,8 +90,8 @@ class DataSet {
 
  private:
   void head(DicomTag tag, const char* vr) {
-    append_value(bytes_, static_cast<std::uint16_t>(tag >> 16));
-    append_value(bytes_, static_cast<std::uint16_t>(tag & 0xFFFF));
+    formats::append_value(bytes_, static_cast<std::uint16_t>(tag >> 16));
+    formats::append_value(bytes_, static_cast<std::uint16_t>(tag & 0xFFFF));
     bytes_.append(vr, 2);
   }
   std::string bytes_;
@@ -121,14 +121,15 @@ Storage storage_of(const std::vector<float>& values) {
   return storage;
 }
 
-std::string pixel_bytes(const Volume& image, int k, const Storage& storage) {
+std::string pixel_bytes(const imaging::Volume& image, int k, const Storage& storage) {
   const std::size_t plane = image.grid.at(0, 0, 1);
   std::string bytes;
   bytes.reserve(2 * plane);
   for (std::size_t i = 0; i < plane; ++i) {
     const double stored =
         std::round(image.value[plane * static_cast<std::size_t>(k) + i] / storage.slope);
-    append_value(bytes, static_cast<std::uint16_t>(static_cast<std::int32_t>(stored) & 0xFFFF));
+    formats::append_value(bytes,
+                          static_cast<std::uint16_t>(static_cast<std::int32_t>(stored) & 0xFFFF));
   }
   return bytes;
 }
@@ -137,9 +138,9 @@ struct SeriesNames {
   std::string study, series, frame;
 };
 
-std::string slice_bytes(const Volume& image, int k, const DicomHeader& header,
+std::string slice_bytes(const imaging::Volume& image, int k, const DicomHeader& header,
                         const SeriesNames& names, const Storage& storage) {
-  const VolumeGrid& grid = image.grid;
+  const imaging::VolumeGrid& grid = image.grid;
   const std::string pixels = pixel_bytes(image, k, storage);
   const std::string instance = uid_of(names.series + "/" + std::to_string(k) + "/" + pixels);
 
@@ -221,14 +222,15 @@ std::string slice_bytes(const Volume& image, int k, const DicomHeader& header,
   DataSet length;  // of the meta information
   length.raw(0x00020000, "UL", "");
   std::string group("\x02\0\0\0UL\x04\0", 8);
-  append_value(group, static_cast<std::uint32_t>(meta.bytes().size()));
+  formats::append_value(group, static_cast<std::uint32_t>(meta.bytes().size()));
   return file + group + meta.bytes() + set.bytes();
 }
 
 }  // namespace
 
-void write_dicom_series(const std::string& folder, const Volume& image, const DicomHeader& header) {
-  const VolumeGrid& grid = image.grid;
+void write_dicom_series(const std::string& folder, const imaging::Volume& image,
+                        const DicomHeader& header) {
+  const imaging::VolumeGrid& grid = image.grid;
   for (const int size : grid.size) {
     if (size < 1 || size > 65535) {
       throw OutputError(fmt::format("{}: an image of {} x {} x {} voxels; 1 to 65535 are allowed",
@@ -245,7 +247,7 @@ void write_dicom_series(const std::string& folder, const Volume& image, const Di
   } catch (const OutputError& error) {
     throw OutputError(folder + ": " + error.what());
   }
-  Sha256 content;
+  formats::Sha256 content;
   content.add(std::string_view(reinterpret_cast<const char*>(image.value.data()),
                                image.value.size() * sizeof(float)));
   content.add(decimal_strings({grid.origin, grid.spacing, grid.axes.col(0), grid.axes.col(1)}));
@@ -254,11 +256,11 @@ void write_dicom_series(const std::string& folder, const Volume& image, const Di
   names.study = header.study_uid.empty() ? uid_of("study " + header.patient) : header.study_uid;
   names.series = uid_of(names.study + content.hex());
   names.frame = uid_of("frame " + names.study);
-  create_folder(folder);
+  formats::create_folder(folder);
   for (int k = 0; k < grid.size[2]; ++k) {
     const auto path = std::filesystem::path(folder) / fmt::format("slice-{:04}.dcm", k + 1);
-    write_file(path, slice_bytes(image, k, header, names, storage));
+    formats::write_file(path, slice_bytes(image, k, header, names, storage));
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

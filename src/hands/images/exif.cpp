@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 constexpr std::string_view kHead("Exif\0\0", 6);
@@ -231,4 +231,4 @@ std::string format_exif(const PhotoExif& exif) {
          outer.format(kFirst) + inner.format(place);
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::images {
 
 /// What a camera writes into its photographs about itself. Zero or empty: it doesn't say.
 struct PhotoExif {
@@ -33,4 +33,4 @@ std::optional<PhotoExif> read_exif(std::string_view jpeg);
 /// The data as a JPEG file holds them (its segment APP1, without the marker and the length).
 std::string format_exif(const PhotoExif& exif);
 
-}  // namespace palmar
+}  // namespace palmar::images

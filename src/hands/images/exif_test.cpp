@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 std::string bytes(std::initializer_list<int> values) {
@@ -94,4 +94,4 @@ TEST(Exif, DamagedDataAreNone) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::images

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace palmar {
+namespace palmar::images {
 
 /// Stored value of 12 bits of a test image: a slope with a pattern on it.
 inline std::uint16_t formula_value(int i, int j, int k) {
@@ -166,4 +166,4 @@ inline std::string claiming_size(std::string file, std::uint32_t columns, std::u
   return file;
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

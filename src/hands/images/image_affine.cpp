@@ -9,9 +9,9 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/bytes.h"
 
-namespace palmar {
+namespace palmar::images {
 
-void set_affine(VolumeGrid& grid, const Eigen::Matrix<double, 3, 4>& affine,
+void set_affine(imaging::VolumeGrid& grid, const Eigen::Matrix<double, 3, 4>& affine,
                 const std::string& name) {
   if (!affine.allFinite()) throw InputError(name + ": its place in space holds NaN or infinity");
   for (int a = 0; a < 3; ++a) {
@@ -64,9 +64,9 @@ template <typename T>
 std::vector<float> decode(std::string_view bytes, std::size_t count, const StoredValues& stored) {
   std::vector<float> values(count);
   for (std::size_t i = 0; i < count; ++i) {
-    values[i] = static_cast<float>(
-        stored.slope * static_cast<double>(read_value<T>(bytes, i * sizeof(T), stored.order)) +
-        stored.intercept);
+    values[i] = static_cast<float>(stored.slope * static_cast<double>(formats::read_value<T>(
+                                                      bytes, i * sizeof(T), stored.order)) +
+                                   stored.intercept);
   }
   return values;
 }
@@ -94,7 +94,7 @@ std::vector<float> decode(std::string_view bytes, std::size_t count, const Store
 
 }  // namespace
 
-std::vector<float> decode_values(std::string_view bytes, const VolumeGrid& grid,
+std::vector<float> decode_values(std::string_view bytes, const imaging::VolumeGrid& grid,
                                  const StoredValues& stored, const std::string& name) {
   const std::size_t needed = grid.count() * size_of(stored.type);
   if (bytes.size() < needed) {
@@ -113,4 +113,4 @@ std::vector<float> decode_values(std::string_view bytes, const VolumeGrid& grid,
   return values;
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

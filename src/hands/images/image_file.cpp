@@ -5,14 +5,14 @@
 
 #include <filesystem>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/file.h"
 #include "hands/images/dicom.h"
 #include "hands/images/dicom_elements.h"
 #include "hands/images/dicom_slice.h"
 #include "hands/images/image_formats.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,32 +27,32 @@ ImageFile read_image(const std::string& path, const SeriesChoice& choice,
   if (fs::is_directory(path, ignored)) return read_dicom(path, choice, progress);
   if (!fs::exists(path, ignored)) throw InputError(path + ": no such file or folder");
   progress.update(0.0, "reading " + path);
-  const std::string head = read_ends(path, 512).head;
+  const std::string head = formats::read_ends(path, 512).head;
   if (looks_like_dicom(head)) return read_dicom(path, choice, progress);
   const bool is_nifti = head.size() >= 348 && std::string_view(head).substr(344, 2) == "n+";
   if (!is_nifti && !is_gzip(head)) {
     throw InputError(
         path + ": is neither DICOM (a folder of files, or a file of several frames) nor NIfTI");
   }
-  const std::string bytes = read_file(path, kMaxImageBytes + 65536);
+  const std::string bytes = formats::read_file(path, kMaxImageBytes + 65536);
   ImageFile file = read_nifti(bytes, path);
-  for (const OddSlice& odd : odd_slices(file.image)) {
+  for (const imaging::OddSlice& odd : imaging::odd_slices(file.image)) {
     file.odd_slices.push_back(
         odd_slice_text(fmt::format("{}: slice {}", path, odd.index + 1), odd));
   }
   return file;
 }
 
-std::string odd_slice_text(const std::string& where, const OddSlice& odd) {
+std::string odd_slice_text(const std::string& where, const imaging::OddSlice& odd) {
   return fmt::format(
       "{}: differs {:.1f} times more from both its neighbours than these from each other; it is "
       "damaged, or no part of this image",
       where, odd.ratio);
 }
 
-void write_image(const std::string& path, const Volume& image) {
-  if (path.ends_with(".nii")) return write_file(path, nifti_bytes(image, false));
-  if (path.ends_with(".nii.gz")) return write_file(path, nifti_bytes(image, true));
+void write_image(const std::string& path, const imaging::Volume& image) {
+  if (path.ends_with(".nii")) return formats::write_file(path, nifti_bytes(image, false));
+  if (path.ends_with(".nii.gz")) return formats::write_file(path, nifti_bytes(image, true));
   throw OutputError(path + ": ends in neither .nii nor .nii.gz");
 }
 
@@ -106,4 +106,4 @@ std::string gzip(std::string_view bytes) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

@@ -8,13 +8,13 @@
 #include <fstream>
 #include <random>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/file.h"
 #include "hands/images/dicom.h"
 #include "hands/images/image_formats.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 using ::testing::ElementsAre;
@@ -61,7 +61,7 @@ TEST(Nifti, RightAndFrontBecomeLeftAndBack) {
     std::string bytes = nifti_file(order);
     put_sform(bytes, {2, 0, 0, 10, 0, 0, 4, 20, 0, 3, 0, 30}, order);
     const ImageFile file = read_nifti(bytes, "a.nii");
-    const VolumeGrid& grid = file.image.grid;
+    const imaging::VolumeGrid& grid = file.image.grid;
     EXPECT_LT((grid.spacing - Vec3(2, 3, 4)).norm(), 1e-9);
     EXPECT_LT((grid.to_patient(Vec3(0, 0, 0)) - Vec3(-10, -20, 30)).norm(), 1e-6);
     EXPECT_LT((grid.to_patient(Vec3(1, 0, 0)) - Vec3(-12, -20, 30)).norm(), 1e-6);
@@ -98,7 +98,7 @@ TEST(Nifti, ValuesAreScaledAndUnitsConverted) {
 
 TEST(Nifti, DamageIsNamed) {
   const auto message = [](const std::string& bytes) {
-    return message_of<InputError>([&] { read_nifti(bytes, "a.nii"); });
+    return formats::message_of<InputError>([&] { read_nifti(bytes, "a.nii"); });
   };
   const auto changed = [](std::size_t offset, auto value) {
     std::string bytes = nifti_file();
@@ -132,8 +132,8 @@ TEST(Nifti, DamageIsNamed) {
 }
 
 TEST(ImageFile, ImagesReadBackFromEveryFormat) {
-  const TestFolder folder;
-  Volume image;
+  const formats::TestFolder folder;
+  imaging::Volume image;
   image.grid.size = {5, 4, 3};
   image.grid.spacing = Vec3(0.5, 0.75, 2.0);
   image.grid.axes = Eigen::AngleAxisd(2.5, Vec3(3, -2, 1).normalized()).toRotationMatrix();
@@ -142,28 +142,28 @@ TEST(ImageFile, ImagesReadBackFromEveryFormat) {
   for (int v = 0; v < 60; ++v) image.value.push_back(0.1F * static_cast<float>(v) - 2.0F);
   for (const char* const name : {"a.nii", "a.nii.gz"}) {
     write_image(folder / name, image);
-    const Volume read = read_image(folder / name).image;
+    const imaging::Volume read = read_image(folder / name).image;
     EXPECT_EQ(read.value, image.value) << name;
     const Vec3 corner(4, 3, 2);
     // Single precision in NIfTI: 1e-7 of 40 mm.
     EXPECT_LT((read.grid.to_patient(corner) - image.grid.to_patient(corner)).norm(), 2e-5) << name;
   }
   // Without the matrix, the quaternion says the same.
-  std::string bytes = read_file(folder / "a.nii");
+  std::string bytes = formats::read_file(folder / "a.nii");
   put(bytes, 254, std::int16_t{0}, std::endian::little);
-  const VolumeGrid grid = read_nifti(bytes, "q").image.grid;
+  const imaging::VolumeGrid grid = read_nifti(bytes, "q").image.grid;
   EXPECT_LT((grid.to_patient(Vec3(4, 3, 2)) - image.grid.to_patient(Vec3(4, 3, 2))).norm(), 2e-5);
-  EXPECT_THAT(message_of<OutputError>([&] { write_image(folder / "a.png", image); }),
+  EXPECT_THAT(formats::message_of<OutputError>([&] { write_image(folder / "a.png", image); }),
               HasSubstr("a.png: ends in neither .nii nor .nii.gz"));
   std::ofstream(folder / "b.png") << "PNG";
   EXPECT_THAT(
-      message_of<InputError>([&] { read_image(folder / "b.png"); }),
+      formats::message_of<InputError>([&] { read_image(folder / "b.png"); }),
       HasSubstr(
           "b.png: is neither DICOM (a folder of files, or a file of several frames) nor NIfTI"));
 }
 
 TEST(ImageFile, FuzzedFilesAreReadOrRefusedByName) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   std::string sform = nifti_file();
   put_sform(sform, {2, 0, 0, 10, 0, 0, 4, 20, 0, 3, 0, 30});
   const std::string whole[] = {sform, gzip(sform)};
@@ -185,4 +185,4 @@ TEST(ImageFile, FuzzedFilesAreReadOrRefusedByName) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::images

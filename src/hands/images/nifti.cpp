@@ -6,13 +6,13 @@
 #include <cmath>
 #include <filesystem>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/bytes.h"
 #include "hands/images/dicom_slice.h"
 #include "hands/images/image_affine.h"
 #include "hands/images/image_formats.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/bytes.h"
 
-namespace palmar {
+namespace palmar::images {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 348;
@@ -39,7 +39,8 @@ struct Header {
   std::endian order = std::endian::little;
   template <typename T>
   T at(std::size_t offset, int index = 0) const {
-    return read_value<T>(bytes, offset + sizeof(T) * static_cast<std::size_t>(index), order);
+    return formats::read_value<T>(bytes, offset + sizeof(T) * static_cast<std::size_t>(index),
+                                  order);
   }
 };
 
@@ -99,7 +100,7 @@ Eigen::Matrix<double, 3, 4> affine_of(const Header& header, ImageFile& file) {
 template <typename T>
 void put(std::string& bytes, std::size_t offset, T value) {
   std::string raw;
-  append_value(raw, value);
+  formats::append_value(raw, value);
   bytes.replace(offset, raw.size(), raw);
 }
 
@@ -133,7 +134,7 @@ ImageFile read_nifti(std::string_view bytes, const std::string& name) {
   }
   ImageFile file;
   file.description = std::filesystem::path(name).filename().string();
-  VolumeGrid& grid = file.image.grid;
+  imaging::VolumeGrid& grid = file.image.grid;
   for (int a = 0; a < 3; ++a) {
     grid.size[static_cast<std::size_t>(a)] = header.at<std::int16_t>(kDim, a + 1);
   }
@@ -168,8 +169,8 @@ ImageFile read_nifti(std::string_view bytes, const std::string& name) {
   return file;
 }
 
-std::string nifti_bytes(const Volume& image, bool compress) {
-  const VolumeGrid& grid = image.grid;
+std::string nifti_bytes(const imaging::Volume& image, bool compress) {
+  const imaging::VolumeGrid& grid = image.grid;
   std::string bytes(352, '\0');
   put(bytes, 0, std::int32_t{348});
   put(bytes, kDim, std::int16_t{3});
@@ -206,8 +207,8 @@ std::string nifti_bytes(const Volume& image, bool compress) {
     }
   }
   bytes.replace(kMagic, 4, std::string_view("n+1\0", 4));
-  for (const float value : image.value) append_value(bytes, value);
+  for (const float value : image.value) formats::append_value(bytes, value);
   return compress ? gzip(bytes) : bytes;
 }
 
-}  // namespace palmar
+}  // namespace palmar::images

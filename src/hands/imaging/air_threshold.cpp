@@ -7,7 +7,7 @@
 
 #include "hands/imaging/otsu.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 double air_threshold(const Volume& image) {
   if (image.value.empty()) return 0.0;
@@ -25,4 +25,4 @@ double air_threshold(const Volume& image) {
   return low + otsu_threshold(count) / scale;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

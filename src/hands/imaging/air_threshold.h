@@ -4,7 +4,7 @@
 
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// Intensity that parts the image's histogram in two classes of least variance: air from tissue in
 /// an MR image of a hand. The value itself counts as air. 0 for an empty image, its value for one
@@ -13,4 +13,4 @@ namespace palmar {
 /// Source: Otsu 1979, "A threshold selection method from gray-level histograms", eq. (12), (18).
 double air_threshold(const Volume& image);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -7,14 +7,14 @@
 #include <string>
 #include <utility>
 
-#include "palmar/core/error.h"
-#include "palmar/core/parallel.h"
 #include "hands/imaging/air_threshold.h"
 #include "hands/imaging/histogram_sharpening.h"
 #include "hands/imaging/smooth_field.h"
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 [[noreturn]] void refuse(const char* field, double value, const char* allowed) {
@@ -63,7 +63,7 @@ Samples samples_of(const Volume& image, const std::vector<std::uint8_t>& mask, d
           }
         }
         if (2 * static_cast<int>(values.size()) < all) continue;
-        const float middle = median(values);
+        const float middle = statistics::median(values);
         if (!(middle > 0.0F)) continue;
         place /= static_cast<double>(values.size());
         for (int a = 0; a < 3; ++a) {
@@ -159,4 +159,4 @@ Volume corrected_for_bias(const Volume& image, const std::vector<std::uint8_t>& 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "palmar/core/progress.h"
 #include "hands/imaging/volume.h"
+#include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// How a receive coil's uneven sensitivity is taken out of an MR image.
 struct BiasFieldOptions {
@@ -35,4 +35,4 @@ struct BiasFieldOptions {
 Volume corrected_for_bias(const Volume& image, const std::vector<std::uint8_t>& mask = {},
                           const BiasFieldOptions& options = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::imaging

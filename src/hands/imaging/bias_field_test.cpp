@@ -7,12 +7,12 @@
 
 #include <cmath>
 
+#include "hands/imaging/air_threshold.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
-#include "hands/imaging/air_threshold.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 using ::testing::HasSubstr;
@@ -135,4 +135,4 @@ TEST(AirThreshold, PartsTwoClassesInTheMiddleOfTheirGap) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::imaging

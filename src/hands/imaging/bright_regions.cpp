@@ -13,7 +13,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 constexpr int kBins = 32;  // of a film's histogram, floor to the brightest voxel
@@ -241,4 +241,4 @@ BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
   return regions;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

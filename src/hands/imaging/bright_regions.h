@@ -8,7 +8,7 @@
 #include "hands/imaging/distance_transform.h"
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// Bright regions of an image that dark films part from each other.
 struct BrightRegions {
@@ -47,4 +47,4 @@ struct BrightRegionOptions {
 BrightRegions bright_regions(const Volume& image, const VoxelMask& mask,
                              const BrightRegionOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 /// Joined labels; the smaller one wins.
@@ -106,4 +106,4 @@ VoxelMask mask_of(const ConnectedParts& parts, int part) {
   return mask;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -9,7 +9,7 @@
 #include "hands/imaging/distance_transform.h"
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// What hangs together in a mask.
 struct ConnectedParts {
@@ -32,4 +32,4 @@ ConnectedParts connected_parts(const VolumeGrid& grid, const VoxelMask& mask,
 /// The voxels of one part.
 VoxelMask mask_of(const ConnectedParts& parts, int part);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <string>
 
+#include "hands/imaging/air_threshold.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
-#include "hands/imaging/air_threshold.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 /// Flow between two voxels of difference `s`: Tukey's biweight, with scale = 1 / K^2.
@@ -82,7 +82,7 @@ double noise_deviation(const Volume& image) {
   }
   if (difference.empty()) return 0.0;
   // The median of |x| is 0.6745 deviations; 1 - 2 + 1 has sqrt(6) times the noise's.
-  return median(std::move(difference)) / (0.6744897501960817 * std::sqrt(6.0));
+  return statistics::median(std::move(difference)) / (0.6744897501960817 * std::sqrt(6.0));
 }
 
 Volume denoised(const Volume& image, const DenoiseOptions& options, const Progress& progress) {
@@ -111,4 +111,4 @@ Volume denoised(const Volume& image, const DenoiseOptions& options, const Progre
   return from;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "palmar/core/progress.h"
 #include "hands/imaging/volume.h"
+#include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 struct DenoiseOptions {
   int iterations = 5;
@@ -28,4 +28,4 @@ double noise_deviation(const Volume& image);
 Volume denoised(const Volume& image, const DenoiseOptions& options = {},
                 const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -11,7 +11,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 using ::testing::HasSubstr;
@@ -104,4 +104,4 @@ TEST(Denoise, OptionsAreChecked) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::imaging

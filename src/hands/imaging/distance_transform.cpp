@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -122,4 +122,4 @@ VoxelMask closed(const VolumeGrid& grid, const VoxelMask& mask, double radius) {
   return eroded(grid, dilated(grid, mask, radius), radius);
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -7,7 +7,7 @@
 
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// One number per voxel, 0 or not: a part of the image.
 using VoxelMask = std::vector<std::uint8_t>;
@@ -29,4 +29,4 @@ VoxelMask eroded(const VolumeGrid& grid, const VoxelMask& mask, double radius);
 VoxelMask opened(const VolumeGrid& grid, const VoxelMask& mask, double radius);
 VoxelMask closed(const VolumeGrid& grid, const VoxelMask& mask, double radius);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <limits>
 
-#include "palmar/core/random.h"
 #include "hands/imaging/connected_parts.h"
+#include "palmar/core/random.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 TEST(DistanceTransform, IsTheLeastOfAllDistances) {
@@ -69,4 +69,4 @@ TEST(ConnectedParts, CornersConnectOnlyWhenAsked) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 Volume gaussian_filtered(const Volume& image, double sigma) {
   if (!(sigma >= 0.0) || !std::isfinite(sigma)) {
@@ -52,4 +52,4 @@ Volume gaussian_filtered(const Volume& image, double sigma) {
   return blurred;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -4,7 +4,7 @@
 
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// The image blurred by a Gaussian of standard deviation `sigma` [mm] along each axis, whatever the
 /// spacing; cut off at 3 sigma; at the border the weights of what is there count alone. 0 changes
@@ -12,4 +12,4 @@ namespace palmar {
 /// finite.
 Volume gaussian_filtered(const Volume& image, double sigma);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

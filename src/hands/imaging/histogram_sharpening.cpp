@@ -7,7 +7,7 @@
 #include <complex>
 #include <unsupported/Eigen/FFT>
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 using Spectrum = std::vector<std::complex<double>>;
@@ -99,4 +99,4 @@ std::vector<double> sharpened(const std::vector<double>& values, const Sharpenin
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace palmar {
+namespace palmar::imaging {
 
 struct SharpeningOptions {
   double width = 0.15;  ///< full width at half maximum of the blur, in units of the values
@@ -19,4 +19,4 @@ struct SharpeningOptions {
 /// Source: Sled, Zijdenbos, Evans 1998, IEEE Trans. Med. Imaging 17, 87-97, eq. (8)-(12).
 std::vector<double> sharpened(const std::vector<double>& values, const SharpeningOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 // Corner c of a cell has offsets (c & 1, c >> 1 & 1, c >> 2 & 1). Edge e = 4 axis + r runs along
@@ -150,7 +150,7 @@ struct Layer {
 
 }  // namespace
 
-TriangleMesh iso_surface(const Volume& image, double level) {
+geometry::TriangleMesh iso_surface(const Volume& image, double level) {
   if (image.value.size() != image.grid.count() || image.grid.count() == 0) {
     throw UsageError("iso_surface: the image has another number of values than voxels, or none");
   }
@@ -240,7 +240,7 @@ TriangleMesh iso_surface(const Volume& image, double level) {
     }
   });
 
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   std::vector<int> first_centre(layers.size());
   int count = first.back();
   std::size_t triangles = 0;
@@ -270,4 +270,4 @@ TriangleMesh iso_surface(const Volume& image, double level) {
   return mesh;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

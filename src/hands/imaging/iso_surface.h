@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "palmar/geometry/types.h"
 #include "hands/imaging/volume.h"
+#include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// Surface round everything in an image that is brighter than `level`: closed, 2-manifold, oriented
 /// outwards (towards the dark), in the patient frame, mm. What the border of the image cuts is
@@ -22,6 +22,6 @@ namespace palmar {
 ///
 /// The same for any number of threads. Empty if nothing is brighter. Throws UsageError if the image
 /// has another number of values than voxels or the level is not finite.
-TriangleMesh iso_surface(const Volume& image, double level);
+geometry::TriangleMesh iso_surface(const Volume& image, double level);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 const double kPi = std::acos(-1.0);
@@ -41,32 +41,32 @@ TEST(IsoSurface, EveryCaseOfACellGivesAClosedManifold) {
     Volume image;
     image.grid.size = {2, 2, 2};
     for (int c = 0; c < 8; ++c) image.value.push_back(((inside >> c) & 1) != 0 ? 1.0F : 0.0F);
-    const TriangleMesh mesh = iso_surface(image, 0.5);
-    const TopologyReport report = examine_topology(mesh);
+    const geometry::TriangleMesh mesh = iso_surface(image, 0.5);
+    const geometry::TopologyReport report = geometry::examine_topology(mesh);
     EXPECT_TRUE(report.is_closed && report.is_two_manifold && report.is_oriented) << inside;
-    EXPECT_GT(signed_volume(mesh), 0.0) << inside;
+    EXPECT_GT(geometry::signed_volume(mesh), 0.0) << inside;
   }
 }
 
 TEST(IsoSurface, SphereHasItsAreaAndVolume) {
-  const TriangleMesh mesh = iso_surface(
+  const geometry::TriangleMesh mesh = iso_surface(
       image_of_function(fine_grid(), [](const Vec3& p) { return 8.0 - p.norm(); }), 0.0);
   // Inscribed polyhedra lack a share of about (edge / radius)^2 / 8.
-  EXPECT_NEAR(signed_volume(mesh) / (4.0 / 3.0 * kPi * 512.0), 1.0, 0.003);
-  EXPECT_NEAR(surface_area(mesh) / (4.0 * kPi * 64.0), 1.0, 0.004);
-  EXPECT_EQ(examine_topology(mesh).euler_number, 2);
+  EXPECT_NEAR(geometry::signed_volume(mesh) / (4.0 / 3.0 * kPi * 512.0), 1.0, 0.003);
+  EXPECT_NEAR(geometry::surface_area(mesh) / (4.0 * kPi * 64.0), 1.0, 0.004);
+  EXPECT_EQ(geometry::examine_topology(mesh).euler_number, 2);
 }
 
 TEST(IsoSurface, TorusHasItsHoleAndPappusVolume) {
-  const TriangleMesh mesh = iso_surface(image_of_function(fine_grid(),
-                                                          [](const Vec3& p) {
-                                                            const double ring =
-                                                                std::hypot(p.x(), p.y()) - 6.0;
-                                                            return 2.5 - std::hypot(ring, p.z());
-                                                          }),
-                                        0.0);
-  EXPECT_EQ(examine_topology(mesh).euler_number, 0);
-  EXPECT_NEAR(signed_volume(mesh) / (2.0 * kPi * kPi * 6.0 * 6.25), 1.0, 0.01);
+  const geometry::TriangleMesh mesh =
+      iso_surface(image_of_function(fine_grid(),
+                                    [](const Vec3& p) {
+                                      const double ring = std::hypot(p.x(), p.y()) - 6.0;
+                                      return 2.5 - std::hypot(ring, p.z());
+                                    }),
+                  0.0);
+  EXPECT_EQ(geometry::examine_topology(mesh).euler_number, 0);
+  EXPECT_NEAR(geometry::signed_volume(mesh) / (2.0 * kPi * kPi * 6.0 * 6.25), 1.0, 0.01);
 }
 
 TEST(IsoSurface, BorderIsClosedOnTheVoxelsOuterFacesAndMirroredAxesStayOutward) {
@@ -75,10 +75,10 @@ TEST(IsoSurface, BorderIsClosedOnTheVoxelsOuterFacesAndMirroredAxesStayOutward) 
   image.grid.spacing = {1.0, 2.0, 0.5};
   image.grid.axes.col(2) *= -1.0;
   image.value.assign(60, 7.0F);
-  const TriangleMesh mesh = iso_surface(image, 1.0);
-  const Box3 box = bounding_box(mesh);
+  const geometry::TriangleMesh mesh = iso_surface(image, 1.0);
+  const Box3 box = geometry::bounding_box(mesh);
   EXPECT_NEAR((box.sizes() - Vec3(3.0, 8.0, 2.5)).norm(), 0.0, 1e-12);  // mm
-  EXPECT_GT(signed_volume(mesh), 0.0);
+  EXPECT_GT(geometry::signed_volume(mesh), 0.0);
 }
 
 TEST(IsoSurface, NothingBrightGivesNoSurfaceAndAWrongSizeIsRefused) {
@@ -91,4 +91,4 @@ TEST(IsoSurface, NothingBrightGivesNoSurfaceAndAWrongSizeIsRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::imaging

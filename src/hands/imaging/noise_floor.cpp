@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::imaging {
 
 double without_noise_floor(double magnitude, double sigma) {
   const double square = magnitude * magnitude - 2.0 * sigma * sigma;
@@ -23,4 +23,4 @@ double with_noise_floor(double signal, double sigma) {
   return std::sqrt(signal * signal + 2.0 * sigma * sigma);
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

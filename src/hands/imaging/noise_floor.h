@@ -4,7 +4,7 @@
 
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// Takes the floor out of a magnitude image: noise has no sign in one, so that air isn't dark and
 /// every threshold half way between air and tissue lies too high. The square of a magnitude M with
@@ -20,4 +20,4 @@ Volume without_noise_floor(Volume image, double sigma);
 /// The magnitude that a signal has in the mean, at 2 sigma and more.
 double with_noise_floor(double signal, double sigma);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -10,7 +10,7 @@
 
 #include "hands/imaging/iso_surface.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 // A half space with signal 80 ends at x = 10.3 mm; voxels of 0.8 mm are shares of it. Rician noise.
@@ -52,4 +52,4 @@ TEST(NoiseFloor, IsTakenOutAndPutBack) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::imaging

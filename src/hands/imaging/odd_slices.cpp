@@ -8,7 +8,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 /// Root mean square of the difference of two slices.
@@ -45,9 +45,9 @@ std::vector<OddSlice> odd_slices(const Volume& image) {
     ratios.push_back(all.back().ratio);
   }
   if (ratios.empty()) return {};
-  const double limit = std::max(1.5, 2.0 * median(std::move(ratios)));
+  const double limit = std::max(1.5, 2.0 * statistics::median(std::move(ratios)));
   std::erase_if(all, [&](const OddSlice& one) { return one.ratio <= limit; });
   return all;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -6,7 +6,7 @@
 
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// A slice that doesn't belong between its neighbours.
 struct OddSlice {
@@ -21,4 +21,4 @@ struct OddSlice {
 /// The two outermost slices can't be determined.
 std::vector<OddSlice> odd_slices(const Volume& image);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

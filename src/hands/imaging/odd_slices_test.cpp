@@ -6,7 +6,7 @@
 
 #include "palmar/core/random.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 /// A ball in noise, seen in 40 slices.
@@ -65,4 +65,4 @@ TEST(OddSlices, ImagesTooThinOrEvenHaveNone) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace palmar {
+namespace palmar::imaging {
 
 double otsu_threshold(const std::vector<double>& histogram) {
   double total = 0.0, sum = 0.0;
@@ -29,4 +29,4 @@ double otsu_threshold(const std::vector<double>& histogram) {
   return 0.5 * static_cast<double>(first_best + last_best) + 1.0;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

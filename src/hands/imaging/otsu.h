@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// The place that parts a histogram in two classes of least variance, as a number of bins: bins
 /// below it are one class. Where empty bins lie between the classes, their middle, so halves occur;
@@ -13,4 +13,4 @@ namespace palmar {
 /// Source: Otsu 1979, "A threshold selection method from gray-level histograms", eq. (12), (18).
 double otsu_threshold(const std::vector<double>& histogram);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

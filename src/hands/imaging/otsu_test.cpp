@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 TEST(OtsuThreshold, LiesInTheMiddleOfTheGapBetweenTwoHeaps) {
@@ -46,4 +46,4 @@ TEST(OtsuThreshold, OfOneHeapOrNone) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -10,11 +10,11 @@
 #include <string>
 #include <utility>
 
-#include "palmar/core/error.h"
 #include "hands/imaging/connected_parts.h"
 #include "hands/imaging/iso_surface.h"
+#include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 using Bits = std::uint32_t;
@@ -96,7 +96,7 @@ VoxelMask without_bubbles(const VolumeGrid& grid, VoxelMask mask) {
   return mask;
 }
 
-int euler_number(const TriangleMesh& mesh) {
+int euler_number(const geometry::TriangleMesh& mesh) {
   return mesh.vertex_count() - mesh.triangle_count() / 2;
 }
 
@@ -193,4 +193,4 @@ SimpleSurface simple_surface(Volume image, double level, double contrast) {
   return surface;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

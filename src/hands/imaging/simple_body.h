@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "palmar/geometry/types.h"
 #include "hands/imaging/distance_transform.h"
 #include "hands/imaging/volume.h"
+#include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// Grows a body without handles and holes within a mask: from the voxel with the largest `order`
 /// always by the voxel of the mask next to it with the largest `order` that is simple (is_simple),
@@ -32,7 +32,7 @@ bool is_simple(std::uint32_t around);
 
 /// A surface and what it took to make it one.
 struct SimpleSurface {
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   int handles = 0;  ///< that were cut through, 0 if there were none
 };
 
@@ -42,4 +42,4 @@ struct SimpleSurface {
 /// `contrast` beyond it. Empty if nothing is brighter.
 SimpleSurface simple_surface(Volume image, double level, double contrast);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

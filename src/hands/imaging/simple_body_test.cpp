@@ -9,12 +9,12 @@
 #include <numbers>
 #include <random>
 
+#include "hands/imaging/iso_surface.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
-#include "hands/imaging/iso_surface.h"
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 template <typename F>
@@ -45,8 +45,8 @@ Volume tube(int n, double radius, const Curve& curve) {
   });
 }
 
-TopologyReport topology_of(const Volume& image) {
-  return examine_topology(iso_surface(image, 0.5));
+geometry::TopologyReport topology_of(const Volume& image) {
+  return geometry::examine_topology(iso_surface(image, 0.5));
 }
 
 // Whatever surrounds a voxel: flipping it keeps Euler number and number of pieces of the surface
@@ -67,9 +67,9 @@ TEST(SimpleBody, FlippingASimpleVoxelKeepsTheTopologyOfTheSurface) {
       image.value[image.grid.at(1 + n % 3, 1 + n / 3 % 3, 1 + n / 9)] =
           ((around >> n) & 1U) != 0 ? 1.0F : 0.0F;
     }
-    const TopologyReport without = topology_of(image);
+    const geometry::TopologyReport without = topology_of(image);
     image.value[image.grid.at(2, 2, 2)] = 1.0F;
-    const TopologyReport with = topology_of(image);
+    const geometry::TopologyReport with = topology_of(image);
     const bool is_same =
         with.euler_number == without.euler_number && with.components == without.components;
     if (is_simple(around)) {
@@ -103,12 +103,14 @@ TEST(SimpleBody, RingIsCutWhereItIsThinnest) {
   ASSERT_EQ(topology_of(ring).euler_number, 0);
   const SimpleSurface surface = simple_surface(ring, 0.5, 1.0);
   EXPECT_EQ(surface.handles, 1);
-  const TopologyReport report = examine_topology(surface.mesh);
+  const geometry::TopologyReport report = geometry::examine_topology(surface.mesh);
   EXPECT_EQ(report.euler_number, 2);
   EXPECT_EQ(report.components, 1);
   EXPECT_TRUE(report.is_closed && report.is_two_manifold);
   // A film of one voxel is missing.
-  EXPECT_NEAR(signed_volume(surface.mesh) / signed_volume(iso_surface(ring, 0.5)), 1.0, 0.02);
+  EXPECT_NEAR(
+      geometry::signed_volume(surface.mesh) / geometry::signed_volume(iso_surface(ring, 0.5)), 1.0,
+      0.02);
   const VoxelMask body = [&] {
     VoxelMask mask(ring.value.size());
     for (std::size_t v = 0; v < mask.size(); ++v) mask[v] = ring.value[v] > 0.5F ? 1 : 0;
@@ -135,8 +137,9 @@ TEST(SimpleBody, KnotBecomesASphereToo) {
   ASSERT_EQ(topology_of(knot).euler_number, 0);
   const SimpleSurface surface = simple_surface(knot, 0.5, 1.0);
   EXPECT_EQ(surface.handles, 1);
-  EXPECT_EQ(examine_topology(surface.mesh).euler_number, 2);
-  EXPECT_GT(signed_volume(surface.mesh), 0.97 * signed_volume(iso_surface(knot, 0.5)));
+  EXPECT_EQ(geometry::examine_topology(surface.mesh).euler_number, 2);
+  EXPECT_GT(geometry::signed_volume(surface.mesh),
+            0.97 * geometry::signed_volume(iso_surface(knot, 0.5)));
 }
 
 TEST(SimpleBody, NoiseLeavesASphereAndBubblesAreFilled) {
@@ -147,10 +150,10 @@ TEST(SimpleBody, NoiseLeavesASphereAndBubblesAreFilled) {
     return r < 3.0 ? 0.0 : std::clamp(0.5 + 0.3 * (11.0 - r), 0.0, 1.0) + noise(random);
   });
   const SimpleSurface surface = simple_surface(ball, 0.5, 1.0);
-  const TopologyReport report = examine_topology(surface.mesh);
+  const geometry::TopologyReport report = geometry::examine_topology(surface.mesh);
   EXPECT_EQ(report.euler_number, 2);
   EXPECT_EQ(report.components, 1);
-  EXPECT_NEAR(signed_volume(surface.mesh), 4.0 / 3.0 * std::numbers::pi * 1331.0, 300.0);
+  EXPECT_NEAR(geometry::signed_volume(surface.mesh), 4.0 / 3.0 * std::numbers::pi * 1331.0, 300.0);
 }
 
 TEST(SimpleBody, EmptyMaskAndWrongCountsAreReported) {
@@ -163,4 +166,4 @@ TEST(SimpleBody, EmptyMaskAndWrongCountsAreReported) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 /// Patch of a place in [0, 1] and the weights of its four control points.
@@ -116,4 +116,4 @@ std::vector<double> SmoothFieldFit::add_to(SmoothField& field,
   return fitted;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// A smooth function on the unit cube: uniform cubic B-splines on n x n x n patches.
 class SmoothField {
@@ -56,4 +56,4 @@ class SmoothFieldFit {
   std::vector<Place> places_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::imaging

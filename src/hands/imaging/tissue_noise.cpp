@@ -8,7 +8,7 @@
 
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 double tissue_noise(const Volume& image, const std::vector<float>& depth, double deeper) {
   constexpr double kNormal = 1.4826;  // standard deviation over median of the absolute value
@@ -30,10 +30,11 @@ double tissue_noise(const Volume& image, const std::vector<float>& depth, double
       }
     }
     if (residual.empty()) return 0.0;
-    const double here = kNormal * static_cast<double>(median(std::move(residual))) / std::sqrt(1.5);
+    const double here =
+        kNormal * static_cast<double>(statistics::median(std::move(residual))) / std::sqrt(1.5);
     least = axis == 0 ? here : std::min(least, here);
   }
   return least;
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -6,7 +6,7 @@
 
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// Standard deviation of an image's noise, from the tissue itself: where scanners mask the air, its
 /// noise is gone. A voxel less the mean of its two neighbours along an axis has no signal where
@@ -16,4 +16,4 @@ namespace palmar {
 /// deep. Source: Immerkaer 1996, "Fast noise variance estimation", with the median of Donoho 1995.
 double tissue_noise(const Volume& image, const std::vector<float>& depth, double deeper);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

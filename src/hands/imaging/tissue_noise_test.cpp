@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-namespace palmar {
+namespace palmar::imaging {
 namespace {
 
 // Layers of 5 to 9 voxels across one axis, a slow wave along the others, air that is masked.
@@ -47,4 +47,4 @@ TEST(TissueNoise, NothingDeepEnoughHasNone) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::imaging

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::imaging {
 
 float value_at(const Volume& image, const Vec3& voxel) {
   const VolumeGrid& grid = image.grid;
@@ -32,4 +32,4 @@ float value_at(const Volume& image, const Vec3& voxel) {
   return static_cast<float>(sum);
 }
 
-}  // namespace palmar
+}  // namespace palmar::imaging

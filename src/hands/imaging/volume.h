@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::imaging {
 
 /// Where the voxels of an image are. Patient frame: that of DICOM (x to the patient's left, y to
 /// the back, z to the head), mm.
@@ -42,4 +42,4 @@ struct Volume {
 /// Intensity between voxel centres, trilinear; 0 outside of the outermost centres.
 float value_at(const Volume& image, const Vec3& voxel);
 
-}  // namespace palmar
+}  // namespace palmar::imaging

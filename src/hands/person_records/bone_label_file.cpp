@@ -6,10 +6,10 @@
 
 #include "palmar/formats/csv_reader.h"
 
-namespace palmar {
+namespace palmar::person_records {
 
-std::vector<BoneLabel> read_bone_labels(const std::string& path) {
-  const CsvFile file = read_csv(path);
+std::vector<hand::BoneLabel> read_bone_labels(const std::string& path) {
+  const formats::CsvFile file = formats::read_csv(path);
   std::array<std::size_t, 4> column{};
   const std::array<const char*, 4> names = {"name", "x_mm", "y_mm", "z_mm"};
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -20,9 +20,9 @@ std::vector<BoneLabel> read_bone_labels(const std::string& path) {
     }
     column[k] = static_cast<std::size_t>(found);
   }
-  std::vector<BoneLabel> labels;
-  for (const CsvFile::Row& row : file.rows) {
-    BoneLabel label;
+  std::vector<hand::BoneLabel> labels;
+  for (const formats::CsvFile::Row& row : file.rows) {
+    hand::BoneLabel label;
     label.name = row.cells[column[0]];
     for (int a = 0; a < 3; ++a) {
       label.point[a] = file.number(row, column[static_cast<std::size_t>(a) + 1]);
@@ -33,4 +33,4 @@ std::vector<BoneLabel> read_bone_labels(const std::string& path) {
   return labels;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_records

@@ -9,20 +9,20 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::person_records {
 namespace {
 
 using ::testing::HasSubstr;
-using Kind = MarkLabel::Kind;
+using Kind = hand::MarkLabel::Kind;
 
-std::vector<MarkLabel> labels_in(const std::string& rows) {
-  const TestFolder folder;
-  write_file(folder / "marks.csv", "posture,mark,name,x_mm,y_mm,z_mm\n" + rows);
+std::vector<hand::MarkLabel> labels_in(const std::string& rows) {
+  const formats::TestFolder folder;
+  formats::write_file(folder / "marks.csv", "posture,mark,name,x_mm,y_mm,z_mm\n" + rows);
   return read_mark_labels((folder / "marks.csv").string());
 }
 
 std::string refusal_of_marks(const std::string& rows) {
-  return message_of<InputError>([&] { labels_in(rows); });
+  return formats::message_of<InputError>([&] { labels_in(rows); });
 }
 
 TEST(MarkLabelFile, ReadsNamesRemovalsAndAdditions) {
@@ -31,25 +31,25 @@ TEST(MarkLabelFile, ReadsNamesRemovalsAndAdditions) {
       "reference,added_dot,palm,-1,0.5,2\n");
   ASSERT_EQ(labels.size(), 3U);  // a row without a name says nothing
   EXPECT_EQ(labels[0].kind, Kind::kCrease);
-  EXPECT_EQ(labels[0].segment, Segment::kPalm);
+  EXPECT_EQ(labels[0].segment, hand::Segment::kPalm);
   EXPECT_EQ(labels[0].point, Vec3(1, 2, 3));
-  EXPECT_EQ(labels[1].posture, ScanPosture::kFingerFlexion);
+  EXPECT_EQ(labels[1].posture, hand::ScanPosture::kFingerFlexion);
   EXPECT_FALSE(labels[1].segment);
   EXPECT_THAT(labels[1].place, HasSubstr("marks.csv:4"));
   EXPECT_TRUE(labels[2].is_added);
 }
 
 TEST(MarkLabelFile, WritesWhatItReads) {
-  const std::vector<TakenMark> marks{
-      {ScanPosture::kReference, Kind::kCrease, Segment::kPalm, {1, 2, 3}},
-      {ScanPosture::kReference, Kind::kDot, Segment::kPalm, {4, 5, 6}},
-      {ScanPosture::kFingerAbduction, Kind::kDot, {}, {7, 8, 9}},
-      {ScanPosture::kFingerFlexion, Kind::kDot, Segment::kRingDistal, {-7.25, 8, 9}}};
-  const TestFolder folder;
-  write_file(folder / "taken.csv", format_csv(mark_table(marks)));
+  const std::vector<capture::TakenMark> marks{
+      {hand::ScanPosture::kReference, Kind::kCrease, hand::Segment::kPalm, {1, 2, 3}},
+      {hand::ScanPosture::kReference, Kind::kDot, hand::Segment::kPalm, {4, 5, 6}},
+      {hand::ScanPosture::kFingerAbduction, Kind::kDot, {}, {7, 8, 9}},
+      {hand::ScanPosture::kFingerFlexion, Kind::kDot, hand::Segment::kRingDistal, {-7.25, 8, 9}}};
+  const formats::TestFolder folder;
+  formats::write_file(folder / "taken.csv", records::format_csv(mark_table(marks)));
   const auto labels = read_mark_labels((folder / "taken.csv").string());
   ASSERT_EQ(labels.size(), 3U);
-  EXPECT_EQ(labels[2].segment, Segment::kRingDistal);
+  EXPECT_EQ(labels[2].segment, hand::Segment::kRingDistal);
   EXPECT_EQ(labels[2].point, marks[3].point);
 }
 
@@ -64,4 +64,4 @@ TEST(MarkLabelFile, NamesLineAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::person_records

@@ -17,7 +17,7 @@
 #include "palmar/formats/json_reason.h"
 #include "palmar/formats/json_whole.h"
 
-namespace palmar {
+namespace palmar::person_records {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -63,7 +63,7 @@ void describe_by_names(const fs::path& folder, PhotoSet& set) {
 void read_exif_data(PhotoSet& set) {
   constexpr std::size_t kBeginning = 1 << 17;
   for (PhotoFile& file : set.photographs) {
-    file.exif = read_exif(read_ends(file.path, kBeginning).head);
+    file.exif = images::read_exif(formats::read_ends(file.path, kBeginning).head);
   }
 }
 
@@ -93,7 +93,7 @@ void check_cameras(const PhotoSet& set) {
 void read_description(const fs::path& path, const fs::path& folder, PhotoSet& set) {
   const std::string name = path.string();
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = Json::parse(formats::read_file(path));
     if (json.contains("board")) {
       const Json& board = json.at("board");
       set.board.squares = board.value("squares", set.board.squares);
@@ -104,7 +104,7 @@ void read_description(const fs::path& path, const fs::path& folder, PhotoSet& se
     for (const Json& one : json.at("photographs")) {
       PhotoFile file{folder / one.at("file").get<std::string>(),
                      one.value("camera", std::string("camera")),
-                     json_whole<int>(one.at("position")),
+                     formats::json_whole<int>(one.at("position")),
                      {}};
       if (!fs::is_regular_file(file.path)) {
         throw InputError(name + ": photograph " + file.path.string() + " isn't there");
@@ -113,7 +113,7 @@ void read_description(const fs::path& path, const fs::path& folder, PhotoSet& se
     }
     set.is_described = !set.photographs.empty();
   } catch (const Json::exception& error) {
-    throw InputError(name + ": " + json_reason(error));
+    throw InputError(name + ": " + formats::json_reason(error));
   }
   try {
     set.board.check();
@@ -180,11 +180,11 @@ PhotoLenses read_lenses(const fs::path& path) {
   const std::string name = path.string();
   PhotoLenses lenses;
   try {
-    const Json json = Json::parse(read_file(path));
+    const Json json = Json::parse(formats::read_file(path));
     for (const auto& [camera, one] : json.at("cameras").items()) {
-      LensCalibration calibration;
-      calibration.lens = {.width = json_whole<int>(one.at("width_px")),
-                          .height = json_whole<int>(one.at("height_px")),
+      capture::LensCalibration calibration;
+      calibration.lens = {.width = formats::json_whole<int>(one.at("width_px")),
+                          .height = formats::json_whole<int>(one.at("height_px")),
                           .focal_x = one.at("focal_x_px").get<double>(),
                           .focal_y = one.at("focal_y_px").get<double>(),
                           .centre_x = one.at("centre_x_px").get<double>(),
@@ -194,12 +194,12 @@ PhotoLenses read_lenses(const fs::path& path) {
       calibration.rms = one.value("rms_px", 0.0);
       calibration.focal_deviation = one.value("focal_deviation_px", 0.0);
       calibration.centre_deviation = one.value("centre_deviation_px", 0.0);
-      calibration.photographs = json_whole_or<int>(one, "photographs", 0);
+      calibration.photographs = formats::json_whole_or<int>(one, "photographs", 0);
       calibration.lens.check(name + ": camera " + camera);
       lenses[camera] = std::move(calibration);
     }
   } catch (const Json::exception& error) {
-    throw InputError(name + ": " + json_reason(error));
+    throw InputError(name + ": " + formats::json_reason(error));
   }
   return lenses;
 }
@@ -224,4 +224,4 @@ std::string format_lenses(const PhotoLenses& lenses) {
          "\n";
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_records

@@ -12,19 +12,19 @@
 #include "hands/capture/photo/lens_calibration.h"
 #include "hands/images/exif.h"
 
-namespace palmar {
+namespace palmar::person_records {
 
 /// A photograph of a set, as the set describes it.
 struct PhotoFile {
   std::filesystem::path path;
   std::string camera;  ///< photographs of one camera have one lens
   int position = 0;    ///< of the rig: those of one were taken together; from 0 without gaps
-  std::optional<PhotoExif> exif;  ///< what the camera says, if it does
+  std::optional<images::PhotoExif> exif;  ///< what the camera says, if it does
 };
 
 struct PhotoSet {
   std::vector<PhotoFile> photographs;  ///< by position, then by camera
-  BoardPattern board;
+  capture::BoardPattern board;
   bool is_described = false;  ///< by photos.json or by the files' names
 };
 
@@ -45,8 +45,8 @@ bool holds_photographs(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> paths_of(const PhotoSet& set);
 
 /// Lenses by camera, as `palmar photos calibrate` writes them.
-using PhotoLenses = std::map<std::string, LensCalibration>;
+using PhotoLenses = std::map<std::string, capture::LensCalibration>;
 PhotoLenses read_lenses(const std::filesystem::path& path);
 std::string format_lenses(const PhotoLenses& lenses);
 
-}  // namespace palmar
+}  // namespace palmar::person_records

@@ -11,28 +11,30 @@
 #include "palmar/formats/process/program_missing.h"
 #include "palmar/formats/process/worker.h"
 
-namespace palmar {
+namespace palmar::person_records {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json run_photo(const std::string& verb, Json request, const WorkerFolder& folder,
+Json run_photo(const std::string& verb, Json request, const formats::WorkerFolder& folder,
                const std::string& object, const Progress& progress) {
-  static const Worker kPhoto = {.program = "palmar-photo",
-                                .variable = "PALMAR_PHOTO",
-                                .name = "the photograph program",
-                                .crashed = "the photograph program crashed on it",
-                                .reason = "it is damaged, or holds what OpenCV can't handle"};
-  if (!std::filesystem::exists(program_of(kPhoto))) {
-    throw ProgramMissing(program_of(kPhoto).string() +
-                         " isn't there: Palmar was built without OpenCV (libopencv-contrib-dev), "
-                         "which boards in photographs are found with");
+  static const formats::Worker kPhoto = {
+      .program = "palmar-photo",
+      .variable = "PALMAR_PHOTO",
+      .name = "the photograph program",
+      .crashed = "the photograph program crashed on it",
+      .reason = "it is damaged, or holds what OpenCV can't handle"};
+  if (!std::filesystem::exists(formats::program_of(kPhoto))) {
+    throw formats::ProgramMissing(
+        formats::program_of(kPhoto).string() +
+        " isn't there: Palmar was built without OpenCV (libopencv-contrib-dev), "
+        "which boards in photographs are found with");
   }
   request["threads"] = thread_count();
   constexpr double kSeconds = 3600.0, kMegabytes = 8192.0;
-  const std::string reply =
-      run_worker(kPhoto, verb, request.dump(), folder, object,
-                 {.seconds = kSeconds, .memory_mb = kMegabytes, .is_fixed = true}, progress);
+  const std::string reply = formats::run_worker(
+      kPhoto, verb, request.dump(), folder, object,
+      {.seconds = kSeconds, .memory_mb = kMegabytes, .is_fixed = true}, progress);
   return Json::parse(reply);
 }
 
@@ -43,27 +45,27 @@ auto taken(const Take& take) {
     return take();
   } catch (const Json::exception& error) {
     throw InputError(std::string("the photograph program's answer is damaged: ") +
-                     json_reason(error));
+                     formats::json_reason(error));
   }
 }
 
-Json json_of(const BoardPattern& pattern) {
+Json json_of(const capture::BoardPattern& pattern) {
   return {
       {"squares", pattern.squares}, {"square_mm", pattern.square}, {"marker_mm", pattern.marker}};
 }
 
 }  // namespace
 
-BoardPicture draw_board(const BoardPattern& pattern, int pixels_per_square) {
+capture::BoardPicture draw_board(const capture::BoardPattern& pattern, int pixels_per_square) {
   pattern.check();
-  const WorkerFolder folder;
+  const formats::WorkerFolder folder;
   return taken([&] {
     const Json reply = run_photo(
         "board", {{"pattern", json_of(pattern)}, {"pixels_per_square", pixels_per_square}}, folder,
         "the board", {});
-    BoardPicture picture;
+    capture::BoardPicture picture;
     picture.pixels = reply.at("pixels").get<int>();
-    const std::string bytes = read_file(folder.path() / "board.bin");
+    const std::string bytes = formats::read_file(folder.path() / "board.bin");
     picture.grey.assign(bytes.begin(), bytes.end());
     if (picture.pixels < 1 ||
         picture.grey.size() != static_cast<std::size_t>(picture.pixels) * picture.pixels) {
@@ -73,13 +75,13 @@ BoardPicture draw_board(const BoardPattern& pattern, int pixels_per_square) {
   });
 }
 
-std::vector<BoardSighting> find_boards(const BoardPattern& pattern,
+std::vector<BoardSighting> find_boards(const capture::BoardPattern& pattern,
                                        const std::vector<std::filesystem::path>& files,
                                        const Progress& progress) {
   pattern.check();
   Json names = Json::array();
   for (const auto& file : files) names.push_back(std::filesystem::absolute(file).string());
-  const WorkerFolder folder;
+  const formats::WorkerFolder folder;
   return taken([&] {
     const Json reply = run_photo("corners", {{"pattern", json_of(pattern)}, {"files", names}},
                                  folder, "photographs", progress);
@@ -103,9 +105,10 @@ std::vector<BoardSighting> find_boards(const BoardPattern& pattern,
   });
 }
 
-PointMatches match_points(const std::vector<MatchPicture>& pictures,
-                          const std::vector<std::array<int, 2>>& pairs, const Progress& progress) {
-  const WorkerFolder folder;
+capture::PointMatches match_points(const std::vector<MatchPicture>& pictures,
+                                   const std::vector<std::array<int, 2>>& pairs,
+                                   const Progress& progress) {
+  const formats::WorkerFolder folder;
   std::string bytes;
   Json sizes = Json::array();
   for (const MatchPicture& picture : pictures) {
@@ -113,11 +116,11 @@ PointMatches match_points(const std::vector<MatchPicture>& pictures,
     bytes.append(picture.grey.begin(), picture.grey.end());
     bytes.append(picture.inside.begin(), picture.inside.end());
   }
-  write_file(folder.path() / "pictures.bin", bytes);
+  formats::write_file(folder.path() / "pictures.bin", bytes);
   return taken([&] {
     const Json reply = run_photo("match", {{"pictures", sizes}, {"pairs", pairs}}, folder,
                                  "photographs", progress);
-    PointMatches matches;
+    capture::PointMatches matches;
     matches.point = reply.at("points").get<std::vector<std::vector<std::array<float, 2>>>>();
     matches.pair = pairs;
     matches.match = reply.at("pairs").get<std::vector<std::vector<std::array<int, 2>>>>();
@@ -136,4 +139,4 @@ PointMatches match_points(const std::vector<MatchPicture>& pictures,
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_records

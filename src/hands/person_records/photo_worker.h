@@ -11,22 +11,22 @@
 #include "palmar/core/progress.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::person_records {
 
 /// The pattern of a board with `pixels_per_square` pixels along a square. This and the functions
 /// below start palmar-photo (beside this program, or $PALMAR_PHOTO), which links OpenCV; they throw
 /// ProgramMissing if Palmar was built without it, and as run_worker() does.
-BoardPicture draw_board(const BoardPattern& pattern, int pixels_per_square);
+capture::BoardPicture draw_board(const capture::BoardPattern& pattern, int pixels_per_square);
 
 /// What a photograph shows of the board.
 struct BoardSighting {
   int width = 0, height = 0;  ///< pixels
   double sharpness = 0.0;     ///< steepest edges over the range of brightness; a print's is up to 1
-  std::vector<BoardCorner> corners;
+  std::vector<capture::BoardCorner> corners;
 };
 
 /// Corners of the board in every file (PNG, JPEG), a file each.
-std::vector<BoardSighting> find_boards(const BoardPattern& pattern,
+std::vector<BoardSighting> find_boards(const capture::BoardPattern& pattern,
                                        const std::vector<std::filesystem::path>& files,
                                        const Progress& progress = {});
 
@@ -37,8 +37,8 @@ struct MatchPicture {
 };
 
 /// Points that look distinct and which look alike, for pairs of pictures.
-PointMatches match_points(const std::vector<MatchPicture>& pictures,
-                          const std::vector<std::array<int, 2>>& pairs,
-                          const Progress& progress = {});
+capture::PointMatches match_points(const std::vector<MatchPicture>& pictures,
+                                   const std::vector<std::array<int, 2>>& pairs,
+                                   const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::person_records

@@ -14,7 +14,7 @@
 #include "palmar/formats/mesh/ply.h"
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::person_records {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ constexpr int kVersion = 1;
 constexpr const char* kIndex = "scan.json";
 
 /// Each bone's file: its name, or its number for one without; a second one of a name gets it, too.
-std::vector<std::string> files_of(const std::vector<ScannedBone>& bones) {
+std::vector<std::string> files_of(const std::vector<capture::ScannedBone>& bones) {
   std::vector<std::string> files;
   for (std::size_t b = 0; b < bones.size(); ++b) {
     std::string file = bones[b].name.empty() ? fmt::format("bone-{}", b + 1) : bones[b].name;
@@ -40,14 +40,14 @@ std::vector<std::string> files_of(const std::vector<ScannedBone>& bones) {
 
 Json parsed_index(const fs::path& path) {
   try {
-    return Json::parse(read_file(path));
+    return Json::parse(formats::read_file(path));
   } catch (const Json::exception& error) {
-    throw InputError(path.string() + ": is no JSON: " + json_reason(error));
+    throw InputError(path.string() + ": is no JSON: " + formats::json_reason(error));
   }
 }
 
-TriangleMesh mesh_at(const fs::path& path) {
-  return parse_ply(read_file(path), path.string()).mesh;
+geometry::TriangleMesh mesh_at(const fs::path& path) {
+  return formats::parse_ply(formats::read_file(path), path.string()).mesh;
 }
 
 Vec3 vector_in(const Json& json) {
@@ -56,38 +56,38 @@ Vec3 vector_in(const Json& json) {
 
 }  // namespace
 
-void write_scan_surfaces(const std::string& folder, const ScanSurfaces& surfaces,
+void write_scan_surfaces(const std::string& folder, const capture::ScanSurfaces& surfaces,
                          const std::string& key) {
   const fs::path base(folder);
-  create_folder(base);
+  formats::create_folder(base);
   std::error_code ignored;
   fs::remove(base / kIndex, ignored);
   fs::remove_all(base / "bones", ignored);  // another run's names
-  create_folder(base / "bones");
-  write_file(base / "skin.ply", format_ply(surfaces.skin));
+  formats::create_folder(base / "bones");
+  formats::write_file(base / "skin.ply", formats::format_ply(surfaces.skin));
   const std::vector<std::string> files = files_of(surfaces.bones);
   Json bones = Json::array();
   for (std::size_t b = 0; b < files.size(); ++b) {
-    const ScannedBone& bone = surfaces.bones[b];
-    write_file(base / files[b], format_ply(bone.mesh));
+    const capture::ScannedBone& bone = surfaces.bones[b];
+    formats::write_file(base / files[b], formats::format_ply(bone.mesh));
     bones.push_back({{"name", bone.name}, {"file", files[b]}, {"is_cut", bone.is_cut}});
   }
   Json markers = Json::array();
-  for (const Vec3& marker : surfaces.markers) markers.push_back(vector3(marker));
+  for (const Vec3& marker : surfaces.markers) markers.push_back(records::vector3(marker));
   const Json index = {{"palmar_scan_version", kVersion},
                       {"key", key},
                       {"side", std::string(name_of(surfaces.side))},
                       {"air_threshold", surfaces.air_threshold},
                       {"bone_threshold", surfaces.bone_threshold},
                       {"noise", surfaces.noise},
-                      {"voxel_mm", vector3(surfaces.voxel)},
+                      {"voxel_mm", records::vector3(surfaces.voxel)},
                       {"bone_error_estimate_mm", surfaces.bone_error_estimate},
-                      {"fat_shift_mm", vector3(surfaces.fat_shift)},
+                      {"fat_shift_mm", records::vector3(surfaces.fat_shift)},
                       {"skin", "skin.ply"},
                       {"bones", bones},
                       {"markers_mm", markers},
                       {"notes", surfaces.notes}};
-  write_file(base / kIndex, index.dump(1) + "\n");
+  formats::write_file(base / kIndex, index.dump(1) + "\n");
 }
 
 std::string key_of_scan_surfaces(const std::string& folder) {
@@ -101,21 +101,21 @@ std::string key_of_scan_surfaces(const std::string& folder) {
   }
 }
 
-ScanSurfaces read_scan_surfaces(const std::string& folder) {
+capture::ScanSurfaces read_scan_surfaces(const std::string& folder) {
   const fs::path base(folder), path = base / kIndex;
   const Json json = parsed_index(path);
   try {
-    const int version = json_whole<int>(json.at("palmar_scan_version"));
+    const int version = formats::json_whole<int>(json.at("palmar_scan_version"));
     if (version > kVersion) {
       throw InputError(fmt::format("{}: is of version {}; this program reads up to {}",
                                    path.string(), version, kVersion));
     }
-    ScanSurfaces surfaces;
+    capture::ScanSurfaces surfaces;
     const std::string side = json.at("side").get<std::string>();
-    if (side != name_of(Side::kLeft) && side != name_of(Side::kRight)) {
+    if (side != name_of(hand::Side::kLeft) && side != name_of(hand::Side::kRight)) {
       throw InputError(path.string() + ": side is \"" + side + "\"; left and right are allowed");
     }
-    surfaces.side = side == name_of(Side::kLeft) ? Side::kLeft : Side::kRight;
+    surfaces.side = side == name_of(hand::Side::kLeft) ? hand::Side::kLeft : hand::Side::kRight;
     surfaces.air_threshold = json.at("air_threshold").get<double>();
     surfaces.bone_threshold = json.at("bone_threshold").get<double>();
     surfaces.noise = json.at("noise").get<double>();
@@ -132,8 +132,8 @@ ScanSurfaces read_scan_surfaces(const std::string& folder) {
     surfaces.notes = json.at("notes").get<std::vector<std::string>>();
     return surfaces;
   } catch (const Json::exception& error) {
-    throw InputError(path.string() + ": isn't as Palmar writes it: " + json_reason(error));
+    throw InputError(path.string() + ": isn't as Palmar writes it: " + formats::json_reason(error));
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_records

@@ -7,44 +7,44 @@
 
 #include <filesystem>
 
+#include "hands/person_records/bone_label_file.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
-#include "hands/person_records/bone_label_file.h"
 
-namespace palmar {
+namespace palmar::person_records {
 namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-TriangleMesh ball(const Vec3& centre) {
-  TriangleMesh mesh = make_icosphere(5.0, 2);
+geometry::TriangleMesh ball(const Vec3& centre) {
+  geometry::TriangleMesh mesh = geometry::make_icosphere(5.0, 2);
   for (Vec3& v : mesh.vertices) v += centre;
   return mesh;
 }
 
-ScanSurfaces two_bones() {
-  ScanSurfaces surfaces;
-  surfaces.skin = make_icosphere(40.0, 3);
+capture::ScanSurfaces two_bones() {
+  capture::ScanSurfaces surfaces;
+  surfaces.skin = geometry::make_icosphere(40.0, 3);
   surfaces.bones = {{"index_distal_phalanx", ball({10, 0, 0}), false},
                     {"index_middle_phalanx", ball({-10, 0, 0}), false},
                     {"", ball({0, 20, 0}), true}};
   surfaces.markers = {{1.0, 2.0, 3.0}};
-  surfaces.side = Side::kLeft;
+  surfaces.side = hand::Side::kLeft;
   surfaces.bone_threshold = 54.0;
   surfaces.notes = {"One bone has no name."};
   return surfaces;
 }
 
 TEST(ScanSurfacesFile, GivesBackWhatWasWritten) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const std::string path = (folder / "scan").string();
   EXPECT_EQ(key_of_scan_surfaces(path), "");
   write_scan_surfaces(path, two_bones(), "abc");
   EXPECT_EQ(key_of_scan_surfaces(path), "abc");
-  const ScanSurfaces back = read_scan_surfaces(path);
+  const capture::ScanSurfaces back = read_scan_surfaces(path);
   ASSERT_EQ(back.bones.size(), 3U);
   EXPECT_EQ(back.bones[1].name, "index_middle_phalanx");
   EXPECT_EQ(back.bones[2].name, "");
@@ -52,40 +52,41 @@ TEST(ScanSurfacesFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(back.bones[0].mesh.vertices, two_bones().bones[0].mesh.vertices);
   EXPECT_EQ(back.skin.triangles, two_bones().skin.triangles);
   EXPECT_EQ(back.markers, two_bones().markers);
-  EXPECT_EQ(back.side, Side::kLeft);
+  EXPECT_EQ(back.side, hand::Side::kLeft);
   EXPECT_EQ(back.bone_threshold, 54.0);
   EXPECT_EQ(back.notes, two_bones().notes);
 }
 
 TEST(ScanSurfacesFile, NamesTheFileThatIsBroken) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const std::string path = (folder / "scan").string();
   write_scan_surfaces(path, two_bones(), "abc");
   fs::remove(fs::path(path) / "bones" / "index_distal_phalanx.ply");
-  EXPECT_THAT(message_of<InputError>([&] { read_scan_surfaces(path); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { read_scan_surfaces(path); }),
               HasSubstr("index_distal_phalanx.ply"));
-  write_file(fs::path(path) / "scan.json", "{\"key\": 3");
+  formats::write_file(fs::path(path) / "scan.json", "{\"key\": 3");
   EXPECT_EQ(key_of_scan_surfaces(path), "");
   EXPECT_THROW(read_scan_surfaces(path), InputError);
 }
 
-Hand model() {
-  Hand hand;
+hand::Hand model() {
+  hand::Hand hand;
   hand.bones = {{"index_middle_phalanx", {}, false, {}}, {"index_distal_phalanx", {}, false, {}}};
   return hand;
 }
 
-std::string failure(const std::vector<BoneLabel>& labels) {
-  ScanSurfaces surfaces = two_bones();
-  return message_of<InputError>([&] { apply_bone_labels(surfaces, labels, model()); });
+std::string failure(const std::vector<hand::BoneLabel>& labels) {
+  capture::ScanSurfaces surfaces = two_bones();
+  return formats::message_of<InputError>(
+      [&] { capture::apply_bone_labels(surfaces, labels, model()); });
 }
 
 TEST(BoneLabels, TakeTheNameFromTheBoneThatHadIt) {
-  const TestFolder folder;
-  write_file((folder / "labels.csv").string(),
-             "name,x_mm,y_mm,z_mm\nindex_distal_phalanx,0,20,1\n");
-  ScanSurfaces surfaces = two_bones();
-  apply_bone_labels(surfaces, read_bone_labels((folder / "labels.csv").string()), model());
+  const formats::TestFolder folder;
+  formats::write_file((folder / "labels.csv").string(),
+                      "name,x_mm,y_mm,z_mm\nindex_distal_phalanx,0,20,1\n");
+  capture::ScanSurfaces surfaces = two_bones();
+  capture::apply_bone_labels(surfaces, read_bone_labels((folder / "labels.csv").string()), model());
   EXPECT_EQ(surfaces.bones[0].name, "");
   EXPECT_EQ(surfaces.bones[1].name, "index_middle_phalanx");
   EXPECT_EQ(surfaces.bones[2].name, "index_distal_phalanx");
@@ -106,11 +107,12 @@ TEST(BoneLabels, SayWhatIsWrongWithThem) {
 }
 
 TEST(BoneLabels, AreReadWithTheirLine) {
-  const TestFolder folder;
-  write_file((folder / "l.csv").string(), "name,x_mm,y_mm\nlunate,1,2\n");
-  EXPECT_THAT(message_of<InputError>([&] { read_bone_labels((folder / "l.csv").string()); }),
-              HasSubstr("l.csv:1: has no column z_mm"));
+  const formats::TestFolder folder;
+  formats::write_file((folder / "l.csv").string(), "name,x_mm,y_mm\nlunate,1,2\n");
+  EXPECT_THAT(
+      formats::message_of<InputError>([&] { read_bone_labels((folder / "l.csv").string()); }),
+      HasSubstr("l.csv:1: has no column z_mm"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::person_records

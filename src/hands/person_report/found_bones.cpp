@@ -5,19 +5,19 @@
 #include <algorithm>
 #include <vector>
 
+#include "hands/person_report/sheet_view.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/geometry/distance/winding_number.h"
 #include "palmar/records/person/person_file.h"
 #include "palmar/report/picture/colormap.h"
 #include "palmar/report/picture/stroke_text.h"
-#include "hands/person_report/sheet_view.h"
 
-namespace palmar {
+namespace palmar::person_report {
 namespace {
 
-constexpr Rgb kNameInk{10, 70, 170}, kNoNameInk{190, 20, 20};
-constexpr Rgb kNoNameColour{204, 121, 167};
+constexpr report::Rgb kNameInk{10, 70, 170}, kNoNameInk{190, 20, 20};
+constexpr report::Rgb kNoNameColour{204, 121, 167};
 constexpr int kListWidth = 420, kListRow = 34;  // pixels
 
 Vec3 mean_of(const std::vector<Vec3>& points) {
@@ -35,16 +35,18 @@ Vec3 middle_of(const std::vector<Vec3>& points) {
 }
 
 /// A point in a bone; on it, if it is so bent that its middle lies outside.
-Vec3 point_in(const TriangleMesh& bone) {
+Vec3 point_in(const geometry::TriangleMesh& bone) {
   const Vec3 mean = mean_of(bone.vertices);
-  return exact_winding_number(bone, mean) > 0.5 ? mean : middle_of(bone.vertices);
+  return geometry::exact_winding_number(bone, mean) > 0.5 ? mean : middle_of(bone.vertices);
 }
 
-Rgb ink_of(const ScannedBone& bone) { return bone.name.empty() ? kNoNameInk : kNameInk; }
+report::Rgb ink_of(const capture::ScannedBone& bone) {
+  return bone.name.empty() ? kNoNameInk : kNameInk;
+}
 
 /// A number in the middle of what is seen of each bone from there.
-std::vector<SheetNumber> seen_bones(const std::vector<ScannedBone>& bones, const RayQuery& all,
-                                    const Vec3& direction) {
+std::vector<SheetNumber> seen_bones(const std::vector<capture::ScannedBone>& bones,
+                                    const geometry::RayQuery& all, const Vec3& direction) {
   std::vector<SheetNumber> numbers;
   for (std::size_t b = 0; b < bones.size(); ++b) {
     std::vector<Vec3> seen;
@@ -58,26 +60,27 @@ std::vector<SheetNumber> seen_bones(const std::vector<ScannedBone>& bones, const
   return numbers;
 }
 
-void draw_list(Image& sheet, int left, const std::vector<ScannedBone>& bones) {
+void draw_list(report::Image& sheet, int left, const std::vector<capture::ScannedBone>& bones) {
   double y = 2.0 * kSheetHead;
   for (std::size_t b = 0; b < bones.size(); ++b, y += kListRow) {
-    const TextStyle style{.cap_height = 14.0, .colour = ink_of(bones[b])};
+    const report::TextStyle style{.cap_height = 14.0, .colour = ink_of(bones[b])};
     const std::string name = bones[b].name.empty() ? "no name" : bones[b].name;
-    TextStyle number = style;
-    number.align = Align::kRight;
-    draw_text(sheet, left + 40, y, std::to_string(b + 1), number);
-    draw_text(sheet, left + 54, y, name, style);
+    report::TextStyle number = style;
+    number.align = report::Align::kRight;
+    report::draw_text(sheet, left + 40, y, std::to_string(b + 1), number);
+    report::draw_text(sheet, left + 54, y, name, style);
   }
 }
 
 }  // namespace
 
-Image found_bones_sheet(const ScanSurfaces& surfaces, const Progress& progress) {
-  const std::vector<ScannedBone>& bones = surfaces.bones;
-  Scene scene = {{.mesh = surfaces.skin, .colour = kSkinColour, .opacity = 0.2}};
-  TriangleMesh all;
-  for (const ScannedBone& bone : bones) {
-    scene.push_back({.mesh = bone.mesh, .colour = bone.name.empty() ? kNoNameColour : kBoneColour});
+report::Image found_bones_sheet(const capture::ScanSurfaces& surfaces, const Progress& progress) {
+  const std::vector<capture::ScannedBone>& bones = surfaces.bones;
+  report::Scene scene = {{.mesh = surfaces.skin, .colour = report::kSkinColour, .opacity = 0.2}};
+  geometry::TriangleMesh all;
+  for (const capture::ScannedBone& bone : bones) {
+    scene.push_back(
+        {.mesh = bone.mesh, .colour = bone.name.empty() ? kNoNameColour : report::kBoneColour});
     const int first = all.vertex_count();
     all.vertices.insert(all.vertices.end(), bone.mesh.vertices.begin(), bone.mesh.vertices.end());
     for (const Triangle& t : bone.mesh.triangles) {
@@ -85,18 +88,21 @@ Image found_bones_sheet(const ScanSurfaces& surfaces, const Progress& progress) 
     }
   }
   const int list_rows = (static_cast<int>(bones.size()) + 2) * kListRow;
-  Image sheet(2 * kSheetViewWidth + kListWidth, std::max(kSheetViewHeight, list_rows) + kSheetHead);
-  const auto named = std::count_if(bones.begin(), bones.end(),
-                                   [](const ScannedBone& bone) { return !bone.name.empty(); });
-  draw_text(sheet, 16, 30,
-            "reference: " + std::to_string(named) + " bones with a name, " +
-                std::to_string(static_cast<long>(bones.size()) - named) + " without",
-            {.cap_height = 16.0});
+  report::Image sheet(2 * kSheetViewWidth + kListWidth,
+                      std::max(kSheetViewHeight, list_rows) + kSheetHead);
+  const auto named =
+      std::count_if(bones.begin(), bones.end(),
+                    [](const capture::ScannedBone& bone) { return !bone.name.empty(); });
+  report::draw_text(sheet, 16, 30,
+                    "reference: " + std::to_string(named) + " bones with a name, " +
+                        std::to_string(static_cast<long>(bones.size()) - named) + " without",
+                    {.cap_height = 16.0});
   const HandAxes axes = hand_axes(surfaces.skin);
   for (int view = 0; view < 2; ++view) {
     const Vec3 direction = view == 0 ? Vec3(-axes.across) : axes.across;
-    const auto numbers = all.triangles.empty() ? std::vector<SheetNumber>()
-                                               : seen_bones(bones, RayQuery(all), direction);
+    const auto numbers = all.triangles.empty()
+                             ? std::vector<SheetNumber>()
+                             : seen_bones(bones, geometry::RayQuery(all), direction);
     paste(sheet,
           numbered_view(scene, direction, axes.along, numbers,
                         part_of(progress, 0.5 * view, 0.5 * view + 0.5, "drawing what was found")),
@@ -106,7 +112,7 @@ Image found_bones_sheet(const ScanSurfaces& surfaces, const Progress& progress) 
   return sheet;
 }
 
-std::string found_bones_toml(const ScanSurfaces& surfaces) {
+std::string found_bones_toml(const capture::ScanSurfaces& surfaces) {
   std::string text =
       "# Bones that were found in the reference image, by the numbers on found.png. Keep those "
       "whose "
@@ -114,11 +120,11 @@ std::string found_bones_toml(const ScanSurfaces& surfaces) {
       "are "
       "in the\n# patient's frame.\n";
   int number = 0;
-  for (const ScannedBone& bone : surfaces.bones) {
-    text += "\n" + format_person_bone({bone.name, written_place(point_in(bone.mesh)), {}},
-                                      std::to_string(++number));
+  for (const capture::ScannedBone& bone : surfaces.bones) {
+    text += "\n" + records::format_person_bone({bone.name, written_place(point_in(bone.mesh)), {}},
+                                               std::to_string(++number));
   }
   return text;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_report

@@ -8,14 +8,15 @@
 #include "palmar/core/progress.h"
 #include "palmar/report/picture/image.h"
 
-namespace palmar {
+namespace palmar::person_report {
 
 /// One sheet of the bones that were found in an image, before anything is computed on them: from
 /// the hand's two broad sides, with a number on every bone that is seen from there, and a list of
 /// names. Bones without a name are purple. The surfaces have a skin. `progress` may cancel.
-Image found_bones_sheet(const ScanSurfaces& surfaces, const Progress& progress = {});
+report::Image found_bones_sheet(const capture::ScanSurfaces& surfaces,
+                                const Progress& progress = {});
 
 /// The same bones, by these numbers, as a file that read_person() reads: names and a point in each.
-std::string found_bones_toml(const ScanSurfaces& surfaces);
+std::string found_bones_toml(const capture::ScanSurfaces& surfaces);
 
-}  // namespace palmar
+}  // namespace palmar::person_report

@@ -11,13 +11,13 @@
 #include "palmar/core/progress.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::person_report {
 
 /// What a report shows of one scan.
 struct ShownScan {
   std::string file;
-  ColouredMesh surface;  ///< mm; colours may be empty
-  SkinMarks marks;
+  geometry::ColouredMesh surface;  ///< mm; colours may be empty
+  capture::SkinMarks marks;
 };
 
 /// Writes into `folder`: report.html (works offline: what was scanned and found in it, with
@@ -25,9 +25,9 @@ struct ShownScan {
 /// dimensions.csv, joints_by_dots.csv, marks.csv, scan_POSTURE.ply (the surfaces as they were used,
 /// mm, in the frame of marks.csv), and with `errors` against a truth truth_errors.csv. The page is
 /// in `language`, the files are English. Same input, same bytes. Throws OutputError, Cancelled.
-void write_hand_scan_report(const std::string& folder, const HandFromScan& made,
-                            const std::map<ScanPosture, ShownScan>& scans,
-                            const std::optional<ScanErrors>& errors = {},
+void write_hand_scan_report(const std::string& folder, const capture::HandFromScan& made,
+                            const std::map<hand::ScanPosture, ShownScan>& scans,
+                            const std::optional<capture::ScanErrors>& errors = {},
                             Language language = Language::kEnglish, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::person_report

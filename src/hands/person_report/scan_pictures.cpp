@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hands/capture/skin_registration.h"
+#include "hands/person_report/scan_report.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
@@ -14,15 +15,14 @@
 #include "palmar/report/picture/colormap.h"
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/report/picture/render.h"
-#include "hands/person_report/scan_report.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::person_report {
 namespace {
 
 /// A bone whose name isn't known stands out.
-constexpr Rgb kUnnamedColour{204, 121, 167};
-constexpr Rgb kMarkerColour{0, 114, 178};
+constexpr report::Rgb kUnnamedColour{204, 121, 167};
+constexpr report::Rgb kMarkerColour{0, 114, 178};
 
 struct ScanView {
   const char* name;
@@ -32,55 +32,57 @@ struct ScanView {
 const std::array<ScanView, 2> kViews = {
     {{"palm", "palm side", {0.0, 0.0, -1.0}}, {"thumb", "thumb side", {-1.0, 0.0, 0.0}}}};
 
-Image picture_of(const Scene& scene, const Vec3& direction, const Vec3& up,
-                 const PictureOptions& options, const Progress& progress) {
+report::Image picture_of(const report::Scene& scene, const Vec3& direction, const Vec3& up,
+                         const report::PictureOptions& options, const Progress& progress) {
   const double aspect = static_cast<double>(options.width) / options.height;
-  const Camera camera = fit_camera(scene, direction, up, {.aspect = aspect});
-  RenderOptions render;
+  const report::Camera camera = report::fit_camera(scene, direction, up, {.aspect = aspect});
+  report::RenderOptions render;
   render.width = options.width;
   render.height = options.height;
-  return render_views(scene, {camera}, render, progress).front();
+  return report::render_views(scene, {camera}, render, progress).front();
 }
 
-TriangleMesh moved(TriangleMesh mesh, const Rigid3& by) {
+geometry::TriangleMesh moved(geometry::TriangleMesh mesh, const geometry::Rigid3& by) {
   for (Vec3& vertex : mesh.vertices) vertex = by * vertex;
   return mesh;
 }
 
-Scene hand_scene(const Hand& hand) {
-  Scene scene;
-  scene.push_back({.mesh = hand.skin, .colour = kSkinColour, .opacity = 0.35});
-  for (const Bone& bone : hand.bones) {
-    scene.push_back({.mesh = bone.mesh, .colour = kBoneColour});
+report::Scene hand_scene(const hand::Hand& hand) {
+  report::Scene scene;
+  scene.push_back({.mesh = hand.skin, .colour = report::kSkinColour, .opacity = 0.35});
+  for (const hand::Bone& bone : hand.bones) {
+    scene.push_back({.mesh = bone.mesh, .colour = report::kBoneColour});
   }
   return scene;
 }
 
-Scene scan_scene(const ScanSurfaces& surfaces, const Rigid3& shown_from_patient) {
-  Scene scene;
+report::Scene scan_scene(const capture::ScanSurfaces& surfaces,
+                         const geometry::Rigid3& shown_from_patient) {
+  report::Scene scene;
   if (surfaces.skin.triangle_count() > 0) {
-    scene.push_back(
-        {.mesh = moved(surfaces.skin, shown_from_patient), .colour = kSkinColour, .opacity = 0.35});
+    scene.push_back({.mesh = moved(surfaces.skin, shown_from_patient),
+                     .colour = report::kSkinColour,
+                     .opacity = 0.35});
   }
-  for (const ScannedBone& bone : surfaces.bones) {
+  for (const capture::ScannedBone& bone : surfaces.bones) {
     scene.push_back({.mesh = moved(bone.mesh, shown_from_patient),
-                     .colour = bone.name.empty() ? kUnnamedColour : kBoneColour});
+                     .colour = bone.name.empty() ? kUnnamedColour : report::kBoneColour});
   }
   for (const Vec3& marker : surfaces.markers) {
-    TriangleMesh ball = ellipsoid_mesh(shown_from_patient * marker, Eigen::Matrix3d::Identity(),
-                                       Vec3::Constant(2.5), 8, 16);
+    geometry::TriangleMesh ball = hand::ellipsoid_mesh(
+        shown_from_patient * marker, Eigen::Matrix3d::Identity(), Vec3::Constant(2.5), 8, 16);
     scene.push_back({.mesh = std::move(ball), .colour = kMarkerColour});
   }
   return scene;
 }
 
 /// Where the palm of a scan is, in the hand frame: by the motion of a bone of the palm.
-Rigid3 hand_from_scan(const ScanRecord& record, ScanPosture posture) {
-  const Rigid3 hand_from_reference = record.made.patient_from_hand.inverse();
+geometry::Rigid3 hand_from_scan(const capture::ScanRecord& record, hand::ScanPosture posture) {
+  const geometry::Rigid3 hand_from_reference = record.made.patient_from_hand.inverse();
   const auto motions = record.motions.find(posture);
   if (motions == record.motions.end()) return hand_from_reference;
   for (const char* bone : {"middle_metacarpal", "index_metacarpal", "capitate"}) {
-    for (const BoneMotion& motion : motions->second) {
+    for (const capture::BoneMotion& motion : motions->second) {
       if (motion.bone == bone) {
         return hand_from_reference * motion.posture_from_reference.inverse();
       }
@@ -90,8 +92,8 @@ Rigid3 hand_from_scan(const ScanRecord& record, ScanPosture posture) {
 }
 
 /// The middle of a bone, if it was found.
-std::optional<Vec3> middle_of(const ScanSurfaces& surfaces, const std::string& name) {
-  for (const ScannedBone& bone : surfaces.bones) {
+std::optional<Vec3> middle_of(const capture::ScanSurfaces& surfaces, const std::string& name) {
+  for (const capture::ScannedBone& bone : surfaces.bones) {
     if (bone.name != name || bone.mesh.vertices.empty()) continue;
     Vec3 sum = Vec3::Zero();
     for (const Vec3& vertex : bone.mesh.vertices) sum += vertex;
@@ -102,8 +104,8 @@ std::optional<Vec3> middle_of(const ScanSurfaces& surfaces, const std::string& n
 
 /// Axes of the hand frame by metacarpals and first phalanges of a scan: y towards the fingers, x
 /// towards the thumb of a right hand, away from that of a left one. The patient's where they lack.
-Rigid3 upright_from_scan(const ScanSurfaces& surfaces) {
-  Rigid3 upright;
+geometry::Rigid3 upright_from_scan(const capture::ScanSurfaces& surfaces) {
+  geometry::Rigid3 upright;
   std::optional<Vec3> first, last;
   Vec3 distal = Vec3::Zero();
   for (const char* finger : {"index", "middle", "ring", "little"}) {
@@ -115,7 +117,7 @@ Rigid3 upright_from_scan(const ScanSurfaces& surfaces) {
   }
   if (!first || (*first - *last).norm() < 1.0 || distal.norm() < 1.0) return upright;
   const Vec3 y = distal.normalized();
-  Vec3 x = surfaces.side == Side::kLeft ? *last - *first : *first - *last;
+  Vec3 x = surfaces.side == hand::Side::kLeft ? *last - *first : *first - *last;
   x = (x - x.dot(y) * y).normalized();
   Eigen::Matrix3d axes;
   axes << x, y, x.cross(y);
@@ -124,8 +126,8 @@ Rigid3 upright_from_scan(const ScanSurfaces& surfaces) {
 }
 
 /// Colours of the distance from posed to scanned skin.
-ColourScale error_scale() {
-  return {.map = Colormap::kFern,
+report::ColourScale error_scale() {
+  return {.map = report::Colormap::kFern,
           .upper = 3.0,
           .quantity = "Distance",
           .unit = "mm",
@@ -134,23 +136,24 @@ ColourScale error_scale() {
 
 /// The hand in a posture as its joints make it, coloured by its distance to the scan. Skin that has
 /// no scanned skin near (touching fingers, markers, the cut) stays grey.
-Scene error_scene(const ScanRecord& record, const RecordedScan& scan, const Posture& posture) {
-  const Hand& hand = record.made.hand;
-  const Rigid3 hand_from_patient = hand_from_scan(record, scan.posture);
-  SkinScan scanned;
+report::Scene error_scene(const capture::ScanRecord& record, const capture::RecordedScan& scan,
+                          const hand::Posture& posture) {
+  const hand::Hand& hand = record.made.hand;
+  const geometry::Rigid3 hand_from_patient = hand_from_scan(record, scan.posture);
+  capture::SkinScan scanned;
   scanned.skin = moved(scan.surfaces.skin, hand_from_patient);
   for (const Vec3& marker : scan.surfaces.markers) {
     scanned.markers.push_back(hand_from_patient * marker);
   }
   constexpr double kReach = 15.0;  // mm
-  const TriangleMesh posed{pose_skin(hand, posture), hand.skin.triangles};
-  std::vector<double> distance =
-      distances_to_scan(posed.vertices, vertex_normals(posed), scanned, hand.skeleton, kReach);
+  const geometry::TriangleMesh posed{hand::pose_skin(hand, posture), hand.skin.triangles};
+  std::vector<double> distance = capture::distances_to_scan(
+      posed.vertices, geometry::vertex_normals(posed), scanned, hand.skeleton, kReach);
   const double least = 0.01 * error_scale().upper;  // less would look as if nothing was measured
   for (double& d : distance) d = d < 0.0 ? 0.0 : std::max(d, least);
-  Scene scene;
+  report::Scene scene;
   scene.push_back({.mesh = posed,
-                   .colour = kNeutralColour,
+                   .colour = report::kNeutralColour,
                    .field = std::move(distance),
                    .field_upper = error_scale().upper,
                    .map = error_scale().map});
@@ -160,11 +163,11 @@ Scene error_scene(const ScanRecord& record, const RecordedScan& scan, const Post
 /// One thing to be shown from every side.
 struct Shown {
   std::string name, title, alt;
-  Scene scene;
-  std::optional<ColourScale> scale;
+  report::Scene scene;
+  std::optional<report::ColourScale> scale;
 };
 
-Shown shown_scan(const RecordedScan& scan, const Rigid3& shown_from_patient) {
+Shown shown_scan(const capture::RecordedScan& scan, const geometry::Rigid3& shown_from_patient) {
   return {"scan_" + std::string(name_of(scan.posture)) + "_",
           "Scan of the posture " + plain_words(scan.posture) + ", ",
           "What was found in the scan: skin, bones, markers; seen from the ",
@@ -173,10 +176,11 @@ Shown shown_scan(const RecordedScan& scan, const Rigid3& shown_from_patient) {
 }
 
 /// When cancelled, those that are finished.
-std::vector<Picture> drawn(const std::vector<Shown>& all, Side side, const PictureOptions& options,
-                           const Progress& progress) {
-  const double sign = side == Side::kLeft ? -1.0 : 1.0;
-  std::vector<Picture> pictures;
+std::vector<report::Picture> drawn(const std::vector<Shown>& all, hand::Side side,
+                                   const report::PictureOptions& options,
+                                   const Progress& progress) {
+  const double sign = side == hand::Side::kLeft ? -1.0 : 1.0;
+  std::vector<report::Picture> pictures;
   const double step = 1.0 / static_cast<double>(kViews.size() * all.size());
   try {
     for (const Shown& shown : all) {
@@ -184,9 +188,9 @@ std::vector<Picture> drawn(const std::vector<Shown>& all, Side side, const Pictu
         const double done = step * static_cast<double>(pictures.size());
         progress.update(done, "pictures");
         const Vec3 direction(sign * view.direction.x(), view.direction.y(), view.direction.z());
-        Image image = picture_of(shown.scene, direction, Vec3::UnitY(), options,
-                                 part_of(progress, done, done + step, "pictures"));
-        if (shown.scale) draw_colour_bar(image, *shown.scale);
+        report::Image image = picture_of(shown.scene, direction, Vec3::UnitY(), options,
+                                         part_of(progress, done, done + step, "pictures"));
+        if (shown.scale) report::draw_colour_bar(image, *shown.scale);
         pictures.push_back({shown.name + view.name, shown.title + view.words,
                             shown.alt + view.words + ".", std::move(image)});
       }
@@ -198,17 +202,19 @@ std::vector<Picture> drawn(const std::vector<Shown>& all, Side side, const Pictu
 
 }  // namespace
 
-std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOptions& options,
-                                   const Progress& progress) {
+std::vector<report::Picture> scan_pictures(const capture::ScanRecord& record,
+                                           const report::PictureOptions& options,
+                                           const Progress& progress) {
   std::vector<Shown> all;
   all.push_back({"hand_",
                  "The new hand, ",
                  "Skin, see-through, with the bones of the scan inside, seen from the ",
                  hand_scene(record.made.hand),
                  {}});
-  for (const RecordedScan& scan : record.scans) {
+  for (const capture::RecordedScan& scan : record.scans) {
     const auto posed = record.joints.postures.find(scan.posture);
-    if (scan.posture == ScanPosture::kReference || posed == record.joints.postures.end()) continue;
+    if (scan.posture == hand::ScanPosture::kReference || posed == record.joints.postures.end())
+      continue;
     const std::string words = plain_words(scan.posture);
     all.push_back(
         {"error_" + std::string(name_of(scan.posture)) + "_",
@@ -217,19 +223,20 @@ std::vector<Picture> scan_pictures(const ScanRecord& record, const PictureOption
              ", coloured by the distance of its skin from the scanned one, seen from the ",
          error_scene(record, scan, posed->second), error_scale()});
   }
-  for (const RecordedScan& scan : record.scans) {
+  for (const capture::RecordedScan& scan : record.scans) {
     all.push_back(shown_scan(scan, hand_from_scan(record, scan.posture)));
   }
   return drawn(all, record.made.hand.side, options, progress);
 }
 
-std::vector<Picture> found_pictures(const ScanRecord& record, const PictureOptions& options,
-                                    const Progress& progress) {
+std::vector<report::Picture> found_pictures(const capture::ScanRecord& record,
+                                            const report::PictureOptions& options,
+                                            const Progress& progress) {
   std::vector<Shown> all;
-  for (const RecordedScan& scan : record.scans) {
+  for (const capture::RecordedScan& scan : record.scans) {
     all.push_back(shown_scan(scan, upright_from_scan(scan.surfaces)));
   }
   return drawn(all, record.scans.front().surfaces.side, options, progress);
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_report

@@ -10,28 +10,29 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/report/picture/stroke_text.h"
 
-namespace palmar {
+namespace palmar::person_report {
 namespace {
 
 constexpr double kCapital = 12.0;  // pixels
 
 /// A small square on the place, and the number beside it on white, on its left or right.
-void write_number(Image& image, const Eigen::Vector2d& at, const SheetNumber& one, bool is_left) {
-  const TextStyle style{.cap_height = kCapital, .colour = one.colour, .weight = 0.16};
+void write_number(report::Image& image, const Eigen::Vector2d& at, const SheetNumber& one,
+                  bool is_left) {
+  const report::TextStyle style{.cap_height = kCapital, .colour = one.colour, .weight = 0.16};
   const std::string text = std::to_string(one.number);
   constexpr int kMark = 4, kGap = 4;
   const auto x = static_cast<int>(std::lround(at.x())), y = static_cast<int>(std::lround(at.y()));
-  fill_rectangle(image, x - kMark / 2, y - kMark / 2, kMark, kMark, one.colour);
-  const auto width = static_cast<int>(std::ceil(text_width(text, style))) + 4;
+  report::fill_rectangle(image, x - kMark / 2, y - kMark / 2, kMark, kMark, one.colour);
+  const auto width = static_cast<int>(std::ceil(report::text_width(text, style))) + 4;
   const auto height = static_cast<int>(kCapital);
   const int left = is_left ? x - kGap - width : x + kGap;
-  fill_rectangle(image, left, y - height / 2 - 2, width, height + 4, kWhite);
-  draw_text(image, left + 2, y + height / 2.0, text, style);
+  report::fill_rectangle(image, left, y - height / 2 - 2, width, height + 4, report::kWhite);
+  report::draw_text(image, left + 2, y + height / 2.0, text, style);
 }
 
 }  // namespace
 
-HandAxes hand_axes(const TriangleMesh& skin) {
+HandAxes hand_axes(const geometry::TriangleMesh& skin) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& v : skin.vertices) mean += v / static_cast<double>(skin.vertices.size());
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -49,21 +50,21 @@ HandAxes hand_axes(const TriangleMesh& skin) {
   for (const Triangle& t : skin.triangles) {
     const Vec3 &a = skin.vertices[t[0]], &b = skin.vertices[t[1]], &c = skin.vertices[t[2]];
     const double at = axes.along.dot(a);
-    if (at < low + kEnd) at_low += triangle_area(a, b, c);
-    if (at > high - kEnd) at_high += triangle_area(a, b, c);
+    if (at < low + kEnd) at_low += geometry::triangle_area(a, b, c);
+    if (at > high - kEnd) at_high += geometry::triangle_area(a, b, c);
   }
   if (at_low < at_high) axes.along = -axes.along;
   return axes;
 }
 
-Image numbered_view(const Scene& scene, const Vec3& direction, const Vec3& up,
-                    const std::vector<SheetNumber>& numbers, const Progress& progress) {
-  const Camera camera = fit_camera(
+report::Image numbered_view(const report::Scene& scene, const Vec3& direction, const Vec3& up,
+                            const std::vector<SheetNumber>& numbers, const Progress& progress) {
+  const report::Camera camera = report::fit_camera(
       scene, direction, up, {.aspect = static_cast<double>(kSheetViewWidth) / kSheetViewHeight});
-  RenderOptions options;
+  report::RenderOptions options;
   options.width = kSheetViewWidth;
   options.height = kSheetViewHeight;
-  Image image = render_views(scene, {camera}, options, progress).front();
+  report::Image image = report::render_views(scene, {camera}, options, progress).front();
   const Vec3 right = camera.direction.cross(camera.up).normalized();
   const Vec3 upwards = right.cross(camera.direction);
   const double scale = kSheetViewHeight / camera.view_height;  // pixels per mm
@@ -91,10 +92,10 @@ Vec3 written_place(const Vec3& point) {
   return ((kSteps * point).array().round() / kSteps + 0.0).matrix();
 }
 
-void paste(Image& sheet, const Image& picture, int left, int top) {
+void paste(report::Image& sheet, const report::Image& picture, int left, int top) {
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) sheet.at(left + x, top + y) = picture.at(x, y);
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_report

@@ -5,26 +5,26 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/file.h"
 #include "hands/person_records/bone_label_file.h"
-#include "palmar/records/person/person_file.h"
-#include "palmar/records/hand/hand_file.h"
-#include "palmar/records/product/product_file.h"
 #include "hands/person_report/found_bones.h"
 #include "hands/person_report/scan_report.h"
 #include "hands/person_workflow/steps/hand_output.h"
-#include "palmar/workflow/hand/load_hand.h"
 #include "hands/person_workflow/steps/mri_pipeline.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/file.h"
+#include "palmar/records/hand/hand_file.h"
+#include "palmar/records/person/person_file.h"
+#include "palmar/records/product/product_file.h"
+#include "palmar/workflow/hand/load_hand.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 /// Which postures there are, and which not.
 std::string words_of(const std::vector<SelectedScan>& scans) {
   std::string seen, missing;
-  for (int k = 0; k < kScanPostureCount; ++k) {
-    const auto posture = static_cast<ScanPosture>(k);
+  for (int k = 0; k < hand::kScanPostureCount; ++k) {
+    const auto posture = static_cast<hand::ScanPosture>(k);
     const bool is_seen = std::any_of(scans.begin(), scans.end(), [&](const SelectedScan& scan) {
       return scan.posture == posture;
     });
@@ -48,12 +48,12 @@ void require_apart(const std::string& work, const std::vector<SelectedScan>& sca
 }
 
 /// Those of the known bones that aren't labelled already.
-void add_known(std::vector<BoneLabel>& labels, const std::vector<BoneLabel>& known) {
-  const std::vector<BoneLabel> said = labels;
-  for (const BoneLabel& one : known) {
-    const bool is_said = std::any_of(said.begin(), said.end(), [&one](const BoneLabel& label) {
-      return label.name == one.name;
-    });
+void add_known(std::vector<hand::BoneLabel>& labels, const std::vector<hand::BoneLabel>& known) {
+  const std::vector<hand::BoneLabel> said = labels;
+  for (const hand::BoneLabel& one : known) {
+    const bool is_said =
+        std::any_of(said.begin(), said.end(),
+                    [&one](const hand::BoneLabel& label) { return label.name == one.name; });
     if (!is_said) labels.push_back(one);
   }
 }
@@ -70,8 +70,8 @@ void HandFromMriRequest::check() const {
 
 HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const Progress& progress) {
   request.check();
-  const auto on_note = [&](const std::string& text) { note_to(request.note, text); };
-  const auto model = load_hand(request.model);
+  const auto on_note = [&](const std::string& text) { workflow::note_to(request.note, text); };
+  const auto model = workflow::load_hand(request.model);
   HandFromMriOutcome outcome;
   outcome.work = request.work.empty() ? beside_hand(request.out, ".mri") : request.work;
   MriPipelineOptions options;
@@ -80,14 +80,14 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
   options.work = outcome.work;
   options.note = on_note;
   options.setting_names = request.setting_names;
-  if (!request.labels.empty()) options.labels = read_bone_labels(request.labels);
+  if (!request.labels.empty()) options.labels = person_records::read_bone_labels(request.labels);
   if (!request.known.empty()) {
-    const PersonFile known = read_person(request.known);
+    const records::PersonFile known = records::read_person(request.known);
     add_known(options.labels, known.bones);
     if (!options.surfaces.side) options.surfaces.side = known.side;
   }
   if (!request.product.empty()) {
-    options.product = load_product(request.product, {.unit = request.unit});
+    options.product = records::load_product(request.product, {.unit = request.unit});
     for (const std::string& text : options.product->notes) on_note(text);
   }
   progress.update(0.0, "looking for series");
@@ -100,18 +100,20 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
     on_note(text);
   }
   on_note(words_of(selection.scans));
-  options.write = [&](ScanRecord& record, const Progress& part) {
+  options.write = [&](capture::ScanRecord& record, const Progress& part) {
     record.notes.insert(record.notes.begin(), selection.notes.begin(), selection.notes.end());
-    Hand& hand = record.made.hand;
+    hand::Hand& hand = record.made.hand;
     hand.name = request.name.empty() ? hand_name_of(request.out) : request.name;
-    write_hand(request.out, hand);
-    if (request.writes_report) write_scan_report(options.work, record, request.language, part);
+    records::write_hand(request.out, hand);
+    if (request.writes_report)
+      person_report::write_scan_report(options.work, record, request.language, part);
   };
   if (request.writes_report || request.looks_only) {
-    options.show_reference = [&](const ScanSurfaces& reference, const Progress& part) {
-      write_file(options.work + "/found.toml", found_bones_toml(reference));
+    options.show_reference = [&](const capture::ScanSurfaces& reference, const Progress& part) {
+      formats::write_file(options.work + "/found.toml", person_report::found_bones_toml(reference));
       outcome.found = options.work + "/found.png";
-      write_file(outcome.found, encode_png(found_bones_sheet(reference, part)));
+      formats::write_file(outcome.found,
+                          report::encode_png(person_report::found_bones_sheet(reference, part)));
     };
   }
   options.looks_only = request.looks_only;
@@ -119,11 +121,13 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
     selection.scans.resize(1);  // the reference is the first
     options.product.reset();
   }
-  options.write_found = [&](const ScanRecord& found, const ScanRefusal& refusal) -> std::string {
+  options.write_found = [&](const capture::ScanRecord& found,
+                            const capture::ScanRefusal& refusal) -> std::string {
     if (!request.writes_report) return "What was found stays in " + options.work;
-    ScanRefusal said = refusal;
+    capture::ScanRefusal said = refusal;
     said.message = with_setting_names(refusal.message, request.setting_names);
-    write_refused_scan_report(options.work, found, said, model->bones.size(), request.language);
+    person_report::write_refused_scan_report(options.work, found, said, model->bones.size(),
+                                             request.language);
     return "What was found, with pictures: " + options.work + "/report.html";
   };
   outcome.record = run_mri_pipeline(selection.scans, *model, options, progress);
@@ -131,4 +135,4 @@ HandFromMriOutcome make_hand_from_mri(const HandFromMriRequest& request, const P
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

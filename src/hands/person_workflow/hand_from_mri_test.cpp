@@ -13,14 +13,14 @@
 
 // Requests that are refused; what becomes of images is tested with the whole program.
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-HandFromMriRequest request_for(const TestFolder& folder) {
+HandFromMriRequest request_for(const formats::TestFolder& folder) {
   HandFromMriRequest request;
   request.images = {(folder / "scans").string()};
   request.out = (folder / "anna.hand.glb").string();
@@ -28,11 +28,11 @@ HandFromMriRequest request_for(const TestFolder& folder) {
 }
 
 std::string refusal(const HandFromMriRequest& request) {
-  return message_of<UsageError>([&] { request.check(); });
+  return formats::message_of<UsageError>([&] { request.check(); });
 }
 
 TEST(HandFromMriRequest, NamesTheSettingItsValueAndWhatIsAllowed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   HandFromMriRequest request = request_for(folder);
   EXPECT_EQ(refusal(request), "");
   request.out = "anna.glb";
@@ -47,30 +47,30 @@ TEST(HandFromMriRequest, NamesTheSettingItsValueAndWhatIsAllowed) {
 
 TEST(SelectScans, ImagesThatAreNotThereAreNamed) {
   const std::string message =
-      message_of<InputError>([] { select_scans({"nowhere/scans"}, {}, {}); });
+      formats::message_of<InputError>([] { select_scans({"nowhere/scans"}, {}, {}); });
   EXPECT_EQ(message, "nowhere/scans: there is no such file or folder");
 }
 
 /// A folder as find_mri_surfaces() leaves it, for telling postures apart; its meshes are empty.
-void touch_surfaces(const TestFolder& folder, const std::string& name) {
+void touch_surfaces(const formats::TestFolder& folder, const std::string& name) {
   std::filesystem::create_directories(folder / name);
   std::ofstream(folder / (name + "/scan.json"));
   std::ofstream(folder / (name + "/skin.ply"));
 }
 
 TEST(SelectScans, WhatTheUserSaysCountsMoreThanNames) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   touch_surfaces(folder, "reference");
   touch_surfaces(folder, "third");
   const ScanSelection selection =
-      select_scans({folder.path().string()}, {{"third", ScanPosture::kGrasp}}, {});
+      select_scans({folder.path().string()}, {{"third", hand::ScanPosture::kGrasp}}, {});
   ASSERT_EQ(selection.scans.size(), 2U);
-  EXPECT_EQ(selection.scans[1].posture, ScanPosture::kGrasp);
+  EXPECT_EQ(selection.scans[1].posture, hand::ScanPosture::kGrasp);
   EXPECT_TRUE(selection.scans[1].has_surfaces);
 }
 
 TEST(SelectScans, ASeriesOfNoPostureIsPassedOverWithAWord) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   touch_surfaces(folder, "reference");
   touch_surfaces(folder, "third");
   const ScanSelection selection = select_scans({folder.path().string()}, {}, {});
@@ -81,22 +81,23 @@ TEST(SelectScans, ASeriesOfNoPostureIsPassedOverWithAWord) {
 }
 
 TEST(SelectScans, AnAssignmentThatFitsNothingIsNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   touch_surfaces(folder, "reference");
-  const std::string message = message_of<UsageError>([&] {
-    select_scans({folder.path().string()}, {{"9", ScanPosture::kGrasp}}, {});
+  const std::string message = formats::message_of<UsageError>([&] {
+    select_scans({folder.path().string()}, {{"9", hand::ScanPosture::kGrasp}}, {});
   });
   EXPECT_THAT(message, HasSubstr("setting \"series\" 9=grasp fits no series; there are"));
 }
 
 TEST(SelectScans, WithoutTheReferenceThereIsNoHand) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   touch_surfaces(folder, "reference");
   touch_surfaces(folder, "grasp");
-  EXPECT_THAT(message_of<UsageError>(
-                  [&] { select_scans({folder.path().string()}, {}, {ScanPosture::kReference}); }),
+  EXPECT_THAT(formats::message_of<UsageError>([&] {
+                select_scans({folder.path().string()}, {}, {hand::ScanPosture::kReference});
+              }),
               HasSubstr("none of the series is the reference posture"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::person_workflow

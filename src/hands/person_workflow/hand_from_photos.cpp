@@ -8,19 +8,19 @@
 #include <cctype>
 #include <filesystem>
 
+#include "hands/person_workflow/steps/hand_output.h"
+#include "hands/person_workflow/steps/photo_lenses.h"
+#include "hands/person_workflow/steps/photo_mesh.h"
+#include "hands/person_workflow/steps/posture_files.h"
+#include "hands/person_workflow/steps/scan_surface.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/core/text.h"
 #include "palmar/formats/file.h"
-#include "hands/person_workflow/steps/hand_output.h"
 #include "palmar/workflow/hand/load_hand.h"
-#include "hands/person_workflow/steps/photo_lenses.h"
-#include "hands/person_workflow/steps/photo_mesh.h"
-#include "hands/person_workflow/steps/posture_files.h"
-#include "hands/person_workflow/steps/scan_surface.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,9 +44,10 @@ std::vector<std::string> folders_in(const std::vector<std::string>& paths, std::
       throw InputError(path + ": a folder of photographs is expected");
     }
     std::vector<fs::path> inner;
-    if (!holds_photographs(folder)) {
+    if (!person_records::holds_photographs(folder)) {
       for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.is_directory() && holds_photographs(entry.path())) inner.push_back(entry.path());
+        if (entry.is_directory() && person_records::holds_photographs(entry.path()))
+          inner.push_back(entry.path());
       }
       std::sort(inner.begin(), inner.end());
     }
@@ -71,13 +72,13 @@ std::vector<std::string> notes_of(const std::string& folder, const PhotoMeshRepo
   return notes;
 }
 
-using MeshPlans = std::map<ScanPosture, PhotoMeshPlan>;
+using MeshPlans = std::map<hand::ScanPosture, PhotoMeshPlan>;
 
 /// What is there and what has to be made, and how long that takes.
 MeshPlans plan_meshes(const HandFromPhotosRequest& request, const fs::path& work,
-                      const std::map<ScanPosture, std::string>& folders,
-                      const std::optional<PhotoLenses>& lenses) {
-  const auto on_note = [&](const std::string& text) { note_to(request.note, text); };
+                      const std::map<hand::ScanPosture, std::string>& folders,
+                      const std::optional<person_records::PhotoLenses>& lenses) {
+  const auto on_note = [&](const std::string& text) { workflow::note_to(request.note, text); };
   MeshPlans plans;
   double seconds = 0.0;
   for (const auto& [posture, folder] : folders) {
@@ -108,7 +109,7 @@ void HandFromPhotosRequest::check() const {
 ScanHandOutcome make_hand_from_photos(const HandFromPhotosRequest& request,
                                       const Progress& progress) {
   request.check();
-  load_hand(request.hand.model);
+  workflow::load_hand(request.hand.model);
   std::string lens_path = request.mesh.lenses;
   const std::vector<std::string> paths = folders_in(request.folders, lens_path);
   const auto folders = files_by_posture(paths, request.posture, "folder");
@@ -117,16 +118,16 @@ ScanHandOutcome make_hand_from_photos(const HandFromPhotosRequest& request,
   const WorkFolder work_folder(work);
   request.hand.check_files();
 
-  std::optional<PhotoLenses> lenses;
+  std::optional<person_records::PhotoLenses> lenses;
   if (!lens_path.empty()) {
     lenses = lenses_of(lens_path, part_of(progress, 0.0, kLenses, "lenses"));
-    write_file(fs::path(work) / "lenses.json", format_lenses(*lenses));
+    formats::write_file(fs::path(work) / "lenses.json", person_records::format_lenses(*lenses));
   }
   const MeshPlans plans = plan_meshes(request, work, folders, lenses);
   const auto to_make = static_cast<double>(
       std::count_if(plans.begin(), plans.end(), [](const auto& one) { return !one.second.kept; }));
 
-  std::map<ScanPosture, ShownScan> shown;
+  std::map<hand::ScanPosture, person_report::ShownScan> shown;
   std::vector<std::string> notes;
   double begin = kLenses;
   const double end_of_meshes = to_make > 0.0 ? kMeshes : 2.0 * kLenses;
@@ -139,9 +140,9 @@ ScanHandOutcome make_hand_from_photos(const HandFromPhotosRequest& request,
     const std::vector<std::string> reported = notes_of(plan.folder, report);
     notes.insert(notes.end(), reported.begin(), reported.end());
     const std::string file = plan.mesh.string();
-    ReadSurface read = read_scan_surface(file, LengthUnit::kMillimetre);
+    ReadSurface read = read_scan_surface(file, geometry::LengthUnit::kMillimetre);
     notes.insert(notes.end(), read.notes.begin(), read.notes.end());
-    SkinMarks marks = find_skin_marks(read.surface, file, request.hand.inks);
+    capture::SkinMarks marks = capture::find_skin_marks(read.surface, file, request.hand.inks);
     for (const std::string& text : marks.notes) notes.push_back(file + ": " + text);
     shown[posture] = {file, std::move(read.surface), std::move(marks)};
   }
@@ -149,4 +150,4 @@ ScanHandOutcome make_hand_from_photos(const HandFromPhotosRequest& request,
                                part_of(progress, end_of_meshes, 1.0));
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "palmar/core/progress.h"
 #include "hands/person_workflow/steps/photo_cameras.h"
 #include "hands/person_workflow/steps/scan_hand.h"
+#include "palmar/core/progress.h"
 #include "palmar/workflow/note/note.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// A person's hand from photographs of it on the printed board (docs/method/photos.md).
 struct HandFromPhotosRequest {
@@ -20,11 +20,11 @@ struct HandFromPhotosRequest {
   /// the posture: reference (or natural), finger_flexion, finger_abduction; the reference is
   /// needed, a single folder is taken for it.
   std::vector<std::string> folders;
-  std::map<std::string, ScanPosture> posture;  ///< of folders whose names don't give it
-  PhotoMeshOptions mesh;                       ///< how surfaces are made of the photographs
-  ScanHandOptions hand;  ///< `work`: folder for the report and for the meshes, which another run
-                         ///< takes up; empty: beside the hand, *.photos
-  NoteSink note;         ///< gets what is there and how long it takes; may be empty
+  std::map<std::string, hand::ScanPosture> posture;  ///< of folders whose names don't give it
+  PhotoMeshOptions mesh;                             ///< how surfaces are made of the photographs
+  ScanHandOptions hand;     ///< `work`: folder for the report and for the meshes, which another run
+                            ///< takes up; empty: beside the hand, *.photos
+  workflow::NoteSink note;  ///< gets what is there and how long it takes; may be empty
 
   void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
@@ -35,4 +35,4 @@ struct HandFromPhotosRequest {
 ScanHandOutcome make_hand_from_photos(const HandFromPhotosRequest& request,
                                       const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -5,14 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hands/person_workflow/steps/photo_steps.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/test_files.h"
-#include "hands/person_workflow/steps/photo_steps.h"
 
 // Requests that are refused; photographs and what is made of them are tested with the whole
 // program.
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 using ::testing::HasSubstr;
@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 TEST(HandFromPhotosRequest, NamesTheSettingItsValueAndWhatIsAllowed) {
   HandFromPhotosRequest request;
   request.hand.out = "anna.hand.glb";
-  const auto refusal = [&] { return message_of<UsageError>([&] { request.check(); }); };
+  const auto refusal = [&] { return formats::message_of<UsageError>([&] { request.check(); }); };
   EXPECT_THAT(refusal(), HasSubstr("setting \"folders\""));
   request.folders = {"anna"};
   EXPECT_EQ(refusal(), "");
@@ -31,7 +31,7 @@ TEST(HandFromPhotosRequest, NamesTheSettingItsValueAndWhatIsAllowed) {
 TEST(PhotoMeshRequest, NamesTheSettingItsValueAndWhatIsAllowed) {
   PhotoMeshRequest request;
   request.out = "hand.stl";
-  const auto refusal = [&] { return message_of<UsageError>([&] { request.check(); }); };
+  const auto refusal = [&] { return formats::message_of<UsageError>([&] { request.check(); }); };
   EXPECT_THAT(refusal(), HasSubstr("setting \"folder\""));
   request.folder = "photos";
   EXPECT_EQ(refusal(), "hand.stl: the mesh is written as .ply, with colours");
@@ -40,23 +40,23 @@ TEST(PhotoMeshRequest, NamesTheSettingItsValueAndWhatIsAllowed) {
 }
 
 TEST(MakeMeshFromPhotos, AFolderThatIsNotThereIsNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   PhotoMeshRequest request;
   request.folder = "nowhere/photos";
   request.out = (folder / "hand.ply").string();
-  EXPECT_THAT(message_of<InputError>([&] { make_mesh_from_photos(request); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { make_mesh_from_photos(request); }),
               HasSubstr("nowhere/photos"));
 }
 
 TEST(DrawPhotoBoard, WritesOnlySvg) {
-  EXPECT_EQ(message_of<UsageError>([] {
+  EXPECT_EQ(formats::message_of<UsageError>([] {
               draw_photo_board({"board.png", {}});
             }),
             "board.png: the board is written as .svg");
 }
 
 TEST(PhotoMeshReport, ReadsOnlyWhatIsOfTheSameKeyAndMesh) {
-  PhotoModel model;
+  capture::PhotoModel model;
   model.measured_share = 0.75;
   PosedPhotographs work;
   work.warnings = {"dark"};
@@ -72,4 +72,4 @@ TEST(PhotoMeshReport, ReadsOnlyWhatIsOfTheSameKeyAndMesh) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::person_workflow

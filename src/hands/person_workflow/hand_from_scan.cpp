@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hands/person_workflow/hand_from_scan.h"
 
+#include "hands/person_workflow/steps/hand_output.h"
+#include "hands/person_workflow/steps/posture_files.h"
+#include "hands/person_workflow/steps/scan_surface.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/records/person/person_file.h"
-#include "hands/person_workflow/steps/hand_output.h"
 #include "palmar/workflow/hand/load_hand.h"
-#include "hands/person_workflow/steps/posture_files.h"
-#include "hands/person_workflow/steps/scan_surface.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 void HandFromScanRequest::check() const {
   hand.check();
@@ -27,17 +27,17 @@ ScanHandOutcome make_hand_from_scan(const HandFromScanRequest& request, const Pr
   const std::string work =
       request.hand.work.empty() ? beside_hand(request.hand.out, ".scan") : request.hand.work;
   request.hand.check_files();
-  load_hand(request.hand.model);
+  workflow::load_hand(request.hand.model);
 
-  const PersonFile known =
-      request.hand.known.empty() ? PersonFile{} : read_person(request.hand.known);
+  const records::PersonFile known =
+      request.hand.known.empty() ? records::PersonFile{} : records::read_person(request.hand.known);
   const std::optional<Vec3> pick_crease =
       request.pick_crease ? request.pick_crease : known.pick_crease;
   const std::optional<Vec3> pick_dot = request.pick_dot ? request.pick_dot : known.pick_dot;
-  SkinMarkOptions inks = request.hand.inks;
-  std::map<ScanPosture, ShownScan> shown;
+  capture::SkinMarkOptions inks = request.hand.inks;
+  std::map<hand::ScanPosture, person_report::ShownScan> shown;
   std::vector<std::string> notes;
-  std::optional<LengthUnit> unit = request.unit;
+  std::optional<geometry::LengthUnit> unit = request.unit;
   for (const auto& [posture, path] : files) {
     const double step = 0.15 / static_cast<double>(files.size());
     progress.update(step * static_cast<double>(shown.size()), "reading " + path);
@@ -45,13 +45,13 @@ ScanHandOutcome make_hand_from_scan(const HandFromScanRequest& request, const Pr
     ReadSurface read = read_scan_surface(path, unit);
     if (!unit) unit = read.unit;
     notes.insert(notes.end(), read.notes.begin(), read.notes.end());
-    if (posture == ScanPosture::kReference) {
+    if (posture == hand::ScanPosture::kReference) {
       if (pick_crease) inks.crease = colour_near(read, "pick crease", *pick_crease);
       if (pick_dot) inks.dot = colour_near(read, "pick dot", *pick_dot);
     }
-    SkinMarks marks;
+    capture::SkinMarks marks;
     if (!read.surface.colour.empty()) {
-      marks = find_skin_marks(read.surface, path, inks);
+      marks = capture::find_skin_marks(read.surface, path, inks);
       for (const std::string& text : marks.notes) notes.push_back(path + ": " + text);
     }
     shown[posture] = {path, std::move(read.surface), std::move(marks)};
@@ -59,4 +59,4 @@ ScanHandOutcome make_hand_from_scan(const HandFromScanRequest& request, const Pr
   return make_hand_of_surfaces(request.hand, work, shown, notes, part_of(progress, 0.15, 1.0));
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

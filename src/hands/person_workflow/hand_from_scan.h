@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "hands/person_workflow/steps/scan_hand.h"
 #include "palmar/core/progress.h"
 #include "palmar/geometry/length_unit.h"
 #include "palmar/geometry/types.h"
-#include "hands/person_workflow/steps/scan_hand.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// A person's hand from surface scans of any scanning app or photogrammetry program, with drawn
 /// creases and dots if there are any (docs/method/scan.md).
@@ -21,9 +21,9 @@ struct HandFromScanRequest {
   /// shows it: reference (or natural), finger_flexion, finger_abduction; the reference is needed, a
   /// single file is taken for it.
   std::vector<std::string> scans;
-  std::map<std::string, ScanPosture> posture;  ///< of files whose names don't give it
-  std::optional<LengthUnit> unit;  ///< of files that carry none; nothing: the one that makes
-                                   ///< a hand of the reference, which holds for all
+  std::map<std::string, hand::ScanPosture> posture;  ///< of files whose names don't give it
+  std::optional<geometry::LengthUnit> unit;  ///< of files that carry none; nothing: the one that
+                                             ///< makes a hand of the reference, which holds for all
   /// Points of the reference scan, in its own coordinates and unit, that have an ink's colour;
   /// nothing: `hand.inks` counts.
   std::optional<Vec3> pick_crease, pick_dot;
@@ -37,4 +37,4 @@ struct HandFromScanRequest {
 ScanHandOutcome make_hand_from_scan(const HandFromScanRequest& request,
                                     const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

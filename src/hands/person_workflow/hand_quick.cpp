@@ -8,36 +8,36 @@
 
 #include "hands/capture/sheet/card_view.h"
 #include "hands/capture/sheet/skin_mask.h"
+#include "hands/images/exif.h"
+#include "hands/person_workflow/steps/outline_picture.h"
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
-#include "hands/images/exif.h"
 #include "palmar/formats/mesh/texture_file.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/hand/mirror.h"
 #include "palmar/population/segment_regressions.h"
-#include "palmar/records/person/person_file.h"
 #include "palmar/records/hand/hand_file.h"
+#include "palmar/records/person/person_file.h"
 #include "palmar/records/population/population_file.h"
 #include "palmar/workflow/hand/load_hand.h"
-#include "hands/person_workflow/steps/outline_picture.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 constexpr double kMostTilt = 25.0;  // deg: docs/method/outline.md
 
 bool is_beside_card(const PhotographedHand& photo) {
-  return photo.scene.sheet.format.name == card_format().name;
+  return photo.scene.sheet.format.name == capture::card_format().name;
 }
 
 PhotographedHand photographed(const HandQuickRequest& request) {
-  const std::string bytes = read_file(request.photo, std::uint64_t{256} << 20);
+  const std::string bytes = formats::read_file(request.photo, std::uint64_t{256} << 20);
   PhotographedHand result;
-  result.image = read_texture(bytes, request.photo);
-  SheetOptions sheet;
+  result.image = formats::read_texture(bytes, request.photo);
+  capture::SheetOptions sheet;
   sheet.most_tilt = kMostTilt;
-  if (!request.sheet.empty()) sheet.format = sheet_format_named(request.sheet);
-  if (const auto exif = read_exif(bytes)) {
+  if (!request.sheet.empty()) sheet.format = capture::sheet_format_named(request.sheet);
+  if (const auto exif = images::read_exif(bytes)) {
     if (exif->is_cropped(result.image.width, result.image.height)) {
       throw InputError(fmt::format(
           "{}: has {} x {} pixels, but the camera took {} x {}: it is cropped, and where the lens "
@@ -46,25 +46,25 @@ PhotographedHand photographed(const HandQuickRequest& request) {
     }
     sheet.focal = exif->focal_pixels(result.image.width, result.image.height);
   }
-  const bool is_card = sheet.format && sheet.format->name == card_format().name;
-  OutlineScene& scene = result.scene;
-  scene.sheet = is_card ? find_card(result.image, request.photo, sheet)
-                        : find_sheet(result.image, request.photo, sheet);
-  scene.grid = is_card ? grid_beside_card(scene.sheet, kOutlineCell)
-                       : grid_of_sheet(scene.sheet, kOutlineCell);
-  scene.proportions = outline_proportions(template_proportions());
+  const bool is_card = sheet.format && sheet.format->name == capture::card_format().name;
+  capture::OutlineScene& scene = result.scene;
+  scene.sheet = is_card ? capture::find_card(result.image, request.photo, sheet)
+                        : capture::find_sheet(result.image, request.photo, sheet);
+  scene.grid = is_card ? capture::grid_beside_card(scene.sheet, capture::kOutlineCell)
+                       : capture::grid_of_sheet(scene.sheet, capture::kOutlineCell);
+  scene.proportions = capture::outline_proportions(population::template_proportions());
   scene.options.wrist = request.wrist_inside;
   scene.options.palm_up = request.palm_up;
-  const Ground ground = is_card ? Ground::kTable : Ground::kPaper;
-  const VoxelMask skin =
-      skin_mask(draw_sheet(result.image, scene.sheet, scene.grid, ground), ground, request.photo);
-  result.outline = measure_outline(scene.grid, skin, scene.sheet, scene.proportions, request.photo,
-                                   scene.options);
+  const capture::Ground ground = is_card ? capture::Ground::kTable : capture::Ground::kPaper;
+  const imaging::VoxelMask skin = capture::skin_mask(
+      capture::draw_sheet(result.image, scene.sheet, scene.grid, ground), ground, request.photo);
+  result.outline = capture::measure_outline(scene.grid, skin, scene.sheet, scene.proportions,
+                                            request.photo, scene.options);
   return result;
 }
 
-void note_photograph(const PhotographedHand& photo, const NoteSink& on_note) {
-  const SheetView& sheet = photo.scene.sheet;
+void note_photograph(const PhotographedHand& photo, const workflow::NoteSink& on_note) {
+  const capture::SheetView& sheet = photo.scene.sheet;
   const bool is_card = is_beside_card(photo);
   const double finger = photo.scene.proportions.finger_height[2] * photo.outline.hand_length;
   on_note(fmt::format(
@@ -87,8 +87,8 @@ void note_photograph(const PhotographedHand& photo, const NoteSink& on_note) {
 }
 
 /// The side that the photograph shows, which must be the one that the user says.
-Side side_of(const PhotographedHand& photo, const HandQuickRequest& request) {
-  const Side seen = photo.outline.is_right ? Side::kRight : Side::kLeft;
+hand::Side side_of(const PhotographedHand& photo, const HandQuickRequest& request) {
+  const hand::Side seen = photo.outline.is_right ? hand::Side::kRight : hand::Side::kLeft;
   if (!request.side || seen == *request.side) return seen;
   throw UsageError(
       fmt::format("setting \"side\" {}: the thumb is that of a {} hand with its {} to the camera{}",
@@ -99,23 +99,26 @@ Side side_of(const PhotographedHand& photo, const HandQuickRequest& request) {
 }
 
 /// The hand that most people of these measures have.
-OutlinePerson person_of_measures(const Population& population, const std::vector<KnownMeasure>& own,
-                                 Side side) {
-  OutlinePerson person;
+capture::OutlinePerson person_of_measures(const population::Population& population,
+                                          const std::vector<population::KnownMeasure>& own,
+                                          hand::Side side) {
+  capture::OutlinePerson person;
   person.measures = static_cast<int>(own.size());
-  person.estimate = estimate_person(population, own);
-  person.hand = make_hand_instance(*load_hand("template"), sizes_of(person.estimate)).hand;
-  if (side == Side::kLeft) person.hand = mirrored(person.hand);
+  person.estimate = population::estimate_person(population, own);
+  person.hand = hand::make_hand_instance(*workflow::load_hand("template"),
+                                         population::sizes_of(person.estimate))
+                    .hand;
+  if (side == hand::Side::kLeft) person.hand = hand::mirrored(person.hand);
   return person;
 }
 
 /// The request with what its file of the person says; what the request says itself counts more.
 HandQuickRequest with_what_is_known(HandQuickRequest request) {
   if (request.known.empty()) return request;
-  PersonFile said;
+  records::PersonFile said;
   said.side = request.side;
   said.sizes = request.sizes;
-  const PersonFile known = merged(read_person(request.known), said);
+  const records::PersonFile known = records::merged(records::read_person(request.known), said);
   request.side = known.side;
   request.sizes = known.sizes;
   if (request.photo.empty() && request.sizes.empty()) {
@@ -133,22 +136,22 @@ void HandQuickRequest::check() const {
         "nothing is known of the hand: a photograph, setting \"hand length\", setting "
         "\"circumference\", setting \"width\" or setting \"dimension\" is required");
   }
-  if (!photo.empty() && !sheet.empty()) sheet_format_named(sheet);
+  if (!photo.empty() && !sheet.empty()) capture::sheet_format_named(sheet);
 }
 
 HandQuickOutcome make_hand_quick(const HandQuickRequest& asked, const Progress& progress) {
   asked.check();
   const HandQuickRequest request = with_what_is_known(asked);
-  const auto on_note = [&](const std::string& text) { note_to(request.note, text); };
+  const auto on_note = [&](const std::string& text) { workflow::note_to(request.note, text); };
   HandQuickOutcome outcome;
-  outcome.population = load_population(request.population);
-  const Population& population = outcome.population;
-  std::vector<KnownMeasure> own;
-  for (const SizedDimension& one : request.sizes) {
-    own.push_back(KnownMeasure::of(one.dimension, one.value, request.error));
+  outcome.population = records::load_population(request.population);
+  const population::Population& population = outcome.population;
+  std::vector<population::KnownMeasure> own;
+  for (const hand::SizedDimension& one : request.sizes) {
+    own.push_back(population::KnownMeasure::of(one.dimension, one.value, request.error));
   }
-  OutlinePerson& person = outcome.person;
-  outcome.side = request.side.value_or(Side::kRight);
+  capture::OutlinePerson& person = outcome.person;
+  outcome.side = request.side.value_or(hand::Side::kRight);
   if (request.photo.empty()) {
     progress.update(0.1, "estimating");
     person = person_of_measures(population, own, outcome.side);
@@ -160,8 +163,8 @@ HandQuickOutcome make_hand_quick(const HandQuickRequest& asked, const Progress& 
     note_photograph(photo, on_note);
     progress.update(0.4, "measuring");
     try {
-      person =
-          person_of_outline(*load_hand("template"), population, own, photo.outline, photo.scene);
+      person = capture::person_of_outline(*workflow::load_hand("template"), population, own,
+                                          photo.outline, photo.scene);
     } catch (const UsageError& error) {
       if (!own.empty()) throw;  // a size that was given may be what is wrong
       throw InputError(
@@ -169,8 +172,9 @@ HandQuickOutcome make_hand_quick(const HandQuickRequest& asked, const Progress& 
     }
     for (const std::string& text : person.notes) on_note(text);
     if (!request.picture.empty()) {
-      write_file(request.picture, outline_picture(photo.image, photo.scene.sheet, photo.outline,
-                                                  person.model ? &person.model->outline : nullptr));
+      formats::write_file(request.picture,
+                          outline_picture(photo.image, photo.scene.sheet, photo.outline,
+                                          person.model ? &person.model->outline : nullptr));
       on_note("wrote " + request.picture);
     }
   }
@@ -184,10 +188,10 @@ HandQuickOutcome make_hand_quick(const HandQuickRequest& asked, const Progress& 
                                         person.measures, from, population.name);
   progress.update(0.95, "writing");
   if (!request.out.empty()) {
-    write_hand(request.out, person.hand);
+    records::write_hand(request.out, person.hand);
     on_note(fmt::format("wrote {} ({} hand)", request.out, name_of(outcome.side)));
   }
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

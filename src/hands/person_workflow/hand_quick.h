@@ -12,7 +12,7 @@
 #include "palmar/population/population.h"
 #include "palmar/workflow/note/note.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// A person's hand from a few measures, or from one photograph of it flat on a sheet of paper or
 /// beside a bank card, and the people whom it belongs to (docs/method/outline.md).
@@ -25,33 +25,34 @@ struct HandQuickRequest {
   double wrist_inside = 0.0;  ///< how far inside of the sheet's edge the crease of the wrist
                               ///< lies, or beyond the card's, mm
   bool palm_up = false;       ///< the palm looks at the camera
-  std::optional<Side> side;   ///< nothing: as photographed, else right; a photograph must agree
-  std::vector<SizedDimension> sizes;  ///< what was measured by hand
+  std::optional<hand::Side> side;  ///< nothing: as photographed, else right; a photograph must
+                                   ///< agree
+  std::vector<hand::SizedDimension> sizes;  ///< what was measured by hand
   std::string known;   ///< file of what is known of the person (read_person()): its sizes count
                        ///< beside `sizes`, its side where none is set; empty: none
   double error = 1.5;  ///< standard error of those, mm: what people reach with a ruler
                        ///< or a tape
   std::string population = "ansur2";  ///< whose proportions fill in the rest: a built-in name or a
                                       ///< .toml file
-  std::string picture;  ///< PNG to write: the photograph with what was found; empty: none
-  std::string out;      ///< the hand, *.hand.glb; empty: none is written
-  NoteSink note;        ///< gets every note once it is known; may be empty
+  std::string picture;      ///< PNG to write: the photograph with what was found; empty: none
+  std::string out;          ///< the hand, *.hand.glb; empty: none is written
+  workflow::NoteSink note;  ///< gets every note once it is known; may be empty
 
   void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 
 /// What a photograph shows.
 struct PhotographedHand {
-  RgbImage image;
-  OutlineScene scene;
-  HandOutline outline;  ///< as measured, before a model corrects it
+  geometry::RgbImage image;
+  capture::OutlineScene scene;
+  capture::HandOutline outline;  ///< as measured, before a model corrects it
 };
 
 struct HandQuickOutcome {
-  Side side = Side::kRight;
-  OutlinePerson person;  ///< every dimension with how well it is known, and the hand; without a
-                         ///< photograph its outline is empty
-  Population population;
+  hand::Side side = hand::Side::kRight;
+  capture::OutlinePerson person;  ///< every dimension with how well it is known, and the hand;
+                                  ///< without a photograph its outline is empty
+  population::Population population;
   std::optional<PhotographedHand> photograph;
 };
 
@@ -64,6 +65,6 @@ HandQuickOutcome make_hand_quick(const HandQuickRequest& request, const Progress
 std::string hand_quick_json(const HandQuickOutcome& outcome);
 
 /// How a dimension is known: "measured", or on what evidence it follows from the rest.
-std::string how_known(const EstimatedDimension& dimension);
+std::string how_known(const population::EstimatedDimension& dimension);
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

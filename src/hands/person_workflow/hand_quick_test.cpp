@@ -13,7 +13,7 @@
 // Requests that are refused; photographs and what is made of them are tested with the whole
 // program.
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 using ::testing::AllOf;
@@ -22,7 +22,7 @@ using ::testing::Not;
 
 TEST(HandQuickRequest, NamesTheSettingAndWhatIsAllowed) {
   HandQuickRequest request;
-  const auto refusal = [&] { return message_of<UsageError>([&] { request.check(); }); };
+  const auto refusal = [&] { return formats::message_of<UsageError>([&] { request.check(); }); };
   EXPECT_THAT(refusal(), AllOf(HasSubstr("nothing is known of the hand"),
                                HasSubstr("setting \"hand length\""), Not(HasSubstr("--"))));
   request.photo = "hand.jpg";
@@ -34,23 +34,23 @@ TEST(HandQuickRequest, NamesTheSettingAndWhatIsAllowed) {
 TEST(MakeHandQuick, APhotographThatIsNotThereIsNamed) {
   HandQuickRequest request;
   request.photo = "nowhere/hand.jpg";
-  EXPECT_THAT(message_of<InputError>([&] { make_hand_quick(request); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { make_hand_quick(request); }),
               HasSubstr("nowhere/hand.jpg"));
 }
 
 TEST(MakeHandQuick, AnUnknownPopulationIsNamed) {
   HandQuickRequest request;
-  request.sizes = {{{DimensionKind::kHandLength}, 181.0}};
+  request.sizes = {{{hand::DimensionKind::kHandLength}, 181.0}};
   request.population = "ansur3";
-  EXPECT_THAT(message_of<Error>([&] { make_hand_quick(request); }), HasSubstr("ansur3"));
+  EXPECT_THAT(formats::message_of<Error>([&] { make_hand_quick(request); }), HasSubstr("ansur3"));
 }
 
 TEST(MakeHandQuick, StopsWhenItIsCancelled) {
   HandQuickRequest request;
-  request.sizes = {{{DimensionKind::kHandLength}, 181.0}};
+  request.sizes = {{{hand::DimensionKind::kHandLength}, 181.0}};
   const std::atomic<bool> cancel{true};
   EXPECT_THROW(make_hand_quick(request, {.report = {}, .cancel = &cancel}), Cancelled);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::person_workflow

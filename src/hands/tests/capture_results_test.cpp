@@ -27,10 +27,10 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 /// Bones of a folder by the names of their files.
-std::map<std::string, TriangleMesh> bones_in(const fs::path& folder) {
-  std::map<std::string, TriangleMesh> bones;
+std::map<std::string, geometry::TriangleMesh> bones_in(const fs::path& folder) {
+  std::map<std::string, geometry::TriangleMesh> bones;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    bones[entry.path().stem().string()] = read_mesh(entry.path()).mesh;
+    bones[entry.path().stem().string()] = formats::read_mesh(entry.path()).mesh;
   }
   return bones;
 }
@@ -43,8 +43,8 @@ std::string table_with(const std::string& toml, const std::string& words) {
   return toml.substr(begin, end - begin);
 }
 
-double mean_distance(const TriangleMesh& found, const TriangleMesh& truth) {
-  const ClosestPointQuery query(truth);
+double mean_distance(const geometry::TriangleMesh& found, const geometry::TriangleMesh& truth) {
+  const geometry::ClosestPointQuery query(truth);
   double sum = 0.0;
   for (const Vec3& v : found.vertices) sum += query.closest(v)->distance;
   return sum / static_cast<double>(found.vertices.size());
@@ -68,7 +68,9 @@ TEST(CaptureResults, AnImageGivesEveryBoneItsNameAndPlace) {
     if (name == "radius" || name == "ulna") continue;
     const auto known = truth.find(name);
     ASSERT_NE(known, truth.end()) << name;
-    EXPECT_LT((centre_of_volume(mesh) - centre_of_volume(known->second)).norm(), 2.0) << name;
+    EXPECT_LT((geometry::centre_of_volume(mesh) - geometry::centre_of_volume(known->second)).norm(),
+              2.0)
+        << name;
     const double distance = mean_distance(mesh, known->second);
     EXPECT_LT(distance, 0.8) << name;  // mm
     sum += distance;
@@ -76,10 +78,11 @@ TEST(CaptureResults, AnImageGivesEveryBoneItsNameAndPlace) {
   }
   EXPECT_GE(named, 26);
   EXPECT_LT(sum / named, 0.45);  // mm; half a voxel
-  const TriangleMesh skin = read_mesh(fs::path(folder) / "found/skin.ply").mesh;
-  const TriangleMesh true_skin = read_mesh(fs::path(folder) / "p/truth/reference/skin.ply").mesh;
+  const geometry::TriangleMesh skin = formats::read_mesh(fs::path(folder) / "found/skin.ply").mesh;
+  const geometry::TriangleMesh true_skin =
+      formats::read_mesh(fs::path(folder) / "p/truth/reference/skin.ply").mesh;
   std::vector<double> distances;
-  const ClosestPointQuery query(true_skin);
+  const geometry::ClosestPointQuery query(true_skin);
   for (std::size_t v = 0; v < skin.vertices.size(); v += 7) {
     distances.push_back(query.closest(skin.vertices[v])->distance);
   }

@@ -50,7 +50,7 @@ const std::string& scan() {
 }
 
 /// The same scan as GDCM reads it, to be written as one file.
-GdcmImage scan_of_gdcm() {
+images::GdcmImage scan_of_gdcm() {
   const auto read = [](int slice) {
     char name[64];
     std::snprintf(name, sizeof name, "/p/mri/reference/slice-%04d.dcm", slice);
@@ -59,7 +59,7 @@ GdcmImage scan_of_gdcm() {
     if (!reader.Read()) throw std::runtime_error(std::string("GDCM can't read ") + name);
     return reader.GetImage();
   };
-  GdcmImage image;
+  images::GdcmImage image;
   const gdcm::Image first = read(1), second = read(2);
   image.columns = static_cast<int>(first.GetDimension(0));
   image.rows = static_cast<int>(first.GetDimension(1));
@@ -91,10 +91,10 @@ TEST(DicomFile, AnEnhancedFileGivesTheSameImageAsTheFolderOfSlices) {
   const ProgramRun slices = run_palmar("mri info p/mri/reference --json", scan());
   ASSERT_EQ(slices.exit_code, 0) << slices.err;
   const Json expected = Json::parse(slices.out);
-  auto ways = packed_syntaxes();
+  auto ways = images::packed_syntaxes();
   ways.emplace_back("explicit", gdcm::TransferSyntax::ExplicitVRLittleEndian);
   for (const auto& [name, syntax] : ways) {
-    GdcmImage image = scan_of_gdcm();
+    images::GdcmImage image = scan_of_gdcm();
     image.syntax = syntax;
     image.write(scan() + "/one.dcm");
     const ProgramRun run = run_palmar("mri info one.dcm --json", scan());
@@ -123,7 +123,7 @@ TEST(DicomFile, AnEnhancedFileGivesTheSameImageAsTheFolderOfSlices) {
 }
 
 TEST(DicomFile, HandFromMriTakesTheFileAndNoSingleSlice) {
-  GdcmImage image = scan_of_gdcm();
+  images::GdcmImage image = scan_of_gdcm();
   image.syntax = gdcm::TransferSyntax::JPEGLSLossless;
   image.write(scan() + "/coarse.dcm");
   // Read, taken as the reference by its description, and measured.
@@ -140,8 +140,8 @@ TEST(DicomFile, HandFromMriTakesTheFileAndNoSingleSlice) {
 
 TEST(DicomFile, AHostileFileEndsWithCodeThreeWithinItsLimits) {
   const std::string folder = temporary_folder();
-  for (const auto& [name, syntax] : packed_syntaxes()) {
-    GdcmImage image;
+  for (const auto& [name, syntax] : images::packed_syntaxes()) {
+    images::GdcmImage image;
     image.columns = 64;
     image.rows = 48;
     image.syntax = syntax;
@@ -149,7 +149,7 @@ TEST(DicomFile, AHostileFileEndsWithCodeThreeWithinItsLimits) {
     const std::string whole = read_text(folder + "/whole.dcm");
     write_text(folder + "/cut.dcm", whole.substr(0, whole.size() * 3 / 4));
     const bool has_head = name == "JPEG-LS" || name == "JPEG 2000";
-    if (has_head) write_text(folder + "/large.dcm", claiming_size(whole, 10000, 10000));
+    if (has_head) write_text(folder + "/large.dcm", images::claiming_size(whole, 10000, 10000));
     for (const std::string file : {"cut.dcm", "large.dcm"}) {
       if (file == "large.dcm" && !has_head) continue;
       const auto start = std::chrono::steady_clock::now();

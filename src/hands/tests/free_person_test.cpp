@@ -9,18 +9,18 @@
 #include <map>
 #include <numbers>
 
+#include "hands/phantom/person/person_size.h"
+#include "hands/phantom/person/subject_person.h"
+#include "hands/phantom/photo/painted_hand.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/repair/self_intersection.h"
 #include "palmar/hand/instance/hand_instance.h"
-#include "hands/phantom/person/person_size.h"
-#include "hands/phantom/person/subject_person.h"
-#include "hands/phantom/photo/painted_hand.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 class FreePerson : public TemplateTest {};
@@ -39,23 +39,27 @@ struct Sums {
 TEST_F(FreePerson, LengthsAreTheSurveysOwn) {
   // Residuals of palm and links over a survey's prediction, in its deviations, of 2 000 persons: 0
   // within 3 standard errors, and 1 but for what is held to 2.5 deviations (0.989).
-  std::map<Segment, Sums> sums;
+  std::map<hand::Segment, Sums> sums;
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
-    const PersonSize size = drawn_size(seed, kFreePerson);
-    const AnsurFigures& ansur = ansur2_figures(size.sex);
-    const GreinerFigures& greiner = greiner_figures(size.sex);
-    for (const auto& [dimension, length] : surveyed_lengths(hand().dimensions, size, seed)) {
-      const Segment segment = dimension.segment;
-      if (segment == Segment::kPalm) {
+    const phantom::PersonSize size = phantom::drawn_size(seed, phantom::kFreePerson);
+    const population::AnsurFigures& ansur = population::ansur2_figures(size.sex);
+    const population::GreinerFigures& greiner = population::greiner_figures(size.sex);
+    for (const auto& [dimension, length] :
+         phantom::surveyed_lengths(hand().dimensions, size, seed)) {
+      const hand::Segment segment = dimension.segment;
+      if (segment == hand::Segment::kPalm) {
         const double usual = ansur.palm.mean + ansur.palm_slope * (size.length - ansur.length.mean);
         sums[segment].add((length - usual) / ansur.palm_residual);
-      } else if (segment == Segment::kThumbDistal || segment == Segment::kMiddleMiddle ||
-                 segment == Segment::kLittleDistal) {
-        const Moment& link = segment == Segment::kThumbDistal    ? greiner.thumb_distal
-                             : segment == Segment::kMiddleMiddle ? greiner.link[1][1]
-                                                                 : greiner.link[3][2];
+      } else if (segment == hand::Segment::kThumbDistal ||
+                 segment == hand::Segment::kMiddleMiddle ||
+                 segment == hand::Segment::kLittleDistal) {
+        const population::Moment& link =
+            segment == hand::Segment::kThumbDistal    ? greiner.thumb_distal
+            : segment == hand::Segment::kMiddleMiddle ? greiner.link[1][1]
+                                                      : greiner.link[3][2];
         const double usual = link.mean * size.length / greiner.length.mean;
-        sums[segment].add((length / usual - 1.0) / residual_share(link, greiner.length));
+        sums[segment].add((length / usual - 1.0) /
+                          population::residual_share(link, greiner.length));
       }
     }
   }
@@ -63,7 +67,7 @@ TEST_F(FreePerson, LengthsAreTheSurveysOwn) {
   for (const auto& [segment, sum] : sums) {
     SCOPED_TRACE(name_of(segment));
     // Hands with segments out of proportion are drawn again: palms are shorter, links less spread.
-    const bool is_whole = segment == Segment::kThumbDistal;
+    const bool is_whole = segment == hand::Segment::kThumbDistal;
     EXPECT_NEAR(sum.mean(), 0.0, is_whole ? 3.0 / std::sqrt(2000.0) : 0.5);
     EXPECT_NEAR(sum.deviation(), is_whole ? 0.98 : 0.75, is_whole ? 0.05 : 0.25);
   }
@@ -72,8 +76,8 @@ TEST_F(FreePerson, LengthsAreTheSurveysOwn) {
 TEST_F(FreePerson, IsAsLongAndAsBroadAsWasDrawn) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     SCOPED_TRACE(seed);
-    const PersonSize size = drawn_size(seed, kFreePerson);
-    const Hand person = sized_hand(hand(), seed, kFreePerson);
+    const phantom::PersonSize size = phantom::drawn_size(seed, phantom::kFreePerson);
+    const hand::Hand person = phantom::sized_hand(hand(), seed, phantom::kFreePerson);
     EXPECT_NEAR(person.dimensions.hand_length, size.length, 0.2);        // mm
     EXPECT_NEAR(person.dimensions.hand_circumference, size.girth, 0.2);  // mm
   }
@@ -85,8 +89,8 @@ TEST_F(FreePerson, FingersAreAsBroadAsASurveys) {
   // start hand's are 0.087.
   Sums share;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const SubjectPerson person = make_person(hand(), seed, kFreePerson);
-    const double girth = drawn_size(seed, kFreePerson).girth;
+    const phantom::SubjectPerson person = phantom::make_person(hand(), seed, phantom::kFreePerson);
+    const double girth = phantom::drawn_size(seed, phantom::kFreePerson).girth;
     share.add(0.5 * (person.finger_width[1] + person.finger_width[2]) / girth);
   }
   EXPECT_NEAR(share.mean(), 0.106, 0.08 * 0.106);
@@ -96,14 +100,14 @@ TEST_F(FreePerson, FingersAreAsBroadAsASurveys) {
 TEST_F(FreePerson, AxesAreAsDispersedAsAsked) {
   // Two directions across the axis with a deviation of s each: s sqrt(pi / 2) in the mean, less 1 %
   // as both are held to 2.5 s.
-  PersonDispersion straight, wide;
+  phantom::PersonDispersion straight, wide;
   straight.axis = straight.slant = 0.0;
   wide.axis = wide.slant = 0.09;
   Sums angle;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const SubjectPerson one = make_person(hand(), seed, straight);
-    const SubjectPerson other = make_person(hand(), seed, wide);
-    for (int k = 1; k < kSegmentCount; ++k) {
+    const phantom::SubjectPerson one = phantom::make_person(hand(), seed, straight);
+    const phantom::SubjectPerson other = phantom::make_person(hand(), seed, wide);
+    for (int k = 1; k < hand::kSegmentCount; ++k) {
       const double cosine = one.joints.phalanx[k].axis.dot(other.joints.phalanx[k].axis);
       angle.add(std::acos(std::min(1.0, cosine)));
     }
@@ -112,30 +116,32 @@ TEST_F(FreePerson, AxesAreAsDispersedAsAsked) {
 }
 
 TEST_F(FreePerson, SkinIsAHandsSkin) {
-  const SubjectPerson person = make_person(hand(), 2, kFreePerson);
-  EXPECT_NO_THROW(require_closed_manifold(person.skin, "skin"));
-  EXPECT_LT(crossing_depth(person.skin).deepest, 1.0);  // mm
+  const phantom::SubjectPerson person = phantom::make_person(hand(), 2, phantom::kFreePerson);
+  EXPECT_NO_THROW(geometry::require_closed_manifold(person.skin, "skin"));
+  EXPECT_LT(geometry::crossing_depth(person.skin).deepest, 1.0);  // mm
   EXPECT_EQ(person.skin.triangles, hand().skin.triangles);
   for (const std::uint64_t seed : {2011U, 2015U, 2016U}) {  // whose ends were lost
     SCOPED_TRACE(seed);
-    const Skeleton bones = make_person(hand(), seed, kFreePerson).skeleton;
-    for (int f = 1; f < kFingerCount; ++f) {
-      const Segment last = *segments_of(static_cast<Finger>(f))[2];
-      EXPECT_GT((bones.fingertips[f] - bones.joint(joint_of(last)).centre).norm(), 13.0);  // mm
+    const hand::Skeleton bones = phantom::make_person(hand(), seed, phantom::kFreePerson).skeleton;
+    for (int f = 1; f < hand::kFingerCount; ++f) {
+      const hand::Segment last = *hand::segments_of(static_cast<hand::Finger>(f))[2];
+      EXPECT_GT((bones.fingertips[f] - bones.joint(hand::joint_of(last)).centre).norm(),
+                13.0);  // mm
     }
   }
 }
 
 TEST_F(FreePerson, FingersMoveBetweenTakesAsFarAsAsked) {
-  PaintedHandOptions options;
+  phantom::PaintedHandOptions options;
   options.levels = 0;
   options.takes = 13;
   options.restless = 1.5;
-  const PaintedHand person = make_painted_hand(hand(), {ScanPosture::kReference}, options);
+  const phantom::PaintedHand person =
+      phantom::make_painted_hand(hand(), {hand::ScanPosture::kReference}, options);
   ASSERT_EQ(person.takes.size(), 12U);
-  const std::vector<Vec3>& first = person.postures.at(ScanPosture::kReference).skin;
+  const std::vector<Vec3>& first = person.postures.at(hand::ScanPosture::kReference).skin;
   double sum = 0.0, count = 0.0;
-  for (const auto& [segment, tip] : person.postures.at(ScanPosture::kReference).fingertip) {
+  for (const auto& [segment, tip] : person.postures.at(hand::ScanPosture::kReference).fingertip) {
     for (const std::vector<Vec3>& skin : person.takes) {
       for (std::size_t v = 0; v < skin.size(); ++v) {
         if ((first[v] - tip).norm() > 1e-9) continue;
@@ -157,4 +163,4 @@ TEST_F(FreePerson, FingersMoveBetweenTakesAsFarAsAsked) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

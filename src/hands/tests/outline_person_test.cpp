@@ -12,30 +12,32 @@
 #include "palmar/records/population/population_file.h"
 #include "template_fixture.h"
 
-namespace palmar {
+namespace palmar::tests {
 namespace {
 
 /// Hands placed on A4 and seen by a camera without error: what the method itself misses.
 class OutlinePersonTest : public TemplateTest {
  protected:
-  static OutlineScene scene(double tilt, bool palm_up = false) {
-    OutlineScene scene;
-    scene.sheet.format = sheet_format_named("a4");
+  static capture::OutlineScene scene(double tilt, bool palm_up = false) {
+    capture::OutlineScene scene;
+    scene.sheet.format = capture::sheet_format_named("a4");
     scene.sheet.eye = 430.0 * Vec3(std::sin(tilt) * 0.6, std::sin(tilt) * 0.8, std::cos(tilt));
-    scene.grid = grid_of_sheet(scene.sheet, kOutlineCell);
-    scene.proportions = outline_proportions(hand().dimensions);
+    scene.grid = capture::grid_of_sheet(scene.sheet, capture::kOutlineCell);
+    scene.proportions = capture::outline_proportions(hand().dimensions);
     scene.options.palm_up = palm_up;
     return scene;
   }
-  static HandOutline seen(const SpreadHand& spread, const OutlineScene& scene, std::uint64_t seed) {
-    SheetPhotographOptions place;
+  static capture::HandOutline seen(const phantom::SpreadHand& spread,
+                                   const capture::OutlineScene& scene, std::uint64_t seed) {
+    phantom::SheetPhotographOptions place;
     place.seed = seed;
-    const VoxelMask mask = silhouette(hand_on_sheet(spread, place), scene.sheet.eye, scene.grid);
-    return measure_outline(scene.grid, mask, scene.sheet, scene.proportions, "hand.jpg");
+    const imaging::VoxelMask mask =
+        capture::silhouette(phantom::hand_on_sheet(spread, place), scene.sheet.eye, scene.grid);
+    return capture::measure_outline(scene.grid, mask, scene.sheet, scene.proportions, "hand.jpg");
   }
-  static double finger(const HandDimensions& d, int f) {
+  static double finger(const hand::HandDimensions& d, int f) {
     double sum = 0.0;
-    for (const auto& s : segments_of(static_cast<Finger>(f))) {
+    for (const auto& s : hand::segments_of(static_cast<hand::Finger>(f))) {
       if (s) sum += d.segment[static_cast<std::size_t>(*s)].length;
     }
     return sum;
@@ -45,18 +47,19 @@ class OutlinePersonTest : public TemplateTest {
 TEST_F(OutlinePersonTest, APersonThatIsNoneOfPalmarsHandsIsFound) {
   // Another skin, other joints and proportions (make_person()); a right and a left hand, the camera
   // straight above and 10 degrees off.
-  const Population population = load_population("ansur2");
+  const population::Population population = records::load_population("ansur2");
   for (const std::uint64_t seed : {61U, 62U}) {
-    const Side side = seed % 2 == 0 ? Side::kLeft : Side::kRight;
-    const SpreadHand truth = spread_person(hand(), side, {.seed = seed});
-    const OutlineScene place = scene(seed % 2 == 0 ? 0.17 : 0.0);
-    const HandOutline outline = seen(truth, place, seed);
-    EXPECT_EQ(outline.is_right, side == Side::kRight);
-    const OutlinePerson person = person_of_outline(hand(), population, {}, outline, place);
+    const hand::Side side = seed % 2 == 0 ? hand::Side::kLeft : hand::Side::kRight;
+    const phantom::SpreadHand truth = phantom::spread_person(hand(), side, {.seed = seed});
+    const capture::OutlineScene place = scene(seed % 2 == 0 ? 0.17 : 0.0);
+    const capture::HandOutline outline = seen(truth, place, seed);
+    EXPECT_EQ(outline.is_right, side == hand::Side::kRight);
+    const capture::OutlinePerson person =
+        capture::person_of_outline(hand(), population, {}, outline, place);
     ASSERT_TRUE(person.model);
     EXPECT_EQ(person.hand.side, side);
     // Creases of people lie 1 mm from where joints have them; twice the errors reported.
-    const OutlineErrors errors;
+    const capture::OutlineErrors errors;
     EXPECT_NEAR(person.outline.hand_length, truth.dimensions.hand_length, 2.0 * errors.length);
     for (int f = 1; f < 5; ++f) {
       EXPECT_NEAR(person.outline.finger[static_cast<std::size_t>(f)].length,
@@ -68,14 +71,14 @@ TEST_F(OutlinePersonTest, APersonThatIsNoneOfPalmarsHandsIsFound) {
 
 TEST_F(OutlinePersonTest, OneOfPalmarsHandsIsFoundNearlyAsItIs) {
   // Only what the measures miss of a hand is left, and that is taken off.
-  const SpreadHand truth = spread_hand(hand(), {.seed = 4});
-  const OutlineScene place = scene(0.1);
-  const HandOutline outline = seen(truth, place, 4);
-  const OutlinePerson person =
-      person_of_outline(hand(), load_population("ansur2"), {}, outline, place);
+  const phantom::SpreadHand truth = phantom::spread_hand(hand(), {.seed = 4});
+  const capture::OutlineScene place = scene(0.1);
+  const capture::HandOutline outline = seen(truth, place, 4);
+  const capture::OutlinePerson person =
+      capture::person_of_outline(hand(), records::load_population("ansur2"), {}, outline, place);
   ASSERT_TRUE(person.model);
   EXPECT_LT(person.model->direction_error, 0.03);
-  const HandDimensions straight = straight_dimensions(hand());
+  const hand::HandDimensions straight = capture::straight_dimensions(hand());
   EXPECT_NEAR(person.outline.hand_length, straight.hand_length, 1.0);
   for (int f = 1; f < 5; ++f) {
     EXPECT_NEAR(person.outline.finger[static_cast<std::size_t>(f)].length, finger(straight, f), 1.5)
@@ -85,46 +88,48 @@ TEST_F(OutlinePersonTest, OneOfPalmarsHandsIsFoundNearlyAsItIs) {
 
 TEST_F(OutlinePersonTest, AHandsBackAndPalmAreDistinguished) {
   // The outline of a left hand on its palm is that of a right hand on its back.
-  const SpreadHand left = spread_person(hand(), Side::kLeft, {.seed = 61});
-  const OutlineScene place = scene(0.0, true);
-  HandOutline outline = seen(left, place, 61);
+  const phantom::SpreadHand left = phantom::spread_person(hand(), hand::Side::kLeft, {.seed = 61});
+  const capture::OutlineScene place = scene(0.0, true);
+  capture::HandOutline outline = seen(left, place, 61);
   outline.is_right = true;
-  const OutlinePerson person =
-      person_of_outline(hand(), load_population("ansur2"), {}, outline, place);
+  const capture::OutlinePerson person =
+      capture::person_of_outline(hand(), records::load_population("ansur2"), {}, outline, place);
   ASSERT_TRUE(person.model);
-  EXPECT_EQ(person.hand.side, Side::kRight);
+  EXPECT_EQ(person.hand.side, hand::Side::kRight);
   EXPECT_LT(person.model->direction_error, 0.03);
   // The back of a hand lies otherwise on a table than its palm: 3 mm.
   EXPECT_NEAR(person.outline.hand_length, left.dimensions.hand_length, 3.0);
 }
 
 TEST_F(OutlinePersonTest, WhatIsStatedCountsInsteadOfThePhotograph) {
-  const KnownMeasure stated = KnownMeasure::of({DimensionKind::kHandLength}, 190.0, 0.5);
-  HandOutline outline;
+  const population::KnownMeasure stated =
+      population::KnownMeasure::of({hand::DimensionKind::kHandLength}, 190.0, 0.5);
+  capture::HandOutline outline;
   outline.hand_length = 170.0;
   outline.hand_width = 80.0;
-  const auto all = measures_together({stated}, measures_of(outline, OutlineErrors{}));
+  const auto all =
+      capture::measures_together({stated}, capture::measures_of(outline, capture::OutlineErrors{}));
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].value, 190.0);
   EXPECT_EQ(all[1].value, 80.0);
   // An error of scale adds to that of the measure: hypot(1.6, 0.02 * 80).
-  EXPECT_NEAR(measures_of(outline, OutlineErrors{.width = 1.6}, 0.02)[1].sd, std::hypot(1.6, 1.6),
-              1e-12);
+  EXPECT_NEAR(capture::measures_of(outline, capture::OutlineErrors{.width = 1.6}, 0.02)[1].sd,
+              std::hypot(1.6, 1.6), 1e-12);
 }
 
 TEST_F(OutlinePersonTest, APersonsTruthIsThatOfStraightFingers) {
-  const SpreadHand one = spread_person(hand(), Side::kRight, {.seed = 61}),
-                   other = spread_person(hand(), Side::kLeft, {.seed = 61});
+  const phantom::SpreadHand one = phantom::spread_person(hand(), hand::Side::kRight, {.seed = 61}),
+                            other = phantom::spread_person(hand(), hand::Side::kLeft, {.seed = 61});
   EXPECT_EQ(one.dimensions.hand_length, other.dimensions.hand_length);
   EXPECT_NEAR(one.wrist.x(), -other.wrist.x(), 1e-12);
   // From the wrist to the tip of the middle finger in the skin itself, which is spread by a degree.
   const double seen = (one.fingertips[1] - one.wrist).head<2>().norm();
   EXPECT_NEAR(one.dimensions.hand_length, seen, 1.5);
   // The palm and the three segments of the finger make the hand's length.
-  const double parts =
-      one.dimensions.segment[0].length + finger(one.dimensions, static_cast<int>(Finger::kMiddle));
+  const double parts = one.dimensions.segment[0].length +
+                       finger(one.dimensions, static_cast<int>(hand::Finger::kMiddle));
   EXPECT_NEAR(parts, one.dimensions.hand_length, 3.0);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::tests

@@ -96,11 +96,11 @@ TEST_F(QuickCommand, ReportsAHandBesideACard) {
 }
 
 /// By boxes of three widths one after the other, which is near to a bell of that deviation, pixels.
-RgbImage blurred(RgbImage image, double deviation) {
+geometry::RgbImage blurred(geometry::RgbImage image, double deviation) {
   const int reach =
       static_cast<int>(std::lround(0.5 * (std::sqrt(4.0 * deviation * deviation + 1.0) - 1.0)));
   for (int pass = 0; pass < 6; ++pass) {
-    const RgbImage before = image;
+    const geometry::RgbImage before = image;
     const bool is_across = pass % 2 == 0;
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
@@ -122,12 +122,12 @@ RgbImage blurred(RgbImage image, double deviation) {
 
 TEST_F(QuickCommand, BlurIsNamedBeforeItIsMeasured) {
   for (const std::string name : {"sheet", "card"}) {
-    const RgbImage sharp =
-        read_texture(read_text(folder() + "/" + name + "/photo.jpg"), "photo.jpg");
+    const geometry::RgbImage sharp =
+        formats::read_texture(read_text(folder() + "/" + name + "/photo.jpg"), "photo.jpg");
     // 1.7 pixels a millimetre: deviations of 0.9 and 2 mm.
     for (const double pixels : {1.5, 3.5}) {
       const std::string file = name + "-blurred.png";
-      write_text(folder() + "/" + file, format_png(blurred(sharp, pixels)));
+      write_text(folder() + "/" + file, formats::format_png(blurred(sharp, pixels)));
       const std::string card = name == "card" ? " --sheet card" : "";
       expect_refused(file + card, 3,
                      file + ": the photograph is blurred: the sharpest edge of the " + name);
@@ -136,13 +136,15 @@ TEST_F(QuickCommand, BlurIsNamedBeforeItIsMeasured) {
 }
 
 TEST_F(QuickCommand, ACroppedPhotographIsNamed) {
-  const RgbImage whole = read_texture(read_text(folder() + "/sheet/photo.jpg"), "photo.jpg");
-  const PhotoExif camera{"Maker", 4.2, 26.0, 714.286, 960, 720};
+  const geometry::RgbImage whole =
+      formats::read_texture(read_text(folder() + "/sheet/photo.jpg"), "photo.jpg");
+  const images::PhotoExif camera{"Maker", 4.2, 26.0, 714.286, 960, 720};
   for (const int cut : {0, 60}) {  // rows at the lower edge
-    RgbImage image = whole;
+    geometry::RgbImage image = whole;
     image.height -= cut;
     image.rgb.resize(3 * static_cast<std::size_t>(image.width) * image.height);
-    write_text(folder() + "/cropped.jpg", format_jpeg(image, 90, format_exif(camera)));
+    write_text(folder() + "/cropped.jpg",
+               formats::format_jpeg(image, 90, images::format_exif(camera)));
     const ProgramRun run = run_palmar("hand quick cropped.jpg --out cropped.hand.glb", folder());
     if (cut == 0) {
       EXPECT_THAT(run.err, ::testing::Not(HasSubstr("cropped, and")));

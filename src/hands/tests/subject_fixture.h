@@ -4,12 +4,13 @@
 
 #include "hands/phantom/mri/mri_subject.h"
 
-namespace palmar {
+namespace palmar::tests {
 
 /// The synthetic person that several tests look at, made once.
-inline const MriSubject& test_subject(const Hand& base) {
-  static const MriSubject made = make_mri_subject(base, {.seed = 1, .has_fixture = false});
+inline const phantom::MriSubject& test_subject(const hand::Hand& base) {
+  static const phantom::MriSubject made =
+      phantom::make_mri_subject(base, {.seed = 1, .has_fixture = false});
   return made;
 }
 
-}  // namespace palmar
+}  // namespace palmar::tests

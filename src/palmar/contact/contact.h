@@ -14,7 +14,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Response of the skin to a vertex force (docs/method/contact.md).
 enum class Kernel {
@@ -126,17 +126,17 @@ class PreparedHand {
   /// TissueModel::kBone: 13 s more, unless `compliance` (skin_compliance.h) is given; it is the
   /// hand's own, or that of `base`, a hand of another size with the same mesh, and then scaled
   /// (loaded_skin.h). Throws UsageError if triangles or regions differ from the base's.
-  explicit PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model = {},
+  explicit PreparedHand(std::shared_ptr<const hand::Hand> hand, const ContactModel& model = {},
                         std::shared_ptr<const SkinCompliance> compliance = nullptr,
-                        const std::shared_ptr<const Hand>& base = nullptr);
+                        const std::shared_ptr<const hand::Hand>& base = nullptr);
   /// The same for a hand of the family's mesh, much faster (hand_family.h). Throws UsageError also
   /// if triangles or regions differ from the base's.
-  PreparedHand(std::shared_ptr<const Hand> hand, const HandFamily& family);
+  PreparedHand(std::shared_ptr<const hand::Hand> hand, const HandFamily& family);
   ~PreparedHand();
   PreparedHand(PreparedHand&&) noexcept;
   PreparedHand& operator=(PreparedHand&&) noexcept;
 
-  const Hand& hand() const;
+  const hand::Hand& hand() const;
   const ContactModel& model() const;
 
   struct Impl;
@@ -150,7 +150,7 @@ class PreparedHand {
 
 /// Contact in one region; region-wise totals.
 struct RegionContact {
-  Region region{};
+  hand::Region region{};
   double force = 0.0;                ///< sum of vertex forces, N
   Vec3 force_vector = Vec3::Zero();  ///< of the skin on the product, product frame, N
   double area = 0.0;                 ///< contact area on the product, mm^2
@@ -167,7 +167,7 @@ struct RegionContact {
 
 /// Results of low, nominal and high tissue side by side, for one region or the whole hand.
 struct ContactBandRow {
-  Region region{};                                           ///< meaningless in the row of totals
+  hand::Region region{};                                     ///< meaningless in the row of totals
   double force_low = 0.0, force_high = 0.0;                  ///< N
   double area_low = 0.0, area_high = 0.0;                    ///< mm^2
   double peak_pressure_low = 0.0, peak_pressure_high = 0.0;  ///< MPa
@@ -297,7 +297,8 @@ struct ContactResult {
 /// Never throws on a numerical failure: see status and fallbacks. Throws UsageError on bad options
 /// or if posed_skin has not one point per skin vertex.
 ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector<Vec3>& posed_skin,
-                                 const Rigid3& product_from_hand, const DistanceField& product,
+                                 const geometry::Rigid3& product_from_hand,
+                                 const geometry::DistanceField& product,
                                  const ContactOptions& options = {});
 
 /// The same along a motion: keeps its memory and the loaded vertices of the last call, from which
@@ -311,8 +312,8 @@ class ContactSolver {
   ContactSolver& operator=(ContactSolver&&) noexcept;
 
   /// Arguments as solve_hand_contact(); `result` is overwritten, its memory reused.
-  void solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
-             const DistanceField& product, ContactResult& result);
+  void solve(const std::vector<Vec3>& posed_skin, const geometry::Rigid3& product_from_hand,
+             const geometry::DistanceField& product, ContactResult& result);
 
   struct Impl;
 
@@ -320,4 +321,4 @@ class ContactSolver {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

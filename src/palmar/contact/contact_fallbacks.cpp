@@ -4,7 +4,7 @@
 
 #include "palmar/contact/contact.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 const std::array<FallbackCount, 11> kFallbackCounts = {{
     {"refused_matrices", "systems had a matrix that is not positive definite",
@@ -46,4 +46,4 @@ std::string fallbacks_in_words(const ContactFallbacks& fallbacks) {
   return words;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/contact.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 ContactModel palmar_model() { return {.tissue = TissueModel::kBone}; }
 
@@ -59,4 +59,4 @@ std::string name_of(const ContactModel& model) {
   return name;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

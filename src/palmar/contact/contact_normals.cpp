@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/contact_normals.h"
 
-namespace palmar {
+namespace palmar::contact {
 
-std::vector<Vec3> contact_normals(const ContactResult& contact, const DistanceField& product,
+std::vector<Vec3> contact_normals(const ContactResult& contact,
+                                  const geometry::DistanceField& product,
                                   const std::vector<int>& loaded) {
   constexpr double kClear = 0.05;  // mm; a direction over less than this is unsure
   std::vector<Vec3> normals(loaded.size());
@@ -20,7 +21,7 @@ std::vector<Vec3> contact_normals(const ContactResult& contact, const DistanceFi
     points.push_back(contact.deformed[v]);
     place.push_back(k);
   }
-  std::vector<DistanceSample> samples(points.size());
+  std::vector<geometry::DistanceSample> samples(points.size());
   product.sample(points, 1.0, samples);
   for (std::size_t i = 0; i < place.size(); ++i) normals[place[i]] = samples[i].normal;
   return normals;
@@ -34,4 +35,4 @@ std::vector<int> loaded_vertices(const ContactResult& contact) {
   return loaded;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -13,14 +13,14 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar::contact_test {
+namespace palmar::contact::contact_test {
 
 /// Solid below z = height.
-class HalfSpace : public DistanceField {
+class HalfSpace : public geometry::DistanceField {
  public:
   explicit HalfSpace(double height) : height_(height) {}
   void sample(std::span<const Vec3> points, double range,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double d = points[i].z() - height_;
       samples[i] = {d, points[i] - d * Vec3::UnitZ(), Vec3::UnitZ(), -1};
@@ -37,11 +37,11 @@ class HalfSpace : public DistanceField {
 };
 
 /// Solid between two heights: a sheet.
-class Sheet : public DistanceField {
+class Sheet : public geometry::DistanceField {
  public:
   Sheet(double lower, double upper) : lower_(lower), upper_(upper) {}
   void sample(std::span<const Vec3> points, double /*range*/,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double above = points[i].z() - upper_;
       const double below = lower_ - points[i].z();
@@ -58,11 +58,11 @@ class Sheet : public DistanceField {
 };
 
 /// Solid sphere.
-class Ball : public DistanceField {
+class Ball : public geometry::DistanceField {
  public:
   Ball(Vec3 centre, double radius) : centre_(std::move(centre)), radius_(radius) {}
   void sample(std::span<const Vec3> points, double /*range*/,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 from_centre = points[i] - centre_;
       const Vec3 n = from_centre.normalized();
@@ -79,17 +79,17 @@ class Ball : public DistanceField {
 };
 
 /// A ball of skin about the origin whose lower half (z < 0) is one palmar region, the rest dorsum.
-inline std::shared_ptr<Hand> ball_hand(double radius, int subdivisions,
-                                       Region region = Region::kMiddleDistal) {
-  auto hand = std::make_shared<Hand>();
+inline std::shared_ptr<hand::Hand> ball_hand(double radius, int subdivisions,
+                                             hand::Region region = hand::Region::kMiddleDistal) {
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "ball";
-  hand->skin = make_icosphere(radius, subdivisions);
+  hand->skin = geometry::make_icosphere(radius, subdivisions);
   for (const Vec3& v : hand->skin.vertices) {
-    hand->region.push_back(v.z() < 0.0 ? region : Region::kDorsum);
+    hand->region.push_back(v.z() < 0.0 ? region : hand::Region::kDorsum);
   }
-  hand->segment.assign(hand->skin.vertices.size(), Segment::kMiddleDistal);
-  hand->tissue = default_tissue();
+  hand->segment.assign(hand->skin.vertices.size(), hand::Segment::kMiddleDistal);
+  hand->tissue = hand::default_tissue();
   return hand;
 }
 
-}  // namespace palmar::contact_test
+}  // namespace palmar::contact::contact_test

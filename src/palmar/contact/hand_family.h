@@ -6,7 +6,7 @@
 
 #include "palmar/contact/contact.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// What the hands of one mesh (make_hand_instance()) have in common, so that each of them is
 /// prepared in a sixth of the time: neighbours, patches, which vertices act on each other, and how
@@ -24,13 +24,13 @@ class HandFamily {
   /// Throws UsageError as PreparedHand. Cost: that of a PreparedHand and a half.
   /// `compliance`: of the base, as for PreparedHand. Hands of the family get the base's, scaled
   /// (loaded_skin.h).
-  explicit HandFamily(std::shared_ptr<const Hand> base, const ContactModel& model = {},
+  explicit HandFamily(std::shared_ptr<const hand::Hand> base, const ContactModel& model = {},
                       std::shared_ptr<const SkinCompliance> compliance = nullptr);
   ~HandFamily();
   HandFamily(HandFamily&&) noexcept;
   HandFamily& operator=(HandFamily&&) noexcept;
 
-  const Hand& base() const;
+  const hand::Hand& base() const;
   const ContactModel& model() const;
 
   struct Impl;
@@ -40,4 +40,4 @@ class HandFamily {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::ball_hand;
@@ -20,7 +20,7 @@ using testing::ThrowsMessage;
 
 constexpr double kFamilyRadius = 10.0;  // mm
 
-std::shared_ptr<Hand> ellipsoid(const Vec3& stretch) {
+std::shared_ptr<hand::Hand> ellipsoid(const Vec3& stretch) {
   auto hand = ball_hand(kFamilyRadius, 3);
   for (Vec3& v : hand->skin.vertices) v = v.cwiseProduct(stretch);
   return hand;
@@ -31,7 +31,7 @@ ContactResult on_plane(const PreparedHand& hand, double height, double depth) {
 }
 
 /// Force and peak of a hand from the family against those of the full preparation, as shares.
-void expect_alike(const std::shared_ptr<Hand>& hand, const HandFamily& family, double height,
+void expect_alike(const std::shared_ptr<hand::Hand>& hand, const HandFamily& family, double height,
                   double share) {
   const PreparedHand full(hand, family.model());
   const PreparedHand quick(hand, family);
@@ -100,4 +100,4 @@ TEST(HandFamily, RefusesAnotherMesh) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

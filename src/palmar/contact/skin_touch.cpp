@@ -6,17 +6,17 @@
 #include <map>
 #include <utility>
 
-namespace palmar {
+namespace palmar::contact {
 
 std::vector<SkinOnSkin> skin_on_skin(const std::vector<SkinTouch>& touches,
-                                     const std::vector<Region>& skin_region,
+                                     const std::vector<hand::Region>& skin_region,
                                      const std::vector<double>& area) {
-  std::map<std::pair<Region, Region>, SkinOnSkin> by_pair;
+  std::map<std::pair<hand::Region, hand::Region>, SkinOnSkin> by_pair;
   for (const SkinTouch& touch : touches) {
     const SkinMeeting& at = touch.meeting;
     const auto corner = std::max_element(at.weight.begin(), at.weight.end()) - at.weight.begin();
-    const Region region = skin_region[at.vertex];
-    const Region other = skin_region[at.on[static_cast<std::size_t>(corner)]];
+    const hand::Region region = skin_region[at.vertex];
+    const hand::Region other = skin_region[at.on[static_cast<std::size_t>(corner)]];
     SkinOnSkin& both = by_pair[{region, other}];
     both.region = region;
     both.other = other;
@@ -31,4 +31,4 @@ std::vector<SkinOnSkin> skin_on_skin(const std::vector<SkinTouch>& touches,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

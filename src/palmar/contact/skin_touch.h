@@ -8,7 +8,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// A vertex of the skin over another part of the same skin.
 struct SkinMeeting {
@@ -29,7 +29,7 @@ struct SkinTouch {
 
 /// All touches between two regions of a hand's skin.
 struct SkinOnSkin {
-  Region region{}, other{};          ///< whose skin brings the vertices, and whose the triangles
+  hand::Region region{}, other{};    ///< whose skin brings the vertices, and whose the triangles
   double force = 0.0;                ///< sum over the touches, N
   Vec3 force_vector = Vec3::Zero();  ///< on `region`, N; in the frame of the normals
   double area = 0.0;                 ///< of the skin of `region` that touches, mm^2
@@ -39,7 +39,7 @@ struct SkinOnSkin {
 
 /// Per pair of regions, ascending. `area` [mm^2] per skin vertex, `skin_region` likewise.
 std::vector<SkinOnSkin> skin_on_skin(const std::vector<SkinTouch>& touches,
-                                     const std::vector<Region>& skin_region,
+                                     const std::vector<hand::Region>& skin_region,
                                      const std::vector<double>& area);
 
-}  // namespace palmar
+}  // namespace palmar::contact

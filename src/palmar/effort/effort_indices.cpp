@@ -6,7 +6,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/effort/effort.h"
 
-namespace palmar {
+namespace palmar::effort {
 namespace {
 
 constexpr const char* kMethod =
@@ -23,23 +23,23 @@ HardestMuscle hardest_muscle(const EffortResult& effort) {
   for (const DigitEffort& digit : effort.digits) {
     for (const TendonLoad& load : digit.tendons) {
       if (!hardest.name.empty() && load.activation <= hardest.activation) continue;
-      hardest = {
-          load.activation, load.force,
-          std::string(name_of(digit.finger)) + " " + std::string(anatomical_name_of(load.tendon))};
+      hardest = {load.activation, load.force,
+                 std::string(name_of(digit.finger)) + " " +
+                     std::string(hand::anatomical_name_of(load.tendon))};
     }
   }
-  for (int i = 0; effort.wrist && i < kWristMuscleCount; ++i) {
-    const auto muscle = static_cast<WristMuscle>(i);
+  for (int i = 0; effort.wrist && i < hand::kWristMuscleCount; ++i) {
+    const auto muscle = static_cast<hand::WristMuscle>(i);
     if (effort.wrist->activation(muscle) <= hardest.activation) continue;
-    hardest = {effort.wrist->activation(muscle), effort.wrist->force[index_of(muscle)],
-               std::string(anatomical_name_of(muscle))};
+    hardest = {effort.wrist->activation(muscle), effort.wrist->force[palmar::index_of(muscle)],
+               std::string(hand::anatomical_name_of(muscle))};
   }
   return hardest;
 }
 
 }  // namespace
 
-GraspIndices effort_indices(const EffortResult& effort) {
+grasp::GraspIndices effort_indices(const EffortResult& effort) {
   const bool is_known =
       effort.status != EffortStatus::kNoLoad && effort.status != EffortStatus::kNotConverged;
   std::string why;
@@ -69,11 +69,11 @@ GraspIndices effort_indices(const EffortResult& effort) {
     }
   }
   double wrist_force = 0.0;
-  for (int i = 0; effort.wrist && i < kWristMuscleCount; ++i) {
-    const auto muscle = static_cast<WristMuscle>(i);
+  for (int i = 0; effort.wrist && i < hand::kWristMuscleCount; ++i) {
+    const auto muscle = static_cast<hand::WristMuscle>(i);
     missing = std::max(missing, std::abs(effort.wrist->missing));
     squares += effort.wrist->activation(muscle) * effort.wrist->activation(muscle);
-    wrist_force += effort.wrist->force[index_of(muscle)];
+    wrist_force += effort.wrist->force[palmar::index_of(muscle)];
     ++active;
   }
   const auto value = [&](double v) { return is_known ? std::optional<double>(v) : std::nullopt; };
@@ -86,25 +86,25 @@ GraspIndices effort_indices(const EffortResult& effort) {
   const auto index = [&](const char* key, const char* name, const char* unit,
                          std::optional<double> of, const char* definition,
                          const std::string& own_remark = "") {
-    GraspIndex result;
+    grasp::GraspIndex result;
     result.key = key;
     result.name = name;
     result.group = "effort";
     result.value = of;
     result.unit = unit;
     result.lowest = 0.0;
-    result.better = Better::kDown;
+    result.better = grasp::Better::kDown;
     result.definition = definition;
     result.source = kMethod;
     result.remark = remark(own_remark);
     return result;
   };
-  GraspIndex largest =
+  grasp::GraspIndex largest =
       index("largest_activation", "hardest working muscle", "", value(hardest.activation),
             "largest share of its strength that any muscle of the hand or the wrist gives (min sum "
             "(F/PCSA)^n)",
             which);
-  GraspIndex mean = index(
+  grasp::GraspIndex mean = index(
       "mean_activation", "muscles on average", "",
       value(active > 0 ? std::sqrt(squares / active) : 0.0),
       "root mean square of the activations of all muscles of the loaded digits and the wrist");
@@ -127,4 +127,4 @@ GraspIndices effort_indices(const EffortResult& effort) {
             "strength; 0: the load can be held")};
 }
 
-}  // namespace palmar
+}  // namespace palmar::effort

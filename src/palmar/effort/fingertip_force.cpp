@@ -10,15 +10,15 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::effort {
 namespace {
 
 /// A force along the finger must have a lever of at least this share of the finger's length in the
 /// joints, else the answer is rounding.
 constexpr double kLeastLever = 0.01;
 
-std::size_t index_of(Finger finger, Tendon tendon) {
-  const auto own = tendons_of(finger);
+std::size_t index_of(hand::Finger finger, hand::Tendon tendon) {
+  const auto own = hand::tendons_of(finger);
   std::string known;
   for (std::size_t t = 0; t < own.size(); ++t) {
     if (own[t] == tendon) return t;
@@ -30,28 +30,29 @@ std::size_t index_of(Finger finger, Tendon tendon) {
 
 }  // namespace
 
-FingertipForce fingertip_force(const Hand& hand, const DigitTendons& tendons,
-                               const Posture& posture, Tendon tendon, double tendon_force) {
+FingertipForce fingertip_force(const hand::Hand& hand, const hand::DigitTendons& tendons,
+                               const hand::Posture& posture, hand::Tendon tendon,
+                               double tendon_force) {
   const std::size_t t = index_of(tendons.finger, tendon);
   if (!(tendon_force > 0.0) || tendon_force > kLargestTendonForce) {
     throw UsageError("tendon force is " + std::to_string(tendon_force) +
                      " N; above 0 and at most " + std::to_string(kLargestTendonForce) +
                      " N is allowed");
   }
-  const PosedDigit digit = pose_digit(hand.skeleton, tendons.finger, posture);
-  const int body = distal_body(tendons.finger);
-  const Rigid3& posed = digit.body[body];
-  const Vec3 tip_at_rest = hand.skeleton.fingertips[index_of(tendons.finger)];
+  const hand::PosedDigit digit = hand::pose_digit(hand.skeleton, tendons.finger, posture);
+  const int body = hand::distal_body(tendons.finger);
+  const geometry::Rigid3& posed = digit.body[body];
+  const Vec3 tip_at_rest = hand.skeleton.fingertips[palmar::index_of(tendons.finger)];
 
   FingertipForce result;
   result.finger = tendons.finger;
   result.tendon = tendon;
   result.tendon_force = tendon_force;
   result.dof = digit.dof;
-  result.moment_arm = moment_arms(tendons.path[t], digit);
+  result.moment_arm = hand::moment_arms(tendons.path[t], digit);
   result.point = posed * tip_at_rest;
 
-  const JointDof& last = hand.skeleton.dof(digit.dof.back());
+  const hand::JointDof& last = hand.skeleton.dof(digit.dof.back());
   const Vec3 axis = posed.rotation * last.axis;
   Vec3 along = posed.rotation * (tip_at_rest - last.centre);
   const double length = along.norm();
@@ -60,7 +61,7 @@ FingertipForce fingertip_force(const Hand& hand, const DigitTendons& tendons,
   // Unknowns: force, and moment over the length of the distal phalanx, so that columns compare.
   Eigen::Matrix4d balance;
   Eigen::Vector4d moment;
-  for (int k = 0; k < kDigitDofs; ++k) {
+  for (int k = 0; k < hand::kDigitDofs; ++k) {
     balance.row(k).head<3>() = digit.velocity(k, body, result.point);
     balance(k, 3) = length * digit.twist[k].omega.dot(axis);
     moment[k] = tendon_force * result.moment_arm[k];
@@ -74,10 +75,10 @@ FingertipForce fingertip_force(const Hand& hand, const DigitTendons& tendons,
   const Eigen::Vector4d solution = svd.solve(moment);
   result.force = solution.head<3>();
   result.moment = solution[3] * length;
-  const Vec3 radial = hand.side == Side::kRight ? axis : Vec3(-axis);
+  const Vec3 radial = hand.side == hand::Side::kRight ? axis : Vec3(-axis);
   result.force_in_phalanx = {result.force.dot(radial), result.force.dot(along),
                              result.force.dot(axis.cross(along))};
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::effort

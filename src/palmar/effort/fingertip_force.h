@@ -4,15 +4,15 @@
 
 #include "palmar/hand/tendons/digit_tendons.h"
 
-namespace palmar {
+namespace palmar::effort {
 
 /// What one loaded tendon does at the tip of a finger that is held still.
 struct FingertipForce {
-  Finger finger = Finger::kIndex;
-  Tendon tendon = Tendon::kFdp;
-  double tendon_force = 0.0;          ///< N
-  std::array<Dof, kDigitDofs> dof{};  ///< from the palm outwards
-  std::array<double, kDigitDofs>
+  hand::Finger finger = hand::Finger::kIndex;
+  hand::Tendon tendon = hand::Tendon::kFdp;
+  double tendon_force = 0.0;                      ///< N
+  std::array<hand::Dof, hand::kDigitDofs> dof{};  ///< from the palm outwards
+  std::array<double, hand::kDigitDofs>
       moment_arm{};           ///< of the tendon, mm, positive in the angle's sense
   Vec3 force = Vec3::Zero();  ///< of the fingertip on what holds it, hand frame, N
   /// The same along radial, distal and palmar of the distal phalanx, N.
@@ -35,10 +35,11 @@ struct FingertipForce {
 /// The posture is used as it is. Throws UsageError for a tendon not of that finger or a force that
 /// is not positive, NumericalError where the finger is so straight that a force along it meets no
 /// resistance in any joint.
-FingertipForce fingertip_force(const Hand& hand, const DigitTendons& tendons,
-                               const Posture& posture, Tendon tendon, double tendon_force);
+FingertipForce fingertip_force(const hand::Hand& hand, const hand::DigitTendons& tendons,
+                               const hand::Posture& posture, hand::Tendon tendon,
+                               double tendon_force);
 
 /// Largest tendon force taken, N: more than any muscle of the hand gives.
 constexpr double kLargestTendonForce = 1000.0;
 
-}  // namespace palmar
+}  // namespace palmar::effort

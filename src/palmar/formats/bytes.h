@@ -11,7 +11,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Value of type T stored at `offset`; the caller has checked that it lies inside.
 template <typename T>
@@ -32,4 +32,4 @@ void append_value(std::string& bytes, T value) {
   bytes.append(raw.data(), raw.size());
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -13,7 +13,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 30;
@@ -129,4 +129,4 @@ CsvFile parse_csv(std::string_view text, const std::string& path, CsvStyle style
 
 CsvFile read_csv(const std::string& path) { return parse_csv(read_file(path, kMaxBytes), path); }
 
-}  // namespace palmar
+}  // namespace palmar::formats

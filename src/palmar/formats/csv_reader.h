@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// A CSV file taken apart: one header line, then rows of as many cells. Cells are separated by
 /// comma, semicolon or tab, whichever the header has, quoted as in RFC 4180 but within one line,
@@ -45,4 +45,4 @@ CsvFile parse_csv(std::string_view text, const std::string& path,
                   CsvStyle style = CsvStyle::kStrict);
 CsvFile read_csv(const std::string& path);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -14,7 +14,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 std::string system_text(int error) { return std::generic_category().message(error); }
@@ -199,4 +199,4 @@ void create_folder(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

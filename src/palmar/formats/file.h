@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Largest input that is read into memory; a binary STL of 50 million triangles has 2.5 GB.
 inline constexpr std::uint64_t kMaxInputBytes = std::uint64_t{4} << 30;
@@ -35,4 +35,4 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 /// Makes a folder and its parents; content if it is there already. Throws OutputError.
 void create_folder(const std::filesystem::path& path);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -15,7 +15,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -160,4 +160,4 @@ TEST(CreateFolder, MakesParentsAndNamesWhatStandsInTheWay) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/formats/json_reason.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 std::string json_reason(const std::exception& error) {
   const std::string text = error.what();
@@ -11,4 +11,4 @@ std::string json_reason(const std::exception& error) {
   return end == std::string::npos ? text : text.substr(end + 2);
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 TEST(JsonReason, LeavesOutTheLibrary) {
@@ -22,4 +22,4 @@ TEST(JsonReason, LeavesOutTheLibrary) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

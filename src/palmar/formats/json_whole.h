@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// A whole number that T can hold. nlohmann::json's own get<T>() takes 1e20 or 2^32 + 1 for any T
 /// and gives whatever the processor makes of it. Throws nlohmann::json::other_error, which readers
@@ -65,4 +65,4 @@ std::vector<T> json_wholes(const JsonValue& object, const char* key) {
   return numbers;
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 
 #include "palmar/formats/json_reason.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using nlohmann::json;
@@ -48,4 +48,4 @@ TEST(JsonWhole, RefusesWhatWouldBecomeAnotherNumber) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstddef>
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 // FIPS 180-4, 4.2.2: first 32 bits of the fractional parts of the cube roots of the first 64
@@ -96,4 +96,4 @@ std::string sha256_hex(std::string_view bytes) {
   return hash.hex();
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// SHA-256 (NIST FIPS 180-4, section 6.2) of bytes given piece by piece: names what a study was
 /// made of. Not for secrets.
@@ -28,4 +28,4 @@ class Sha256 {
 
 std::string sha256_hex(std::string_view bytes);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 // NIST's example values for SHA-256 (csrc.nist.gov, "SHA256.pdf", and FIPS 180-2, appendix B).
@@ -32,4 +32,4 @@ TEST(Sha256, PiecesGiveWhatTheWholeGives) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -10,7 +10,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// A folder for one test, removed with all that is in it.
 class TestFolder {
@@ -53,8 +53,8 @@ std::string message_of(const Body& body) {
 }
 
 /// Box from (0, 0, 0) to `size`: 8 vertices, 12 triangles, counter-clockwise outside.
-inline TriangleMesh box_mesh(const Vec3& size) {
-  TriangleMesh mesh;
+inline geometry::TriangleMesh box_mesh(const Vec3& size) {
+  geometry::TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
     mesh.vertices.emplace_back((i & 1) != 0 ? size.x() : 0.0, (i & 2) != 0 ? size.y() : 0.0,
                                (i & 4) != 0 ? size.z() : 0.0);
@@ -65,7 +65,7 @@ inline TriangleMesh box_mesh(const Vec3& size) {
 }
 
 /// Volume inside a closed mesh, positive if triangles are counter-clockwise outside.
-inline double signed_volume(const TriangleMesh& mesh) {
+inline double signed_volume(const geometry::TriangleMesh& mesh) {
   double volume = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const auto at = [&](int k) -> const Vec3& {
@@ -76,7 +76,7 @@ inline double signed_volume(const TriangleMesh& mesh) {
   return volume;
 }
 
-inline double surface_area(const TriangleMesh& mesh) {
+inline double surface_area(const geometry::TriangleMesh& mesh) {
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
@@ -87,4 +87,4 @@ inline double surface_area(const TriangleMesh& mesh) {
   return area;
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <limits>
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
@@ -128,4 +128,4 @@ std::optional<std::string_view> TextScanner::next_line() {
   return line;
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Number as written in mesh files, independent of the locale; "+1.5", "nan" and "inf" are numbers.
 /// Too large gives infinity, too small 0. Nothing if any character is left over.
@@ -50,4 +50,4 @@ class TextScanner {
   int next_line_number_ = 1;
 };
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -12,7 +12,7 @@
 #include "palmar/core/text.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 std::string with_unit(double value, std::string_view unit) {
@@ -216,4 +216,4 @@ std::string toml_number(double value) {
   return digits.find_first_of(".en") != std::string::npos ? digits : digits + ".0";
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

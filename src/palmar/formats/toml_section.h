@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// One table of a TOML file that is being read. What it complains of is an InputError naming file,
 /// line, section and key, the value with its unit, and what is allowed.
@@ -66,4 +66,4 @@ std::string toml_string(const std::string& text);
 /// Shortest digits that read back to the same double, always with point or exponent.
 std::string toml_number(double value);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 std::string dotted_key(int parts) {
@@ -42,4 +42,4 @@ TEST(TomlSection, NamesTheLineOfWhatIsNoToml) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -6,7 +6,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
@@ -112,4 +112,4 @@ void XmlScanner::read_attributes() {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// A start or end tag. Views point into the scanned text; the scanner reuses the tag.
 struct XmlTag {
@@ -50,4 +50,4 @@ class XmlScanner {
   XmlTag tag_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -11,7 +11,7 @@
 #include "palmar/core/text.h"
 #include "palmar/formats/bytes.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 constexpr std::uint64_t kLargestMember = std::uint64_t{1} << 30;
@@ -152,4 +152,4 @@ std::optional<std::string> ZipArchive::read(std::string_view wanted) const {
   return content;
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

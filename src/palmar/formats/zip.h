@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// The members of a ZIP archive in memory (stored or deflated, ZIP64 included, no encryption).
 /// Nothing is unpacked before it is asked for, and never more than 1 GiB, so that a small hostile
@@ -43,4 +43,4 @@ class ZipArchive {
   std::vector<Member> members_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 constexpr std::uint64_t kLargest32 = 0xffffffff;
@@ -101,4 +101,4 @@ std::string format_zip(const std::vector<ZipMember>& members) {
   return out;
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 struct ZipMember {
   std::string name;  ///< with / between folders, UTF-8
@@ -20,4 +20,4 @@ struct ZipMember {
 /// Source: PKWARE, APPNOTE.TXT - .ZIP File Format Specification, 6.3, 4.3.
 std::string format_zip(const std::vector<ZipMember>& members);
 
-}  // namespace palmar
+}  // namespace palmar::formats

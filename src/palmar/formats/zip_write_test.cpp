@@ -11,7 +11,7 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/formats/zip.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 TEST(ZipWrite, IsReadBackByTheReader) {
@@ -53,4 +53,4 @@ TEST(ZipWrite, RefusesAnEmptyName) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using Corner = Eigen::Vector2d;
@@ -38,4 +38,4 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
   return hull;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Corners of the smallest convex polygon round points of a plane, counter-clockwise (x to the
 /// right, y up) from the leftmost one, the lowest of those; points on its edges are no corners.
@@ -13,4 +13,4 @@ namespace palmar {
 /// none. Source: Andrew 1979, "Another efficient algorithm for convex hulls in two dimensions".
 std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

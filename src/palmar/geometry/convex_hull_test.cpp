@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
@@ -39,4 +39,4 @@ TEST(ConvexHull, OfALineIsItsEnds) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

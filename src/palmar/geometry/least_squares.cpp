@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// Variables that stand on a wall and are pushed against it by the gradient.
@@ -140,4 +140,4 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem,
   return at;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Find x in a box that makes the sum of squares of r(x) least.
 struct LeastSquaresProblem {
@@ -51,4 +51,4 @@ LeastSquaresSolution solve_least_squares(const LeastSquaresProblem& problem,
                                          const Eigen::VectorXd& start,
                                          const LeastSquaresOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

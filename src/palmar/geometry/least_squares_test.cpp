@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using Eigen::MatrixXd;
@@ -117,4 +117,4 @@ TEST(LeastSquares, FailuresAreStatuses) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

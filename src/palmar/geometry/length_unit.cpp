@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 std::string name_of(LengthUnit unit) {
   switch (unit) {
@@ -63,4 +63,4 @@ LengthUnit length_unit(const std::string& name) {
   throw UsageError("length unit is \"" + name + "\"; mm, cm, m or inch is required");
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Length unit of a file. Inside Palmar everything is mm.
 enum class LengthUnit { kMillimetre, kCentimetre, kMetre, kInch };
@@ -18,4 +18,4 @@ std::optional<LengthUnit> length_unit_named(std::string_view name);
 /// The same. Throws UsageError naming what is allowed.
 LengthUnit length_unit(const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

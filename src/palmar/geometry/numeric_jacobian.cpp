@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace palmar {
+namespace palmar::geometry {
 
 std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* jacobian)>
 with_numeric_jacobian(std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& r)> residual,
@@ -27,4 +27,4 @@ with_numeric_jacobian(std::function<void(const Eigen::VectorXd& x, Eigen::Vector
   };
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Residuals without derivatives as LeastSquaresProblem::evaluate: fills r(x) and, if asked for,
 /// its Jacobian by central differences
@@ -19,4 +19,4 @@ std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd
 with_numeric_jacobian(std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& r)> residual,
                       std::function<double(Eigen::Index j, double x_j)> step = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

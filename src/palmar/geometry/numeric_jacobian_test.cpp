@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using Eigen::MatrixXd;
@@ -50,4 +50,4 @@ TEST(WithNumericJacobian, OnlyResidualsWhereNoJacobianIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

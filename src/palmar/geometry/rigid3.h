@@ -4,7 +4,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Rotation followed by translation. Read names as a chain: product_from_hand maps a point given in
 /// the hand frame to the product frame, and a_from_c = a_from_b * b_from_c.
@@ -29,4 +29,4 @@ struct Rigid3 {
   }
 };
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-namespace palmar {
+namespace palmar::geometry {
 
 Eigen::Matrix3d fit_rotation(const Eigen::Matrix3d& sum) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -19,4 +19,4 @@ Eigen::Matrix3d fit_rotation(const Eigen::Matrix3d& sum) {
 
 Quat shortest_rotation(const Vec3& from, const Vec3& to) { return Quat::FromTwoVectors(from, to); }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// The rotation R that makes the sum of |y - R x|^2 over pairs of points least, both taken from
 /// their means; `sum` is that of y x^T. Never a reflection. Where points lie on a line, one of the
@@ -17,4 +17,4 @@ Eigen::Matrix3d fit_rotation(const Eigen::Matrix3d& sum);
 /// about any axis perpendicular to them if they are opposite.
 Quat shortest_rotation(const Vec3& from, const Vec3& to);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

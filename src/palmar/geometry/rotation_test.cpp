@@ -9,7 +9,7 @@
 
 #include "palmar/core/random.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 std::vector<Vec3> cloud(int count, std::uint64_t seed) {
@@ -73,4 +73,4 @@ TEST(ShortestRotation, TurnsAboutTheNormalOfBoth) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// 0 up to t = 0, 1 from t = 1 on, 3 t^2 - 2 t^3 in between: no kink at either end.
 inline double smooth_step(double t) {
@@ -12,4 +12,4 @@ inline double smooth_step(double t) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -9,11 +9,20 @@
 
 namespace palmar {
 
+// Words of all modules.
+
 using Vec3 = Eigen::Vector3d;
 using Quat = Eigen::Quaterniond;
 
 /// Corner indices of one triangle, counter-clockwise seen from outside.
 using Triangle = std::array<int, 3>;
+
+/// Axis-aligned box, mm. Empty (lower > upper) until a point is added.
+using Box3 = Eigen::AlignedBox3d;
+
+}  // namespace palmar
+
+namespace palmar::geometry {
 
 /// Indexed triangle mesh; mm. A plain value: operations return new meshes. Vertex order is part of
 /// the value (fields on a mesh are vectors in the same order).
@@ -25,7 +34,4 @@ struct TriangleMesh {
   int triangle_count() const { return static_cast<int>(triangles.size()); }
 };
 
-/// Axis-aligned box, mm. Empty (lower > upper) until a point is added.
-using Box3 = Eigen::AlignedBox3d;
-
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -11,16 +11,16 @@
 #include "palmar/core/error.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kFarthestGap = 1000.0;  // mm; how far a gap is reported
 constexpr double kDeepest = 15.0;  // mm; half a finger's thickness and more: no contact but a clash
 
-void check(const Posture& posture, const Rigid3& product_from_hand) {
-  for (int d = 0; d < kDofCount; ++d) {
-    if (!std::isfinite(posture[static_cast<Dof>(d)])) {
-      throw InputError("the angle of " + std::string(name_of(static_cast<Dof>(d))) +
+void check(const hand::Posture& posture, const geometry::Rigid3& product_from_hand) {
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    if (!std::isfinite(posture[static_cast<hand::Dof>(d)])) {
+      throw InputError("the angle of " + std::string(name_of(static_cast<hand::Dof>(d))) +
                        " is not finite");
     }
   }
@@ -30,7 +30,7 @@ void check(const Posture& posture, const Rigid3& product_from_hand) {
   }
 }
 
-std::string list_of(const std::vector<Finger>& fingers) {
+std::string list_of(const std::vector<hand::Finger>& fingers) {
   std::string text;
   for (std::size_t i = 0; i < fingers.size(); ++i) {
     text += i == 0 ? "" : i + 1 == fingers.size() ? " and " : ", ";
@@ -40,13 +40,13 @@ std::string list_of(const std::vector<Finger>& fingers) {
 }
 
 void judge(Grasp& grasp) {
-  std::vector<Finger> touching;
+  std::vector<hand::Finger> touching;
   double deepest = 0.0;
   double nearest = -kFarthestGap;
   for (const SegmentStop& stop : grasp.stops) {
     deepest = std::max(deepest, stop.penetration);
     nearest = std::max(nearest, stop.penetration);
-    const auto finger = finger_of(stop.segment);
+    const auto finger = hand::finger_of(stop.segment);
     if (!finger || stop.penetration <= 0.0) continue;
     if (touching.empty() || touching.back() != *finger) touching.push_back(*finger);
   }
@@ -73,25 +73,25 @@ void judge(Grasp& grasp) {
 
 }  // namespace
 
-Grasp given_grasp(const Hand& hand, const Product& product, const Posture& posture,
-                  const Rigid3& product_from_hand) {
+Grasp given_grasp(const hand::Hand& hand, const product::Product& product,
+                  const hand::Posture& posture, const geometry::Rigid3& product_from_hand) {
   check(posture, product_from_hand);
   Grasp grasp;
   grasp.posture = posture;
   grasp.product_from_hand = product_from_hand;
 
   std::vector<Vec3> points;
-  std::vector<Segment> segment;
-  const std::vector<Vec3> skin = pose_skin(hand, posture);
+  std::vector<hand::Segment> segment;
+  const std::vector<Vec3> skin = hand::pose_skin(hand, posture);
   for (std::size_t v = 0; v < skin.size(); ++v) {
-    if (hand.region[v] == Region::kDorsum) continue;
+    if (hand.region[v] == hand::Region::kDorsum) continue;
     points.push_back(product_from_hand * skin[v]);
     segment.push_back(hand.segment[v]);
   }
-  std::vector<DistanceSample> samples(points.size());
+  std::vector<geometry::DistanceSample> samples(points.size());
   product.distance->sample(points, kFarthestGap, samples);
-  for (int s = 0; s < kSegmentCount; ++s) {
-    grasp.stops[s] = {static_cast<Segment>(s), StopReason::kGiven, -kFarthestGap};
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    grasp.stops[s] = {static_cast<hand::Segment>(s), StopReason::kGiven, -kFarthestGap};
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     SegmentStop& stop = grasp.stops[index_of(segment[i])];
@@ -103,4 +103,4 @@ Grasp given_grasp(const Hand& hand, const Product& product, const Posture& postu
   return grasp;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -4,13 +4,13 @@
 
 #include "palmar/grasp/grasp.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A way of holding that was measured or thought up rather than closed: posture and placement are
 /// taken as they are (angles outside the range of motion too). Says per segment how deep its
 /// palmar skin lies in the product and, by the fingers that do, whether it is held; grip, grip
 /// point and axis are left to the caller. Throws InputError if a number isn't finite.
-Grasp given_grasp(const Hand& hand, const Product& product, const Posture& posture,
-                  const Rigid3& product_from_hand);
+Grasp given_grasp(const hand::Hand& hand, const product::Product& product,
+                  const hand::Posture& posture, const geometry::Rigid3& product_from_hand);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

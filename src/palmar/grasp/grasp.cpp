@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 void PowerGraspOptions::check() const {
   const auto depth = [](const char* name, double value, double most) {
@@ -87,4 +87,4 @@ std::string name_of(GraspStatus status) {
   return "unknown";
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -14,7 +14,7 @@
 #include "palmar/hand/hand.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// What ended the closing of a segment.
 enum class StopReason {
@@ -29,7 +29,7 @@ enum class StopReason {
 std::string name_of(StopReason reason);  ///< "limit_depth", "range_of_motion", ...
 
 struct SegmentStop {
-  Segment segment{};
+  hand::Segment segment{};
   StopReason reason = StopReason::kNotReached;
   double penetration = 0.0;  ///< largest penetration of its palmar skin, mm (negative: gap)
 };
@@ -41,7 +41,7 @@ struct PlacementRequest {
   std::optional<double> turn;  ///< turn of the hand about the grip axis, rad
   std::optional<Box3> region;  ///< hold it by the surface that lies in this box, product frame, mm
   /// Placement in full; only the fingers close. Nothing else may be given with it.
-  std::optional<Rigid3> product_from_hand;
+  std::optional<geometry::Rigid3> product_from_hand;
 };
 
 struct PowerGraspOptions {
@@ -64,7 +64,7 @@ std::string name_of(GraspStatus status);  ///< "held", "partly_held", "too_large
 
 /// One fingertip that a precision grip puts on the product.
 struct FingertipContact {
-  Finger finger{};
+  hand::Finger finger{};
   Vec3 target = Vec3::Zero();   ///< point of the product it is to touch, product frame, mm
   Vec3 reached = Vec3::Zero();  ///< where its pad is, product frame, mm
   Vec3 normal = Vec3::UnitZ();  ///< of the product's surface at the target, outwards
@@ -74,8 +74,8 @@ struct FingertipContact {
 /// Another way of holding the same product that the search found, best first.
 struct GraspRunnerUp {
   Grip grip = Grip::kMediumWrap;
-  Posture posture;
-  Rigid3 product_from_hand;
+  hand::Posture posture;
+  geometry::Rigid3 product_from_hand;
   double score = 0.0;  ///< of the search; comparable within one search
 };
 
@@ -84,20 +84,20 @@ struct Grasp {
   Grip grip = Grip::kMediumWrap;
   GraspStatus status = GraspStatus::kNotGraspable;
   std::string message;  ///< one sentence for people: why not held, which fingers are open
-  Posture posture;
-  Rigid3 product_from_hand;
+  hand::Posture posture;
+  geometry::Rigid3 product_from_hand;
   Vec3 grip_point = Vec3::Zero();  ///< product frame, mm
   Vec3 grip_axis = Vec3::UnitX();  ///< unit, product frame
   double grip_girth = 0.0;         ///< perimeter of the product's section at the grip, mm
-  std::array<SegmentStop, kSegmentCount> stops;
+  std::array<SegmentStop, hand::kSegmentCount> stops;
   std::vector<FingertipContact> fingertips;  ///< of a precision grip, else empty
   std::optional<Hold> hold;  ///< which hold it is; unset: placed by coordinates or given
   std::string hold_words;    ///< "medium wrap of the handle, 40 % along it"; empty without hold
-  std::optional<PartKind> hold_kind;      ///< kind of the part that is held, with `hold`
-  std::vector<HoldTerm> hold_terms;       ///< what speaks for and against it, if it was ranked
-  double score = 0.0;                     ///< of the search that found it
-  int candidates = 0;                     ///< placements that the search tried
-  std::vector<GraspRunnerUp> runners_up;  ///< best first
+  std::optional<product::PartKind> hold_kind;  ///< kind of the part that is held, with `hold`
+  std::vector<HoldTerm> hold_terms;            ///< what speaks for and against it, if it was ranked
+  double score = 0.0;                          ///< of the search that found it
+  int candidates = 0;                          ///< placements that the search tried
+  std::vector<GraspRunnerUp> runners_up;       ///< best first
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -8,7 +8,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr std::array<GripDescription, kGripCount> kGrips = {{
@@ -89,4 +89,4 @@ bool is_non_prehensile(Grip grip) {
 
 bool is_laid(Grip grip) { return grip == Grip::kRestingHand || grip == Grip::kFlatHand; }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Ways of holding, by the names of the GRASP taxonomy (Feix et al. 2016, IEEE Trans Human-Machine
 /// Systems 46(1):66-77); the number is the taxonomy's.
@@ -62,4 +62,4 @@ bool is_non_prehensile(Grip grip);
 /// The whole hand lies on the product: what is_non_prehensile() but for a push.
 bool is_laid(Grip grip);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <set>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr int kFingersOfWrap = 2;    // a handle with room for two is still wrapped: choice
@@ -15,11 +15,11 @@ constexpr int kFingersOfSphere = 3;  // "five fingertips", of which one may miss
 
 constexpr int kFingersOfRest = 2;  // those on a mouse's buttons: choice
 
-std::string called(Finger finger) {
-  return finger == Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
+std::string called(hand::Finger finger) {
+  return finger == hand::Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
 }
 
-std::string listed_fingers(const std::vector<Finger>& fingers) {
+std::string listed_fingers(const std::vector<hand::Finger>& fingers) {
   std::string words;
   for (std::size_t k = 0; k < fingers.size(); ++k) {
     words += k == 0 ? "" : k + 1 == fingers.size() ? " and " : ", ";
@@ -34,11 +34,12 @@ std::string plain_grip(Grip grip) {
   return name;
 }
 
-std::set<Finger> fingers_touching(const std::vector<Region>& touching) {
-  std::set<Finger> fingers;
-  for (const Region region : touching) {
-    const auto segment = segment_of(region);
-    if (const auto finger = segment ? finger_of(*segment) : std::nullopt) fingers.insert(*finger);
+std::set<hand::Finger> fingers_touching(const std::vector<hand::Region>& touching) {
+  std::set<hand::Finger> fingers;
+  for (const hand::Region region : touching) {
+    const auto segment = hand::segment_of(region);
+    if (const auto finger = segment ? hand::finger_of(*segment) : std::nullopt)
+      fingers.insert(*finger);
   }
   return fingers;
 }
@@ -50,39 +51,40 @@ GripNeeds needs_of(Grip grip) {
     case Grip::kMediumWrap:
     case Grip::kLargeDiameter:
     case Grip::kSmallDiameter:
-      return {{Finger::kThumb}, kFingersOfWrap};
+      return {{hand::Finger::kThumb}, kFingersOfWrap};
     case Grip::kPowerSphere:
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:
-      return {{Finger::kThumb}, kFingersOfSphere};
+      return {{hand::Finger::kThumb}, kFingersOfSphere};
     case Grip::kFixedHook:
       return {{}, kFingersOfWrap};
     case Grip::kTipPinch:
     case Grip::kPalmarPinch:
     case Grip::kLateral:
-      return {{Finger::kThumb, Finger::kIndex}, 1};
+      return {{hand::Finger::kThumb, hand::Finger::kIndex}, 1};
     case Grip::kTripod:
     case Grip::kWritingTripod:
-      return {{Finger::kThumb, Finger::kIndex, Finger::kMiddle}, 2};
+      return {{hand::Finger::kThumb, hand::Finger::kIndex, hand::Finger::kMiddle}, 2};
     case Grip::kDistalType:
-      return {{Finger::kThumb, Finger::kMiddle}, 1};
+      return {{hand::Finger::kThumb, hand::Finger::kMiddle}, 1};
     case Grip::kRestingHand:
     case Grip::kFlatHand:
       return {{}, kFingersOfRest};
     case Grip::kFingerPush:
-      return {{Finger::kIndex}, 1};
+      return {{hand::Finger::kIndex}, 1};
   }
   return {};
 }
 
-std::string lacking_contact(Grip grip, const std::vector<Region>& touching) {
+std::string lacking_contact(Grip grip, const std::vector<hand::Region>& touching) {
   const GripNeeds needs = needs_of(grip);
-  const std::set<Finger> fingers = fingers_touching(touching);
-  std::vector<Finger> missing;
-  for (const Finger finger : needs.fingers) {
+  const std::set<hand::Finger> fingers = fingers_touching(touching);
+  std::vector<hand::Finger> missing;
+  for (const hand::Finger finger : needs.fingers) {
     if (!fingers.contains(finger)) missing.push_back(finger);
   }
-  const int others = static_cast<int>(fingers.size()) - (fingers.contains(Finger::kThumb) ? 1 : 0);
+  const int others =
+      static_cast<int>(fingers.size()) - (fingers.contains(hand::Finger::kThumb) ? 1 : 0);
   if (missing.empty() && others >= needs.least_fingers) return "";
   if (!missing.empty()) {
     return fmt::format("the {} {} touch it, which a {} needs", listed_fingers(missing),
@@ -93,4 +95,4 @@ std::string lacking_contact(Grip grip, const std::vector<Region>& touching) {
                      needs.least_fingers);
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

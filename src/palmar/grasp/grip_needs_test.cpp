@@ -4,40 +4,46 @@
 
 #include <gtest/gtest.h>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 // What a grip needs is what the taxonomy's pictures show, not what the program found.
 
 TEST(GripNeeds, AWrapWithoutItsThumbIsNone) {
-  const std::vector<Region> fingers = {Region::kIndexDistal, Region::kMiddleDistal,
-                                       Region::kRingDistal, Region::kCentralPalm};
+  const std::vector<hand::Region> fingers = {hand::Region::kIndexDistal,
+                                             hand::Region::kMiddleDistal, hand::Region::kRingDistal,
+                                             hand::Region::kCentralPalm};
   EXPECT_EQ(lacking_contact(Grip::kMediumWrap, fingers),
             "the thumb doesn't touch it, which a medium wrap needs");
-  std::vector<Region> all = fingers;
-  all.push_back(Region::kThumbDistal);
+  std::vector<hand::Region> all = fingers;
+  all.push_back(hand::Region::kThumbDistal);
   EXPECT_EQ(lacking_contact(Grip::kMediumWrap, all), "");
 }
 
 TEST(GripNeeds, TheBallOfTheThumbIsPalm) {
-  EXPECT_EQ(lacking_contact(Grip::kSmallDiameter,
-                            {Region::kThenar, Region::kIndexDistal, Region::kMiddleDistal}),
-            "the thumb doesn't touch it, which a small diameter needs");
+  EXPECT_EQ(
+      lacking_contact(Grip::kSmallDiameter, {hand::Region::kThenar, hand::Region::kIndexDistal,
+                                             hand::Region::kMiddleDistal}),
+      "the thumb doesn't touch it, which a small diameter needs");
 }
 
 TEST(GripNeeds, AHookNeedsNoThumb) {
-  EXPECT_EQ(lacking_contact(Grip::kFixedHook, {Region::kIndexMiddle, Region::kMiddleMiddle}), "");
-  EXPECT_EQ(lacking_contact(Grip::kFixedHook, {Region::kIndexMiddle, Region::kIndexDistal}),
-            "only 1 finger besides the thumb touches it; a fixed hook needs 2");
+  EXPECT_EQ(
+      lacking_contact(Grip::kFixedHook, {hand::Region::kIndexMiddle, hand::Region::kMiddleMiddle}),
+      "");
+  EXPECT_EQ(
+      lacking_contact(Grip::kFixedHook, {hand::Region::kIndexMiddle, hand::Region::kIndexDistal}),
+      "only 1 finger besides the thumb touches it; a fixed hook needs 2");
 }
 
 TEST(GripNeeds, ATripodIsThreeFingers) {
-  EXPECT_EQ(lacking_contact(Grip::kTripod, {Region::kThumbDistal, Region::kIndexDistal}),
-            "the middle finger doesn't touch it, which a tripod needs");
-  EXPECT_EQ(lacking_contact(Grip::kTripod, {Region::kRingDistal}),
+  EXPECT_EQ(
+      lacking_contact(Grip::kTripod, {hand::Region::kThumbDistal, hand::Region::kIndexDistal}),
+      "the middle finger doesn't touch it, which a tripod needs");
+  EXPECT_EQ(lacking_contact(Grip::kTripod, {hand::Region::kRingDistal}),
             "the thumb, index finger and middle finger don't touch it, which a tripod needs");
-  EXPECT_EQ(lacking_contact(Grip::kTripod,
-                            {Region::kThumbDistal, Region::kIndexDistal, Region::kMiddleDistal}),
+  EXPECT_EQ(lacking_contact(Grip::kTripod, {hand::Region::kThumbDistal, hand::Region::kIndexDistal,
+                                            hand::Region::kMiddleDistal}),
             "");
 }
 
@@ -48,4 +54,4 @@ TEST(GripNeeds, WithoutContactEveryGripLacksSomething) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -9,12 +9,12 @@
 #include "palmar/hand/anatomy.h"
 #include "palmar/product/parts/part_place.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A fingertip of a precision grip, in the coordinates of the part that is held.
 struct HoldFingertip {
-  Finger finger{};
-  PartPlace place;
+  hand::Finger finger{};
+  product::PartPlace place;
 };
 
 /// How people take hold of a product: by which part of it, in which grip, where along it and how
@@ -50,4 +50,4 @@ struct HoldTerm {
   std::string words;   ///< the value for people, a clause: "44 mm thick, 23 % of hand length"
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::grasp {
 
 namespace {
 
@@ -84,4 +84,4 @@ double share_who_reach(double force, Grip grip, double age) {
   return share;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

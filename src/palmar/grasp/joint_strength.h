@@ -8,7 +8,7 @@
 #include "palmar/grasp/grip.h"
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 enum class Sex { kMale, kFemale };
 
@@ -30,4 +30,4 @@ double strength_share(Grip grip);
 /// strength_share(). 0 where no strength is known.
 double share_who_reach(double force, Grip grip, double age);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

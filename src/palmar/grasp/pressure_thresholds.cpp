@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/pressure_thresholds.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 namespace {
 
 /// Where the hand was measured: finger, palm, ball of the thumb.
 enum class MeasuredSite { kFinger, kPalm, kThenar };
 
-MeasuredSite place_of(Region region) {
+MeasuredSite place_of(hand::Region region) {
   switch (region) {
-    case Region::kThenar:
+    case hand::Region::kThenar:
       return MeasuredSite::kThenar;
-    case Region::kDorsum:
-    case Region::kHypothenar:
-    case Region::kCentralPalm:
-    case Region::kRadialPalm:
-    case Region::kUlnarPalm:
+    case hand::Region::kDorsum:
+    case hand::Region::kHypothenar:
+    case hand::Region::kCentralPalm:
+    case hand::Region::kRadialPalm:
+    case hand::Region::kUlnarPalm:
       return MeasuredSite::kPalm;
     default:
       return MeasuredSite::kFinger;
@@ -38,8 +38,8 @@ std::string_view name_of(PressureFamily family) {
   return "film_peak";
 }
 
-double pain_onset_film(Region region) {
-  if (region == Region::kDorsum) return 2.0;
+double pain_onset_film(hand::Region region) {
+  if (region == hand::Region::kDorsum) return 2.0;
   switch (place_of(region)) {
     case MeasuredSite::kThenar:
       return 2.0;
@@ -51,7 +51,7 @@ double pain_onset_film(Region region) {
   return 3.0;
 }
 
-double pain_onset_probe(Region region) {
+double pain_onset_probe(hand::Region region) {
   switch (place_of(region)) {
     case MeasuredSite::kThenar:
       return 0.447;
@@ -63,7 +63,7 @@ double pain_onset_probe(Region region) {
   return 0.496;
 }
 
-double discomfort_onset_probe(Region region) {
+double discomfort_onset_probe(hand::Region region) {
   switch (place_of(region)) {
     case MeasuredSite::kThenar:
       return 0.100;
@@ -75,4 +75,4 @@ double discomfort_onset_probe(Region region) {
   return 0.188;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

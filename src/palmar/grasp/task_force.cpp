@@ -10,12 +10,12 @@
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/product/mass.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
-std::optional<double> estimated_weight(const Product& product) {
+std::optional<double> estimated_weight(const product::Product& product) {
   try {
-    return weight_of(mass_properties(product).volume, kAssumedDensity);
+    return product::weight_of(product::mass_properties(product).volume, kAssumedDensity);
   } catch (const InputError&) {
     return std::nullopt;  // open, or a sheet: nothing to estimate from
   }
@@ -31,7 +31,7 @@ double holding_grip_force(double load, double friction) {
   return friction > 0.0 ? kGripMargin * load / (2.0 * friction) : 0.0;
 }
 
-void HeaviestLoad::add(const Product& one, const ProductLoad& load) {
+void HeaviestLoad::add(const product::Product& one, const contact::ProductLoad& load) {
   const std::optional<double> estimate = load.weight > 0.0 ? std::nullopt : estimated_weight(one);
   const Vec3 sum = estimate.value_or(load.weight) * load.gravity.normalized() + load.force;
   if (!(sum.norm() > force)) return;
@@ -82,4 +82,4 @@ ShareOfStrength usual_share(double friction, const HeaviestLoad& heaviest) {
   return usual;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

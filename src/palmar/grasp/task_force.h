@@ -9,7 +9,7 @@
 #include "palmar/grasp/grip.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 // The force of the task: how firmly all designs and hands of one comparison are held when nothing
 // is said about it. Were each held as firmly as closing to the limit depths makes it, the more
@@ -47,7 +47,7 @@ struct HeaviestLoad {
 
   /// Takes another product into account. Without a weight in `load` it is estimated, if the
   /// product encloses a volume.
-  void add(const Product& product, const ProductLoad& load);
+  void add(const product::Product& product, const contact::ProductLoad& load);
 };
 
 /// A grip force as a share of what a person reaches; which force that is depends on the grip.
@@ -73,4 +73,4 @@ std::string usual_people();
 /// what holds the heaviest product.
 ShareOfStrength usual_share(double friction, const HeaviestLoad& heaviest = {});
 
-}  // namespace palmar
+}  // namespace palmar::grasp

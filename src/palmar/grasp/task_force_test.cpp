@@ -10,7 +10,7 @@
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 using testing::AllOf;
@@ -20,12 +20,12 @@ using testing::Not;
 // Steiber 2016, 45 to 49 years: men 53.0 kg, women 34.1 kg; standard gravity. N.
 constexpr double kStrength = 0.5 * (53.0 + 34.1) * 9.80665;
 
-Product cylinder(double diameter, double length) {
-  CylinderProductOptions options;
+product::Product cylinder(double diameter, double length) {
+  product::CylinderProductOptions options;
   options.diameter = diameter;
   options.length = length;
   options.fineness.chordal_error = 0.01;
-  Product product = make_cylinder_product(options);
+  product::Product product = product::make_cylinder_product(options);
   product.name = "kettle";
   return product;
 }
@@ -68,7 +68,7 @@ TEST(UsualShare, IsRaisedToWhatFrictionNeedsAndFourTenthsMore) {
 
 TEST(HeaviestLoad, IsTheLargestOfAllProducts) {
   HeaviestLoad heaviest;
-  ProductLoad load;
+  contact::ProductLoad load;
   load.weight = 3.0;
   heaviest.add(cylinder(30.0, 100.0), load);
   load.weight = 5.0;
@@ -95,8 +95,8 @@ TEST(HeaviestLoad, WithoutAWeightIsThatOfAsMuchWater) {
 }
 
 TEST(HeaviestLoad, OfASurfaceThatEnclosesNothingIsNotEstimated) {
-  Product open = cylinder(50.0, 100.0);
-  TriangleMesh sheet;
+  product::Product open = cylinder(50.0, 100.0);
+  geometry::TriangleMesh sheet;
   sheet.vertices = {{0, 0, 0}, {40, 0, 0}, {40, 140, 0}, {0, 140, 0}};
   sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
   open.mesh = sheet;
@@ -139,4 +139,4 @@ TEST(BalanceOptions, HookedFingersCarryAndAreNotAskedToSqueeze) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,7 +6,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr std::array<std::string_view, kFingerCount> kFingerNames = {"thumb", "index", "middle",
@@ -107,4 +107,4 @@ JointId joint_of(Segment phalanx) {
   return i == 0 ? JointId::kWrist : static_cast<JointId>(i + 1);
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::hand {
 
 enum class Finger : std::uint8_t { kThumb, kIndex, kMiddle, kRing, kLittle };
 inline constexpr int kFingerCount = 5;
@@ -140,4 +140,4 @@ std::array<std::optional<Segment>, 3> segments_of(Finger finger);
 /// thumb_proximal -> thumb_mp).
 JointId joint_of(Segment phalanx);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 TEST(Anatomy, EveryNameLeadsBackToItsValue) {
@@ -55,4 +55,4 @@ TEST(Anatomy, PhalangesKnowFingerJointAndRegion) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

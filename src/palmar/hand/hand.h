@@ -11,7 +11,7 @@
 #include "palmar/hand/anatomy.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Influence of one joint on the skin (Xie 2014, eq. 2-7): vertex i turns by
 /// w1_i w2_i (angle - reference). Sparse: only vertices with w1 w2 > 0 are listed.
@@ -40,7 +40,7 @@ struct Bone {
   std::string name;  ///< "index_middle_phalanx", "third_metacarpal", "thumb_metacarpal"
   std::optional<Segment> segment;    ///< rigid part it moves with: a phalanx or the palm
   bool is_thumb_metacarpal = false;  ///< moves with the CMC joint instead
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
 };
 
 /// Dimensions of one segment (Xie 2014, fig. 5-4): y along the segment, x along the crease, z
@@ -128,7 +128,7 @@ Tissue default_tissue();
 struct Hand {
   std::string name;
   Side side = Side::kRight;
-  TriangleMesh skin;             ///< closed, 2-manifold
+  geometry::TriangleMesh skin;   ///< closed, 2-manifold
   std::vector<Segment> segment;  ///< per vertex
   std::vector<Region> region;    ///< per vertex
   Skeleton skeleton;
@@ -140,4 +140,4 @@ struct Hand {
   std::string provenance;  ///< origin, licence, and what was done to it
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

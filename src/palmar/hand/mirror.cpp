@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 Vec3 mirrored(const Vec3& point) { return {-point.x(), point.y(), point.z()}; }
@@ -15,7 +15,7 @@ Vec3 mirrored_axis(const Vec3& axis) { return -mirrored(axis); }
 
 Quat mirrored(const Quat& q) { return {q.w(), q.x(), -q.y(), -q.z()}; }
 
-void mirror(TriangleMesh& mesh) {
+void mirror(geometry::TriangleMesh& mesh) {
   for (Vec3& v : mesh.vertices) v = mirrored(v);
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
 }
@@ -54,4 +54,4 @@ Hand mirrored(const Hand& hand) {
   return image;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -4,10 +4,10 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// The mirror image (right <-> left): x -> -x, triangles turned, axes reflected so that the same
 /// posture angles give the mirrored posture.
 Hand mirrored(const Hand& hand);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,7 +7,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Angles of the 23 degrees of freedom, rad (see Dof for zero and sign).
 struct Posture {
@@ -17,4 +17,4 @@ struct Posture {
   double operator[](Dof dof) const { return angle[index_of(dof)]; }
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -9,11 +9,11 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
-Rigid3 turned(const Joint& joint, const Posture& posture) {
-  Rigid3 displacement;
+geometry::Rigid3 turned(const Joint& joint, const Posture& posture) {
+  geometry::Rigid3 displacement;
   for (const JointDof& dof : joint.dofs)
     displacement = axis_displacement(dof, posture) * displacement;
   return displacement;
@@ -32,8 +32,8 @@ Vec3 rotation_vector(const Quat& q) {
 
 }  // namespace
 
-Rigid3 axis_displacement(const JointDof& dof, const Posture& posture) {
-  return Rigid3::about_axis(dof.axis, dof.centre, posture[dof.dof] - dof.reference);
+geometry::Rigid3 axis_displacement(const JointDof& dof, const Posture& posture) {
+  return geometry::Rigid3::about_axis(dof.axis, dof.centre, posture[dof.dof] - dof.reference);
 }
 
 const JointDof& Skeleton::dof(Dof d) const {
@@ -72,7 +72,7 @@ CmcShare cmc_share(const Skeleton& skeleton, const Posture& posture) {
           share_of(skeleton.dof(Dof::kThumbCmcAbduction), posture[Dof::kThumbCmcAbduction])};
 }
 
-Rigid3 cmc_displacement(const Skeleton& skeleton, const CmcShare& share) {
+geometry::Rigid3 cmc_displacement(const Skeleton& skeleton, const CmcShare& share) {
   const ThumbCmc& cmc = skeleton.thumb_cmc;
   const CmcLimit& fe = share.s_fe >= 0 ? cmc.flexion : cmc.extension;
   const CmcLimit& aa = share.s_aa >= 0 ? cmc.abduction : cmc.adduction;
@@ -90,7 +90,8 @@ PosedSkeleton pose_skeleton(const Skeleton& skeleton, const Posture& posture) {
   posed.thumb_metacarpal = cmc_displacement(skeleton, cmc_share(skeleton, posture));
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
-    Rigid3 proximal = finger == Finger::kThumb ? posed.thumb_metacarpal : Rigid3{};
+    geometry::Rigid3 proximal =
+        finger == Finger::kThumb ? posed.thumb_metacarpal : geometry::Rigid3{};
     for (const std::optional<Segment>& segment : segments_of(finger)) {
       if (!segment) continue;
       proximal = proximal * turned(skeleton.joint(joint_of(*segment)), posture);
@@ -100,4 +101,4 @@ PosedSkeleton pose_skeleton(const Skeleton& skeleton, const Posture& posture) {
   return posed;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

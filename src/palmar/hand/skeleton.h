@@ -12,7 +12,7 @@
 #include "palmar/hand/anatomy.h"
 #include "palmar/hand/posture.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// One degree of freedom of a joint. Turning by (angle - reference) about `axis` through `centre`
 /// moves everything distal to the joint; all in the hand frame, reference posture.
@@ -81,9 +81,9 @@ ClampedPosture clamp_to_range(const Skeleton& skeleton, const Posture& posture);
 /// Where each rigid part stands in a posture: posed_from_reference for the palm (identity, the hand
 /// frame is fixed to the palm), the 14 phalanges, the thumb metacarpal and the forearm.
 struct PosedSkeleton {
-  std::array<Rigid3, kSegmentCount> segment;  ///< indexed by Segment
-  Rigid3 thumb_metacarpal;
-  Rigid3 forearm;
+  std::array<geometry::Rigid3, kSegmentCount> segment;  ///< indexed by Segment
+  geometry::Rigid3 thumb_metacarpal;
+  geometry::Rigid3 forearm;
 };
 
 /// How far along its four limit postures the CMC joint stands: s_fe > 0 towards flexion, s_aa > 0
@@ -94,13 +94,13 @@ struct CmcShare {
 CmcShare cmc_share(const Skeleton& skeleton, const Posture& posture);
 
 /// One axis of a joint turned to its angle, as a displacement from the reference posture.
-Rigid3 axis_displacement(const JointDof& dof, const Posture& posture);
+geometry::Rigid3 axis_displacement(const JointDof& dof, const Posture& posture);
 
 /// Displacement of the thumb metacarpal for shares of the limit postures (eq. 2-5, 2-6, both at
 /// once), hand frame.
-Rigid3 cmc_displacement(const Skeleton& skeleton, const CmcShare& share);
+geometry::Rigid3 cmc_displacement(const Skeleton& skeleton, const CmcShare& share);
 
 /// Forward kinematics. Angles are used as they are; clamp first.
 PosedSkeleton pose_skeleton(const Skeleton& skeleton, const Posture& posture);
 
-}  // namespace palmar
+}  // namespace palmar::hand

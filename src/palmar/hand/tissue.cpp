@@ -8,7 +8,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr std::array<std::string_view, kTissueClassCount> kClassNames = {"finger", "palm",
@@ -186,4 +186,4 @@ std::string fault_of(const RegionTissue& tissue) {
   return text.str();
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -8,7 +8,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// The mechanical classes of skin. Each phalangeal region is `finger`; thenar, hypothenar, central
 /// palm and the two pads below the fingers are `palm`.
@@ -50,4 +50,4 @@ inline constexpr double kMostBoneStiffening = 1000.0;
 /// nominal not above high (G0 and G_lim), Poisson's ratio 0 to 0.5.
 std::string fault_of(const RegionTissue& tissue);
 
-}  // namespace palmar
+}  // namespace palmar::hand

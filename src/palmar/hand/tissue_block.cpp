@@ -10,21 +10,21 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/plane_cut.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr double kSnap = 0.15;        // mm; a tenth of the finest edges in use
 constexpr double kInsideBone = 0.05;  // mm below its surface: bones are thicker
 
-Vec3 corner(const TriangleMesh& mesh, const Triangle& t, std::size_t k) {
+Vec3 corner(const geometry::TriangleMesh& mesh, const Triangle& t, std::size_t k) {
   return mesh.vertices[t[k]];
 }
 
-Vec3 normal_of(const TriangleMesh& mesh, const Triangle& t) {
+Vec3 normal_of(const geometry::TriangleMesh& mesh, const Triangle& t) {
   return (corner(mesh, t, 1) - corner(mesh, t, 0)).cross(corner(mesh, t, 2) - corner(mesh, t, 0));
 }
 
-Vec3 middle_of(const TriangleMesh& mesh, const Triangle& t) {
+Vec3 middle_of(const geometry::TriangleMesh& mesh, const Triangle& t) {
   return (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3.0;
 }
 
@@ -77,7 +77,7 @@ class BlockBuilder {
 
   /// Triangles with use[t]; `face` says what each is. `is_bone`: rims are holes of the cut face.
   template <typename FaceOf>
-  void add(const CutMesh& part, const std::vector<bool>& use, bool is_bone, FaceOf face) {
+  void add(const geometry::CutMesh& part, const std::vector<bool>& use, bool is_bone, FaceOf face) {
     std::vector<int> index(part.mesh.vertices.size(), -1);
     const auto vertex = [&](int v) {
       int& mine = index[v];
@@ -136,7 +136,8 @@ TissueBlock make_tissue_block(const Hand& hand, const TissueBlockOptions& option
   TissueBlock block;
   block.cut_point = plane.point;
   block.cut_normal = plane.normal;
-  const CutMesh skin = cut_by_plane(hand.skin, plane.point, plane.normal, kSnap);
+  const geometry::CutMesh skin =
+      geometry::cut_by_plane(hand.skin, plane.point, plane.normal, kSnap);
 
   // The part that the region lies on; the plane may cut off other fingers as well.
   const auto is_of_region = [&](std::size_t t) {
@@ -145,7 +146,8 @@ TissueBlock make_tissue_block(const Hand& hand, const TissueBlockOptions& option
     for (const int v : c) corners += hand.region[v] == options.region;
     return corners >= 2;
   };
-  const std::vector<int> component = triangle_components(skin.mesh, build_topology(skin.mesh));
+  const std::vector<int> component =
+      geometry::triangle_components(skin.mesh, geometry::build_topology(skin.mesh));
   int wanted = -1;
   for (std::size_t t = 0; t < component.size() && wanted < 0; ++t) {
     if (is_of_region(t)) wanted = component[t];
@@ -155,7 +157,7 @@ TissueBlock make_tissue_block(const Hand& hand, const TissueBlockOptions& option
                      std::string(name_of(options.region)));
   }
   std::vector<bool> use(component.size());
-  CutMesh kept_skin = skin;
+  geometry::CutMesh kept_skin = skin;
   kept_skin.mesh.triangles.clear();
   for (std::size_t t = 0; t < component.size(); ++t) {
     use[t] = component[t] == wanted;
@@ -167,9 +169,10 @@ TissueBlock make_tissue_block(const Hand& hand, const TissueBlockOptions& option
     return is_of_region(t) ? BlockFace::kRegion : BlockFace::kSkin;
   });
   // Bones inside it. An open skin has winding numbers near 1 inside all the same: the cut is small.
-  const WindingNumber winding(kept_skin.mesh);
+  const geometry::WindingNumber winding(kept_skin.mesh);
   for (const Bone& bone : hand.bones) {
-    const CutMesh part = cut_by_plane(bone.mesh, plane.point, plane.normal, kSnap);
+    const geometry::CutMesh part =
+        geometry::cut_by_plane(bone.mesh, plane.point, plane.normal, kSnap);
     if (part.mesh.triangles.empty()) continue;
     // Far from the cut, where the winding number is clearest.
     std::size_t farthest = 0;
@@ -195,4 +198,4 @@ TissueBlock make_tissue_block(const Hand& hand, const TissueBlockOptions& option
   return block;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

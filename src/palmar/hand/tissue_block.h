@@ -8,7 +8,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// What a facet of a tissue block is.
 enum class BlockFace : std::uint8_t {
@@ -48,4 +48,4 @@ struct TissueBlockOptions {
 /// Throws UsageError if the hand has no bones, no skin in the region, or the plane cuts it badly.
 TissueBlock make_tissue_block(const Hand& hand, const TissueBlockOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -12,11 +12,11 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
-TriangleMesh ball(double radius, const Vec3& centre, int subdivisions) {
-  TriangleMesh mesh = make_icosphere(radius, subdivisions);
+geometry::TriangleMesh ball(double radius, const Vec3& centre, int subdivisions) {
+  geometry::TriangleMesh mesh = geometry::make_icosphere(radius, subdivisions);
   for (Vec3& v : mesh.vertices) v += centre;
   return mesh;
 }
@@ -115,4 +115,4 @@ TEST(TissueBlock, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

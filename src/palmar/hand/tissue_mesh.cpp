@@ -16,7 +16,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/tetra/tetrahedral_lattice.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr double kSurfaceSnap = 0.23;  // edges; nearer vertices are put on a surface: our choice
@@ -24,8 +24,8 @@ constexpr double kSurfaceSnap = 0.23;  // edges; nearer vertices are put on a su
 constexpr double kTissueEnd = -12.0;  // mm from the wrist's centre; no tissue beyond: our choice
 
 /// All bones as one surface.
-TriangleMesh all_bones(const Hand& hand) {
-  TriangleMesh all;
+geometry::TriangleMesh all_bones(const Hand& hand) {
+  geometry::TriangleMesh all;
   for (const Bone& bone : hand.bones) {
     const int first = all.vertex_count();
     all.vertices.insert(all.vertices.end(), bone.mesh.vertices.begin(), bone.mesh.vertices.end());
@@ -36,26 +36,27 @@ TriangleMesh all_bones(const Hand& hand) {
   return all;
 }
 
-ClipSurface surface_of(const DistanceField& field, double sign, double range) {
+geometry::ClipSurface surface_of(const geometry::DistanceField& field, double sign, double range) {
   return [&field, sign, range](const std::vector<Vec3>& points) {
-    std::vector<DistanceSample> found(points.size());
+    std::vector<geometry::DistanceSample> found(points.size());
     field.sample(points, range, found);
-    std::vector<ClipSample> result;
+    std::vector<geometry::ClipSample> result;
     result.reserve(points.size());
-    for (const DistanceSample& s : found) result.push_back({sign * s.distance, s.closest});
+    for (const geometry::DistanceSample& s : found)
+      result.push_back({sign * s.distance, s.closest});
     return result;
   };
 }
 
 /// Tetrahedra that hang together with a held vertex over their corners.
-void drop_loose(TetrahedralMesh& mesh, const std::vector<char>& is_held) {
+void drop_loose(geometry::TetrahedralMesh& mesh, const std::vector<char>& is_held) {
   std::vector<int> parent(mesh.vertices.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int v) {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
   };
-  for (const Tetrahedron& t : mesh.tetrahedra) {
+  for (const geometry::Tetrahedron& t : mesh.tetrahedra) {
     for (const int v : t) parent[root(v)] = root(t[0]);
   }
   // One vertex holds a point, three hold a body.
@@ -63,13 +64,14 @@ void drop_loose(TetrahedralMesh& mesh, const std::vector<char>& is_held) {
   for (std::size_t v = 0; v < parent.size(); ++v) {
     if (is_held[v]) ++held[root(static_cast<int>(v))];
   }
-  std::erase_if(mesh.tetrahedra, [&](const Tetrahedron& t) { return held[root(t[0])] < 3; });
+  std::erase_if(mesh.tetrahedra,
+                [&](const geometry::Tetrahedron& t) { return held[root(t[0])] < 3; });
 }
 
 /// Mean edge of the tetrahedra around each vertex.
-std::vector<double> mean_edges(const TetrahedralMesh& mesh) {
+std::vector<double> mean_edges(const geometry::TetrahedralMesh& mesh) {
   std::vector<double> sum(mesh.vertices.size(), 0.0), count(mesh.vertices.size(), 0.0);
-  for (const Tetrahedron& t : mesh.tetrahedra) {
+  for (const geometry::Tetrahedron& t : mesh.tetrahedra) {
     double mean = 0.0;
     for (std::size_t a = 0; a < 4; ++a) {
       for (std::size_t b = 0; b < a; ++b) {
@@ -88,14 +90,14 @@ std::vector<double> mean_edges(const TetrahedralMesh& mesh) {
 }  // namespace
 
 std::vector<SkinAttachment> TissueMesh::attach(const std::vector<Vec3>& points) const {
-  TriangleMesh surface;
+  geometry::TriangleMesh surface;
   surface.vertices = mesh.vertices;
-  for (const Triangle& face : boundary_faces(mesh)) {
+  for (const Triangle& face : geometry::boundary_faces(mesh)) {
     const bool is_skin =
         std::all_of(face.begin(), face.end(), [&](int v) { return is_on_skin[v] != 0; });
     if (is_skin) surface.triangles.push_back(face);
   }
-  const ClosestPointQuery query(surface);
+  const geometry::ClosestPointQuery query(surface);
   const std::vector<double> edge = mean_edges(mesh);
   std::vector<SkinAttachment> result;
   result.reserve(points.size());
@@ -116,9 +118,9 @@ std::vector<SkinAttachment> TissueMesh::attach(const std::vector<Vec3>& points) 
 std::array<double, kRegionCount> TissueMesh::volume_by_region() const {
   std::array<double, kRegionCount> result{};
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const Tetrahedron& c = mesh.tetrahedra[t];
-    result[index_of(region[t])] += tetrahedron_volume(mesh.vertices[c[0]], mesh.vertices[c[1]],
-                                                      mesh.vertices[c[2]], mesh.vertices[c[3]]);
+    const geometry::Tetrahedron& c = mesh.tetrahedra[t];
+    result[index_of(region[t])] += geometry::tetrahedron_volume(
+        mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]], mesh.vertices[c[3]]);
   }
   return result;
 }
@@ -136,35 +138,37 @@ TissueMesh make_tissue_mesh(const Hand& hand, const TissueMeshOptions& options) 
     throw UsageError("tissue mesh: hand \"" + hand.name +
                      "\" has no bones; tissue without them is not held anywhere");
   }
-  const MeshDistance skin(hand.skin);
-  const MeshDistance bone(all_bones(hand));
-  const ClosestPointQuery nearest(hand.skin);
-  LatticeOptions lattice_options;
+  const geometry::MeshDistance skin(hand.skin);
+  const geometry::MeshDistance bone(all_bones(hand));
+  const geometry::ClosestPointQuery nearest(hand.skin);
+  geometry::LatticeOptions lattice_options;
   lattice_options.edge = 2.0 * options.finger_edge;
   lattice_options.levels = 2;
-  lattice_options.is_wanted = [&](const LatticeCube& cube) {
+  lattice_options.is_wanted = [&](const geometry::LatticeCube& cube) {
     if (cube.centre.y() < kTissueEnd) return false;
     // The corners of its tetrahedra are within one edge of its middle.
     return skin.at(cube.centre).distance < 1.1 * cube.edge;
   };
-  lattice_options.is_split = [&](const LatticeCube& cube) {
+  lattice_options.is_split = [&](const geometry::LatticeCube& cube) {
     const auto found = nearest.closest(cube.centre);
     const bool is_finger = hand.segment[hand.skin.triangles[found->triangle][0]] != Segment::kPalm;
     return is_finger && lattice_options.is_wanted(cube);
   };
-  Box3 box = bounding_box(hand.skin);
+  Box3 box = geometry::bounding_box(hand.skin);
   box.min().array() -= lattice_options.edge;
   box.max().array() += lattice_options.edge;
-  const TetrahedralMesh lattice = make_tetrahedral_lattice(box, lattice_options);
+  const geometry::TetrahedralMesh lattice =
+      geometry::make_tetrahedral_lattice(box, lattice_options);
 
   const double range = 2.0 * lattice_options.edge;
-  const ClippedMesh inside = clip_tetrahedra(lattice, surface_of(skin, 1.0, range), kSurfaceSnap);
-  ClippedMesh between = clip_tetrahedra(inside.mesh, surface_of(bone, -1.0, range), kSurfaceSnap,
-                                        inside.is_on_surface);
+  const geometry::ClippedMesh inside =
+      geometry::clip_tetrahedra(lattice, surface_of(skin, 1.0, range), kSurfaceSnap);
+  geometry::ClippedMesh between = geometry::clip_tetrahedra(
+      inside.mesh, surface_of(bone, -1.0, range), kSurfaceSnap, inside.is_on_surface);
   drop_loose(between.mesh, between.is_on_surface);
   std::vector<int> kept;
   TissueMesh tissue;
-  tissue.mesh = without_unused(between.mesh, &kept);
+  tissue.mesh = geometry::without_unused(between.mesh, &kept);
   for (const int v : kept) {
     tissue.is_on_bone.push_back(between.is_on_surface[v]);
     const int origin = between.origin[v];
@@ -172,7 +176,7 @@ TissueMesh make_tissue_mesh(const Hand& hand, const TissueMeshOptions& options) 
   }
 
   std::optional<int> hint;
-  for (const Tetrahedron& t : tissue.mesh.tetrahedra) {
+  for (const geometry::Tetrahedron& t : tissue.mesh.tetrahedra) {
     const auto& x = tissue.mesh.vertices;
     const auto found = nearest.closest(0.25 * (x[t[0]] + x[t[1]] + x[t[2]] + x[t[3]]),
                                        std::numeric_limits<double>::infinity(), hint);
@@ -184,4 +188,4 @@ TissueMesh make_tissue_mesh(const Hand& hand, const TissueMeshOptions& options) 
   return tissue;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

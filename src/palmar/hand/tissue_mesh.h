@@ -8,7 +8,7 @@
 #include "palmar/geometry/tetra/tetrahedral_mesh.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Where a point near the skin hangs on the surface of the tetrahedra.
 struct SkinAttachment {
@@ -21,7 +21,7 @@ struct SkinAttachment {
 /// Tetrahedra of the soft tissue between the skin and the bones of a hand; hand frame, reference
 /// posture, mm.
 struct TissueMesh {
-  TetrahedralMesh mesh;
+  geometry::TetrahedralMesh mesh;
   std::vector<char> is_on_bone;  ///< per vertex: held there
   std::vector<char> is_on_skin;  ///< per vertex
   std::vector<Region> region;    ///< per tetrahedron: of the skin nearest to its middle
@@ -43,4 +43,4 @@ struct TissueMeshOptions {
 /// holds is dropped. Throws UsageError if the hand has no bones.
 TissueMesh make_tissue_mesh(const Hand& hand, const TissueMeshOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -11,14 +11,14 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// A ball of skin, of a finger if so wished, with a ball of bone in it.
 Hand ball_hand(Segment segment) {
   Hand hand;
   hand.name = "ball";
-  hand.skin = make_icosphere(12.0, 4);
+  hand.skin = geometry::make_icosphere(12.0, 4);
   const auto count = hand.skin.vertices.size();
   hand.segment.assign(count, segment);
   for (Vec3& x : hand.skin.vertices) x.y() += 20.0;
@@ -26,7 +26,7 @@ Hand ball_hand(Segment segment) {
     hand.region.push_back(x.z() > 0.0 ? Region::kIndexDistal : Region::kDorsum);
   }
   Bone& bone = hand.bones.emplace_back();
-  bone.mesh = make_icosphere(5.0, 3);
+  bone.mesh = geometry::make_icosphere(5.0, 3);
   for (Vec3& x : bone.mesh.vertices) x.y() += 20.0;
   return hand;
 }
@@ -35,7 +35,7 @@ TEST(TissueMesh, TissueBetweenTwoSpheresIsMetInVolumeAndSplitByRegion) {
   const Hand hand = ball_hand(Segment::kIndexDistal);
   const TissueMesh tissue = make_tissue_mesh(hand, {.finger_edge = 1.0});
   const double truth = 4.0 / 3.0 * std::numbers::pi * (12.0 * 12.0 * 12.0 - 125.0);
-  EXPECT_NEAR(volume(tissue.mesh), truth, 0.02 * truth);
+  EXPECT_NEAR(geometry::volume(tissue.mesh), truth, 0.02 * truth);
   const auto by_region = tissue.volume_by_region();
   EXPECT_NEAR(by_region[index_of(Region::kIndexDistal)], 0.5 * truth, 0.04 * truth);
   EXPECT_NEAR(by_region[index_of(Region::kDorsum)], 0.5 * truth, 0.04 * truth);
@@ -73,4 +73,4 @@ TEST(TissueMesh, WhatCannotBeMeshedIsNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

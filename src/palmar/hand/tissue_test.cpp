@@ -8,7 +8,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 const RegionTissue& of(const Tissue& tissue, Region region) {
@@ -108,4 +108,4 @@ TEST(FaultOfTissue, NamesTheValueAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -12,7 +12,7 @@
 #include "palmar/population/sex_names.h"
 #include "palmar/population/survey_figures.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 // Mean ages aren't among the figures: soldiers about 30, adults of 18-64 years about 40. They only
@@ -29,17 +29,19 @@ constexpr const char* kBorrowedSpread =
 constexpr const char* kSoldierCaution =
     "Soldiers of 2010-2012, fit and of working age; grip strength is that of Germans of 30 years.";
 
-Stratum ansur2_stratum(Sex sex, double share) {
+Stratum ansur2_stratum(grasp::Sex sex, double share) {
   const AnsurFigures& figures = ansur2_figures(sex);
   return {
       .name = people_of(sex),
       .sex = sex,
       .share = share,
       .age = kSoldiersAge,
-      .driving = {{kHandLengthDimension, figures.length.mean, figures.length.sd, kAnsurSource},
-                  {kCircumferenceDimension, figures.circumference.mean, figures.circumference.sd,
+      .driving = {{hand::kHandLengthDimension, figures.length.mean, figures.length.sd,
                    kAnsurSource},
-                  {kHandWidthDimension, figures.breadth.mean, figures.breadth.sd, kAnsurSource}},
+                  {hand::kCircumferenceDimension, figures.circumference.mean,
+                   figures.circumference.sd, kAnsurSource},
+                  {hand::kHandWidthDimension, figures.breadth.mean, figures.breadth.sd,
+                   kAnsurSource}},
       .correlation = ansur_correlation(sex),
       .regressions = segment_regressions({sex, figures.length.mean, figures.circumference.mean})};
 }
@@ -51,22 +53,23 @@ struct JapaneseMeans {
 constexpr JapaneseMeans kJapaneseMen{327, 183.4, 83.3, 202.5};
 constexpr JapaneseMeans kJapaneseWomen{203, 169.3, 74.4, 179.1};
 
-Stratum japanese_stratum(Sex sex, double share) {
-  const JapaneseMeans& means = sex == Sex::kMale ? kJapaneseMen : kJapaneseWomen;
+Stratum japanese_stratum(grasp::Sex sex, double share) {
+  const JapaneseMeans& means = sex == grasp::Sex::kMale ? kJapaneseMen : kJapaneseWomen;
   const AnsurFigures& ansur = ansur2_figures(sex);
-  const auto driving = [](HandDimension dimension, double mean, const Moment& other) {
+  const auto driving = [](hand::HandDimension dimension, double mean, const Moment& other) {
     return DrivingDimension{dimension, mean, mean * other.sd / other.mean,
                             std::string(kJapaneseMeans) + kBorrowedSpread, Evidence::kScaled};
   };
-  return {.name = people_of(sex),
-          .sex = sex,
-          .share = share,
-          .age = kAdultsAge,
-          .driving = {driving(kHandLengthDimension, means.length, ansur.length),
-                      driving(kCircumferenceDimension, means.circumference, ansur.circumference),
-                      driving(kHandWidthDimension, means.breadth, ansur.breadth)},
-          .correlation = ansur_correlation(sex),
-          .regressions = segment_regressions({sex, means.length, means.circumference})};
+  return {
+      .name = people_of(sex),
+      .sex = sex,
+      .share = share,
+      .age = kAdultsAge,
+      .driving = {driving(hand::kHandLengthDimension, means.length, ansur.length),
+                  driving(hand::kCircumferenceDimension, means.circumference, ansur.circumference),
+                  driving(hand::kHandWidthDimension, means.breadth, ansur.breadth)},
+      .correlation = ansur_correlation(sex),
+      .regressions = segment_regressions({sex, means.length, means.circumference})};
 }
 
 Population xie2014() {
@@ -78,9 +81,9 @@ Population xie2014() {
                   .sex = std::nullopt,
                   .share = 1.0,
                   .age = std::nullopt,
-                  .driving = {{kHandLengthDimension, 184.0, 10.4,
+                  .driving = {{hand::kHandLengthDimension, 184.0, 10.4,
                                std::string(kSource) + ", Japanese database"},
-                              {kCircumferenceDimension, 193.0, 14.0,
+                              {hand::kCircumferenceDimension, 193.0, 14.0,
                                std::string(kSource) + ", Japanese database"}},
                   .correlation = Eigen::Matrix2d{{1.0, 0.36}, {0.36, 1.0}},
                   .regressions = {}}},
@@ -97,21 +100,23 @@ Population xie2014() {
                    "Grip strength isn't known: the sexes aren't distinguished."}};
 }
 
-Population ansur2_of(Sex sex) {
+Population ansur2_of(grasp::Sex sex) {
   const AnsurFigures& figures = ansur2_figures(sex);
   return {.name = "ansur2_" + people_of(sex),
-          .title = std::string(sex == Sex::kMale ? "Men" : "Women") + " of the US Army, 2010-2012",
+          .title = std::string(sex == grasp::Sex::kMale ? "Men" : "Women") +
+                   " of the US Army, 2010-2012",
           .strata = {ansur2_stratum(sex, 1.0)},
           .source = std::string(kAnsurSource) + ", n = " + std::to_string(figures.n),
           .cautions = {kSoldierCaution, kSegmentCaution}};
 }
 
 Population ansur2() {
-  const double men = ansur2_figures(Sex::kMale).n, women = ansur2_figures(Sex::kFemale).n;
+  const double men = ansur2_figures(grasp::Sex::kMale).n,
+               women = ansur2_figures(grasp::Sex::kFemale).n;
   return {.name = "ansur2",
           .title = "Men and women of the US Army, 2010-2012",
-          .strata = {ansur2_stratum(Sex::kMale, men / (men + women)),
-                     ansur2_stratum(Sex::kFemale, women / (men + women))},
+          .strata = {ansur2_stratum(grasp::Sex::kMale, men / (men + women)),
+                     ansur2_stratum(grasp::Sex::kFemale, women / (men + women))},
           .source = std::string(kAnsurSource) + ", n = 4082 men and 1986 women",
           .cautions = {"In the survey's shares, two men to a woman, so that its pooled moments are "
                        "met; people at large are half women.",
@@ -126,8 +131,8 @@ std::vector<std::string> japanese_cautions() {
       kSegmentCaution};
 }
 
-Population japanese_of(Sex sex) {
-  const int n = sex == Sex::kMale ? kJapaneseMen.n : kJapaneseWomen.n;
+Population japanese_of(grasp::Sex sex) {
+  const int n = sex == grasp::Sex::kMale ? kJapaneseMen.n : kJapaneseWomen.n;
   return {.name = "japanese_" + people_of(sex),
           .title = std::string("Japanese ") + people_of(sex) + ", 18-64 years",
           .strata = {japanese_stratum(sex, 1.0)},
@@ -139,8 +144,8 @@ Population japanese() {
   const double men = kJapaneseMen.n, women = kJapaneseWomen.n;
   return {.name = "japanese",
           .title = "Japanese adults, 18-64 years",
-          .strata = {japanese_stratum(Sex::kMale, men / (men + women)),
-                     japanese_stratum(Sex::kFemale, women / (men + women))},
+          .strata = {japanese_stratum(grasp::Sex::kMale, men / (men + women)),
+                     japanese_stratum(grasp::Sex::kFemale, women / (men + women))},
           .source = std::string(kJapaneseMeans) + ", n = 327 men and 203 women" + kBorrowedSpread,
           .cautions = [] {
             std::vector<std::string> cautions = japanese_cautions();
@@ -153,9 +158,10 @@ Population japanese() {
 
 const std::vector<Population>& built_in_populations() {
   static const std::vector<Population> list = [] {
-    std::vector<Population> all = {xie2014(), ansur2_of(Sex::kMale),   ansur2_of(Sex::kFemale),
-                                   ansur2(),  japanese_of(Sex::kMale), japanese_of(Sex::kFemale),
-                                   japanese()};
+    std::vector<Population> all = {
+        xie2014(), ansur2_of(grasp::Sex::kMale),   ansur2_of(grasp::Sex::kFemale),
+        ansur2(),  japanese_of(grasp::Sex::kMale), japanese_of(grasp::Sex::kFemale),
+        japanese()};
     for (Population& one : civilian_populations()) all.push_back(std::move(one));
     return all;
   }();
@@ -173,4 +179,4 @@ const Population& population_named(const std::string& name) {
       did_you_mean(name, names, "built in are " + joined(names, ", ") + "; a file ends in .toml"));
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -11,12 +11,12 @@
 #include "palmar/population/sex_names.h"
 #include "palmar/population/survey_figures.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
-constexpr HandDimension kSurveyLength{DimensionKind::kHandLength};
-constexpr HandDimension kSurveyGirth{DimensionKind::kHandCircumference};
-constexpr HandDimension kSurveyBreadth{DimensionKind::kHandWidth};
+constexpr hand::HandDimension kSurveyLength{hand::DimensionKind::kHandLength};
+constexpr hand::HandDimension kSurveyGirth{hand::DimensionKind::kHandCircumference};
+constexpr hand::HandDimension kSurveyBreadth{hand::DimensionKind::kHandWidth};
 
 struct LengthAndBreadth {
   Moment length, breadth;  // mm
@@ -34,7 +34,7 @@ struct Survey {
 
 /// A stratum of whom only length and breadth were measured: circumference follows from breadth with
 /// ANSUR II's ratio, elasticity and relative residual of the same sex.
-Stratum length_and_breadth_stratum(Sex sex, double age, const LengthAndBreadth& figures,
+Stratum length_and_breadth_stratum(grasp::Sex sex, double age, const LengthAndBreadth& figures,
                                    const std::string& source) {
   const Moment &hand = figures.length, &breadth = figures.breadth;
   const AnsurFigures& ansur = ansur2_figures(sex);
@@ -83,9 +83,10 @@ std::vector<Stratum> halves(Stratum one, Stratum other) {
 
 /// The survey's men, its women, and half of each.
 void add(const Survey& survey, std::vector<Population>& list) {
-  const Stratum men = length_and_breadth_stratum(Sex::kMale, survey.age, survey.men, survey.source);
+  const Stratum men =
+      length_and_breadth_stratum(grasp::Sex::kMale, survey.age, survey.men, survey.source);
   const Stratum women =
-      length_and_breadth_stratum(Sex::kFemale, survey.age, survey.women, survey.source);
+      length_and_breadth_stratum(grasp::Sex::kFemale, survey.age, survey.women, survey.source);
   list.push_back(population_of(survey, survey.name + "_men", survey.of_men, {men}));
   list.push_back(population_of(survey, survey.name + "_women", survey.of_women, {women}));
   list.push_back(population_of(survey, survey.name, survey.of_both, halves(men, women)));
@@ -111,9 +112,9 @@ Population delhi_men() {
       "Circumference wasn't measured: regressed from breadth as in ANSUR II men; "
       "the correlation of length and breadth is ANSUR II's as well.",
       age_caution(35)};
-  return population_of(
-      survey, "delhi_men", "Khatri men of Delhi, 18-50 years",
-      {length_and_breadth_stratum(Sex::kMale, 35.0, {{182.9, 11.2}, {80.5, 4.9}}, survey.source)});
+  return population_of(survey, "delhi_men", "Khatri men of Delhi, 18-50 years",
+                       {length_and_breadth_stratum(grasp::Sex::kMale, 35.0,
+                                                   {{182.9, 11.2}, {80.5, 4.9}}, survey.source)});
 }
 
 /// The abstract's +- (0.8 and 0.3 mm of men, 0.7 and 0.3 mm of women) can only be standard errors
@@ -216,15 +217,15 @@ Population indian_women() {
   const Moment length{169.6, 9.4}, girth{172.3, 10.6}, breadth{68.0, 5.1};
   return population_of(
       survey, "indian_women", "Working women of Ahmedabad, India, 16-58 years",
-      {{.name = people_of(Sex::kFemale),
-        .sex = Sex::kFemale,
+      {{.name = people_of(grasp::Sex::kFemale),
+        .sex = grasp::Sex::kFemale,
         .share = 1.0,
         .age = 33.0,
         .driving = {{kSurveyLength, length.mean, length.sd, survey.source},
                     {kSurveyGirth, girth.mean, girth.sd, survey.source},
                     {kSurveyBreadth, breadth.mean, breadth.sd, survey.source}},
-        .correlation = ansur_correlation(Sex::kFemale),
-        .regressions = segment_regressions({Sex::kFemale, length.mean, girth.mean})}});
+        .correlation = ansur_correlation(grasp::Sex::kFemale),
+        .regressions = segment_regressions({grasp::Sex::kFemale, length.mean, girth.mean})}});
 }
 
 struct ChildRow {
@@ -253,8 +254,9 @@ Population dutch_children(const ChildRow& row) {
       "Fingers have adults' proportions, tissue adults' stiffness, joints adults' range.",
       "Grip strength isn't known below 17 years, so it excludes nobody. The usual grip force is "
       "adults': state one that children can give."};
-  Stratum boys = length_and_breadth_stratum(Sex::kMale, row.age, row.boys, survey.source);
-  Stratum girls = length_and_breadth_stratum(Sex::kFemale, row.age, row.girls, survey.source);
+  Stratum boys = length_and_breadth_stratum(grasp::Sex::kMale, row.age, row.boys, survey.source);
+  Stratum girls =
+      length_and_breadth_stratum(grasp::Sex::kFemale, row.age, row.girls, survey.source);
   boys.name = "boys";
   girls.name = "girls";
   return population_of(survey, "dutch_children_" + years, "Dutch children of " + years + " years",
@@ -276,4 +278,4 @@ std::vector<Population> civilian_populations() {
   return list;
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -6,7 +6,7 @@
 
 #include "palmar/population/population.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// Built-in populations of civilians, children and older people of whom published surveys have hand
 /// length and breadth: delhi_men; nigerian; mexican; indian_women; dutch (20 to 60 years);
@@ -15,4 +15,4 @@ namespace palmar {
 /// was borrowed and how sure it is: docs/method/populations.md.
 std::vector<Population> civilian_populations();
 
-}  // namespace palmar
+}  // namespace palmar::population

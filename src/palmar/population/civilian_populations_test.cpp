@@ -10,7 +10,7 @@
 #include "palmar/population/built_in_populations.h"
 #include "palmar/population/hand_sample.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 /// Mean and standard deviation of a driving dimension over all strata, as of one sample of people.
@@ -118,4 +118,4 @@ TEST(CivilianPopulations, OldPeopleAreWeakerAndChildrensStrengthIsNotMadeUp) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::population

@@ -11,7 +11,7 @@
 #include "palmar/core/text.h"
 #include "palmar/geometry/length_unit.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -105,7 +105,7 @@ std::optional<std::string> quantity_named_by(const std::string& word) {
 /// "index finger, proximal, length" in any order; nothing if a word is left over. A phalanx' length
 /// is that of the bone, which is no dimension of ours: our segments end at creases, and the
 /// proximal one is half as long as its bone.
-std::optional<HandDimension> phalanx_dimension(const Words& words) {
+std::optional<hand::HandDimension> phalanx_dimension(const Words& words) {
   std::optional<std::string> finger, segment, quantity;
   int middles = 0;
   bool is_bone = false;
@@ -137,7 +137,7 @@ std::optional<HandDimension> phalanx_dimension(const Words& words) {
   }
   if (middles > 0 || !finger || !segment || !quantity) return std::nullopt;
   if (is_bone && *quantity == "length") return std::nullopt;
-  return hand_dimension_named(*finger + "_" + *segment + "_" + *quantity);
+  return hand::hand_dimension_named(*finger + "_" + *segment + "_" + *quantity);
 }
 
 /// The usual name in our list: of a dimension or of the wrist.
@@ -171,7 +171,7 @@ std::string take_unit(std::string& heading) {
   const Words word = words_of(heading.substr(last + 1));
   if (word.size() != 1) return "";
   const bool is_unit =
-      length_unit_named(word[0]) || factor_of(kTimeUnits, word[0]) ||
+      geometry::length_unit_named(word[0]) || factor_of(kTimeUnits, word[0]) ||
       std::find(kOtherUnits.begin(), kOtherUnits.end(), word[0]) != kOtherUnits.end();
   if (!is_unit) return "";
   heading.erase(last);
@@ -187,10 +187,10 @@ ColumnHeading heading_of(std::string_view header) {
   const Words words = words_of(text);
   heading.name = known_name(text).value_or(joined(words, "_"));
   if (heading.name.empty()) heading.name = std::string(header);
-  heading.dimension = hand_dimension_named(heading.name);
-  if (const auto unit = length_unit_named(heading.unit)) {
+  heading.dimension = hand::hand_dimension_named(heading.name);
+  if (const auto unit = geometry::length_unit_named(heading.unit)) {
     heading.quantity = Quantity::kLength;
-    heading.factor = millimetres_per(*unit);
+    heading.factor = geometry::millimetres_per(*unit);
   } else if (heading.name == "age") {
     heading.quantity = Quantity::kAge;
     heading.factor = factor_of(kTimeUnits, heading.unit).value_or(1.0);
@@ -207,22 +207,22 @@ ColumnHeading heading_of(std::string_view header) {
 
 std::optional<SizeRange> size_range(std::string_view name) {
   if (name == "wrist_circumference") return SizeRange{80.0, 260.0};
-  const auto dimension = hand_dimension_named(name);
+  const auto dimension = hand::hand_dimension_named(name);
   if (!dimension) return std::nullopt;
   switch (dimension->kind) {
-    case DimensionKind::kHandLength:
+    case hand::DimensionKind::kHandLength:
       return SizeRange{90.0, 260.0};
-    case DimensionKind::kHandCircumference:
+    case hand::DimensionKind::kHandCircumference:
       return SizeRange{95.0, 320.0};
-    case DimensionKind::kHandWidth:
+    case hand::DimensionKind::kHandWidth:
       return SizeRange{40.0, 130.0};
-    case DimensionKind::kHandThickness:
+    case hand::DimensionKind::kHandThickness:
       return SizeRange{10.0, 60.0};
-    case DimensionKind::kSegmentLength:
+    case hand::DimensionKind::kSegmentLength:
       break;
-    case DimensionKind::kSegmentWidth:
+    case hand::DimensionKind::kSegmentWidth:
       return SizeRange{5.0, 45.0};
-    case DimensionKind::kSegmentThickness:
+    case hand::DimensionKind::kSegmentThickness:
       return SizeRange{4.0, 40.0};
   }
   if (name == "palm_length") return SizeRange{48.0, 150.0};
@@ -231,4 +231,4 @@ std::optional<SizeRange> size_range(std::string_view name) {
   return SizeRange{6.0, 50.0};
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -8,7 +8,7 @@
 
 #include "palmar/hand/dimensions/hand_dimension.h"
 
-namespace palmar {
+namespace palmar::population {
 
 enum class Quantity {
   kLength,  ///< the heading names a unit of length
@@ -21,7 +21,7 @@ enum class Quantity {
 /// (cm)", "index_proximal_length_in".
 struct ColumnHeading {
   std::string name;  ///< of our dimension if it is one, else as written in small_letters
-  std::optional<HandDimension> dimension;  ///< known under this or another usual name
+  std::optional<hand::HandDimension> dimension;  ///< known under this or another usual name
   Quantity quantity = Quantity::kOther;
   std::string unit;     ///< as named: "cm"; "" if none
   double factor = 1.0;  ///< what the unit is in mm (lengths) or years (ages)
@@ -35,4 +35,4 @@ struct SizeRange {
 /// By name: of the 47 dimensions, wrist_circumference; nothing for others.
 std::optional<SizeRange> size_range(std::string_view name);
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 struct Expected {
@@ -49,12 +49,12 @@ TEST(ColumnHeading, NamesDimensionAndUnitInAnyUsualWay) {
     EXPECT_EQ(heading.unit, expected.unit) << expected.header;
     EXPECT_EQ(heading.quantity, expected.quantity) << expected.header;
     EXPECT_NEAR(heading.factor, expected.factor, 1e-15) << expected.header;
-    EXPECT_EQ(heading.dimension.has_value(), hand_dimension_named(expected.name).has_value());
+    EXPECT_EQ(heading.dimension.has_value(), hand::hand_dimension_named(expected.name).has_value());
   }
 }
 
 TEST(ColumnHeading, KnowsEveryDimensionUnderItsOwnName) {
-  for (const HandDimension dimension : all_hand_dimensions()) {
+  for (const hand::HandDimension dimension : hand::all_hand_dimensions()) {
     const ColumnHeading heading = heading_of(name_of(dimension) + "_mm");
     ASSERT_TRUE(heading.dimension) << name_of(dimension);
     EXPECT_EQ(*heading.dimension, dimension) << name_of(dimension);
@@ -94,4 +94,4 @@ TEST(SizeRange, TakesInTheHandsOfSurveysInTheRightUnitOnly) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::population

@@ -15,7 +15,7 @@
 #include "palmar/core/nearest_name.h"
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 constexpr std::size_t kMostGroups = 50;
@@ -198,4 +198,4 @@ std::vector<TableGroup> grouped(const DimensionTable& table, const std::string& 
   return groups;
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

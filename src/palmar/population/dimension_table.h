@@ -9,14 +9,14 @@
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/population/column_heading.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// One column of a table of subjects.
 struct TableColumn {
   std::string name;    ///< of our dimension, else the table's own in small_letters
   std::string header;  ///< as in the file
   int number = 0;      ///< of the column in the file, from 1
-  std::optional<HandDimension> dimension;
+  std::optional<hand::HandDimension> dimension;
   Quantity quantity = Quantity::kOther;
   std::string unit;        ///< "mm" of lengths, "years" of ages, else the table's own or ""
   bool is_number = false;  ///< `values` holds the cells; else `texts`
@@ -61,4 +61,4 @@ struct TableGroup {
 std::vector<TableGroup> grouped(const DimensionTable& table, const std::string& by,
                                 std::vector<std::string>& notes);
 
-}  // namespace palmar
+}  // namespace palmar::population

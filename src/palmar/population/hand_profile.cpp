@@ -11,12 +11,12 @@
 #include "palmar/hand/instance/scaled_hand.h"
 #include "palmar/hand/posture/named_postures.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 // The limit posture of the thumb that a range now ends at: that share of the old limit's rotation
 // vector and translation.
-CmcLimit part_of(const CmcLimit& limit, double share) {
+hand::CmcLimit part_of(const hand::CmcLimit& limit, double share) {
   const Eigen::AngleAxisd turn(limit.q);
   return {Quat(Eigen::AngleAxisd(share * turn.angle(), turn.axis())), share * limit.t};
 }
@@ -32,18 +32,18 @@ void scale(std::vector<Vec3>& coefficients, double share) {
   for (Vec3& one : coefficients) one *= share;
 }
 
-void move_thumb_limits(const Skeleton& before, Hand& hand) {
-  const auto share = [&](Dof dof, bool is_upper) {
-    const JointDof& old_dof = before.dof(dof);
-    const JointDof& new_dof = hand.skeleton.dof(dof);
+void move_thumb_limits(const hand::Skeleton& before, hand::Hand& hand) {
+  const auto share = [&](hand::Dof dof, bool is_upper) {
+    const hand::JointDof& old_dof = before.dof(dof);
+    const hand::JointDof& new_dof = hand.skeleton.dof(dof);
     return is_upper ? share_left(old_dof.reference, old_dof.upper, new_dof.upper, 1.0)
                     : share_left(old_dof.reference, old_dof.lower, new_dof.lower, -1.0);
   };
-  const double flexion = share(Dof::kThumbCmcFlexion, true);
-  const double extension = share(Dof::kThumbCmcFlexion, false);
-  const double abduction = share(Dof::kThumbCmcAbduction, true);
-  const double adduction = share(Dof::kThumbCmcAbduction, false);
-  ThumbCmc& cmc = hand.skeleton.thumb_cmc;
+  const double flexion = share(hand::Dof::kThumbCmcFlexion, true);
+  const double extension = share(hand::Dof::kThumbCmcFlexion, false);
+  const double abduction = share(hand::Dof::kThumbCmcAbduction, true);
+  const double adduction = share(hand::Dof::kThumbCmcAbduction, false);
+  hand::ThumbCmc& cmc = hand.skeleton.thumb_cmc;
   cmc = {.flexion = part_of(cmc.flexion, flexion),
          .extension = part_of(cmc.extension, extension),
          .abduction = part_of(cmc.abduction, abduction),
@@ -141,17 +141,17 @@ const HandProfile& profile_named(const std::string& name) {
                    did_you_mean(name, names, "built in are " + joined(names, ", ")));
 }
 
-Hand with_range_share(const Hand& hand, double range_share) {
+hand::Hand with_range_share(const hand::Hand& hand, double range_share) {
   if (!(range_share > 0.0 && range_share <= 1.0)) {
     std::ostringstream text;
     text << "share of the range of motion is " << range_share << "; above 0 to 1 is allowed";
     throw UsageError(text.str());
   }
-  Hand reduced = hand;
+  hand::Hand reduced = hand;
   if (range_share == 1.0) return reduced;
-  const Posture relaxed = named_posture(hand.skeleton, "relaxed").value();
-  for (Joint& joint : reduced.skeleton.joints) {
-    for (JointDof& dof : joint.dofs) {
+  const hand::Posture relaxed = hand::named_posture(hand.skeleton, "relaxed").value();
+  for (hand::Joint& joint : reduced.skeleton.joints) {
+    for (hand::JointDof& dof : joint.dofs) {
       const double middle = relaxed[dof.dof];
       dof.lower = middle + range_share * (dof.lower - middle);
       dof.upper = middle + range_share * (dof.upper - middle);
@@ -164,15 +164,16 @@ Hand with_range_share(const Hand& hand, double range_share) {
 HandSample with_profile(const HandSample& sample, const HandProfile& profile) {
   profile.check();
   HandSample changed = sample;
-  for (SizedDimension& one : changed.dimensions) one.value *= profile.size_factor;
+  for (hand::SizedDimension& one : changed.dimensions) one.value *= profile.size_factor;
   changed.grip_strength *= profile.strength_share;
   return changed;
 }
 
-Hand with_profile(const Hand& hand, const HandProfile& profile) {
+hand::Hand with_profile(const hand::Hand& hand, const HandProfile& profile) {
   profile.check();
-  return with_range_share(profile.size_factor == 1.0 ? hand : scaled(hand, profile.size_factor),
-                          profile.range_share);
+  return with_range_share(
+      profile.size_factor == 1.0 ? hand : hand::scaled(hand, profile.size_factor),
+      profile.range_share);
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -8,7 +8,7 @@
 #include "palmar/hand/hand.h"
 #include "palmar/population/hand_sample.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// What a person's hands can do less, or carry more, than those of the population: factors on any
 /// population.
@@ -35,7 +35,7 @@ const HandProfile& profile_named(const std::string& name);
 /// The hand with its ranges of motion reduced to `range_share`, about the relaxed posture. Every
 /// posture that both hands can take looks the same on both: the thumb's limit postures move inwards
 /// with its range. Throws UsageError unless 0 < range_share <= 1.
-Hand with_range_share(const Hand& hand, double range_share);
+hand::Hand with_range_share(const hand::Hand& hand, double range_share);
 
 /// The person with the profile's size and strength; range, gloves and nails stand in the profile
 /// and count where the hand is posed.
@@ -43,6 +43,6 @@ HandSample with_profile(const HandSample& sample, const HandProfile& profile);
 
 /// The hand with the profile's range and size. Where the hand is made from a sample, give the
 /// sample its size (with_profile()) and the hand its range (with_range_share()) instead.
-Hand with_profile(const Hand& hand, const HandProfile& profile);
+hand::Hand with_profile(const hand::Hand& hand, const HandProfile& profile);
 
-}  // namespace palmar
+}  // namespace palmar::population

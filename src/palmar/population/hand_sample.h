@@ -12,16 +12,16 @@
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/population/population.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// One person of a population: what the hand measures, and what is known of its owner.
 struct HandSample {
   std::string label;    ///< "17", "P5 woman", "95 % ellipse, 45 deg"
   std::string stratum;  ///< name of the stratum
-  std::optional<Sex> sex;
-  std::optional<double> age;               ///< years
-  std::vector<SizedDimension> dimensions;  ///< driving and regressed ones, mm; a fixed order
-  double grip_strength = 0.0;              ///< N, of a dynamometer; 0: not known
+  std::optional<grasp::Sex> sex;
+  std::optional<double> age;                     ///< years
+  std::vector<hand::SizedDimension> dimensions;  ///< driving and regressed ones, mm; a fixed order
+  double grip_strength = 0.0;                    ///< N, of a dynamometer; 0: not known
 };
 
 enum class SamplingDesign {
@@ -66,4 +66,4 @@ struct SamplingOptions {
 /// (joint_strength.h), independent of hand size; the mean in the last two.
 std::vector<HandSample> sample_hands(const Population& population, const SamplingOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::population

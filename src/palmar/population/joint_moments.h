@@ -7,11 +7,11 @@
 
 #include "palmar/population/population.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// All dimensions of a stratum together, as the model has them: driving ones, then regressed ones.
 struct JointMoments {
-  std::vector<HandDimension> dimension;
+  std::vector<hand::HandDimension> dimension;
   Eigen::VectorXd mean;        ///< mm
   Eigen::MatrixXd covariance;  ///< mm^2
 };
@@ -19,4 +19,4 @@ struct JointMoments {
 /// Predictors must be known (fault_of()).
 JointMoments joint_moments(const Stratum& stratum);
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -7,7 +7,7 @@
 
 #include "palmar/population/segment_regressions.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 const TableColumn* numbers_named(const DimensionTable& table, const std::string& name) {
@@ -26,8 +26,9 @@ std::string percent(double share) {
 }  // namespace
 
 double template_palm_share() {
-  const HandDimensions& hand = template_proportions();
-  return value_of(hand, {DimensionKind::kSegmentLength, Segment::kPalm}) / hand.hand_length;
+  const hand::HandDimensions& hand = template_proportions();
+  return hand::value_of(hand, {hand::DimensionKind::kSegmentLength, hand::Segment::kPalm}) /
+         hand.hand_length;
 }
 
 std::optional<double> palm_share(const DimensionTable& table) {
@@ -56,4 +57,4 @@ std::string palm_warning(const DimensionTable& table) {
          "population regress --population-out`, which brings it into proportion";
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

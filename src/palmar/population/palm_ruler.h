@@ -7,7 +7,7 @@
 
 #include "palmar/population/dimension_table.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// Surveys measure the palm between other points than measure_hand() does (wrist crease to the base
 /// crease of the middle finger): ANSUR II's is 60 % of hand length, the template's 55 %. Taken for
@@ -26,4 +26,4 @@ std::optional<double> palm_share(const DimensionTable& table);
 /// it does to fingers, what to do. Empty otherwise.
 std::string palm_warning(const DimensionTable& table);
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -10,19 +10,23 @@
 #include "palmar/core/text.h"
 #include "palmar/population/joint_moments.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
-constexpr HandDimension kMiddleProximal{DimensionKind::kSegmentLength, Segment::kMiddleProximal};
-constexpr HandDimension kMiddleMiddle{DimensionKind::kSegmentLength, Segment::kMiddleMiddle};
-constexpr HandDimension kMiddleDistal{DimensionKind::kSegmentLength, Segment::kMiddleDistal};
+constexpr hand::HandDimension kMiddleProximal{hand::DimensionKind::kSegmentLength,
+                                              hand::Segment::kMiddleProximal};
+constexpr hand::HandDimension kMiddleMiddle{hand::DimensionKind::kSegmentLength,
+                                            hand::Segment::kMiddleMiddle};
+constexpr hand::HandDimension kMiddleDistal{hand::DimensionKind::kSegmentLength,
+                                            hand::Segment::kMiddleDistal};
 constexpr double kRare = 3.3;  // deviations: one in a thousand
 
-bool has(const JointMoments& m, HandDimension dimension) {
+bool has(const JointMoments& m, hand::HandDimension dimension) {
   return std::find(m.dimension.begin(), m.dimension.end(), dimension) != m.dimension.end();
 }
 
-Eigen::Index place_of(const JointMoments& m, HandDimension dimension, const std::string& whose) {
+Eigen::Index place_of(const JointMoments& m, hand::HandDimension dimension,
+                      const std::string& whose) {
   const auto found = std::find(m.dimension.begin(), m.dimension.end(), dimension);
   if (found == m.dimension.end()) {
     throw UsageError(whose + ": " + name_of(dimension) +
@@ -40,15 +44,16 @@ JointMoments complete(const Stratum& stratum) {
     const Eigen::Index i = place_of(m, one.dimension, stratum.name);
     m.covariance(i, i) += std::pow(kProportionScatter * m.mean[i], 2);
   }
-  if (has(m, kMiddleProximal) || !has(m, kHandLengthDimension) || !has(m, kPalmLengthDimension) ||
-      !has(m, kMiddleMiddle) || !has(m, kMiddleDistal)) {
+  if (has(m, kMiddleProximal) || !has(m, hand::kHandLengthDimension) ||
+      !has(m, hand::kPalmLengthDimension) || !has(m, kMiddleMiddle) || !has(m, kMiddleDistal)) {
     return m;
   }
   const Eigen::Index n = m.mean.size();
   Eigen::MatrixXd map = Eigen::MatrixXd::Zero(n + 1, n);
   map.topRows(n).setIdentity();
-  map(n, place_of(m, kHandLengthDimension, "")) = 1.0;
-  for (const HandDimension part : {kPalmLengthDimension, kMiddleMiddle, kMiddleDistal}) {
+  map(n, place_of(m, hand::kHandLengthDimension, "")) = 1.0;
+  for (const hand::HandDimension part :
+       {hand::kPalmLengthDimension, kMiddleMiddle, kMiddleDistal}) {
     map(n, place_of(m, part, "")) = -1.0;
   }
   m.mean = (map * m.mean).eval();
@@ -108,7 +113,7 @@ void check(const std::vector<KnownMeasure>& measures) {
   }
 }
 
-bool is_measured(HandDimension dimension, const std::vector<KnownMeasure>& measures) {
+bool is_measured(hand::HandDimension dimension, const std::vector<KnownMeasure>& measures) {
   return std::any_of(measures.begin(), measures.end(), [&](const KnownMeasure& one) {
     return one.terms.size() == 1 && one.terms.front().first == dimension;
   });
@@ -116,7 +121,7 @@ bool is_measured(HandDimension dimension, const std::vector<KnownMeasure>& measu
 
 }  // namespace
 
-KnownMeasure KnownMeasure::of(HandDimension dimension, double value, double sd) {
+KnownMeasure KnownMeasure::of(hand::HandDimension dimension, double value, double sd) {
   return {{{dimension, 1.0}}, value, sd, name_of(dimension)};
 }
 
@@ -135,8 +140,8 @@ PersonEstimate estimate_person(const Population& population,
   }
   for (double& share : result.stratum_share) share /= sum;
 
-  const std::vector<HandDimension>& dimensions = strata.front().all.dimension;
-  for (const HandDimension dimension : dimensions) {
+  const std::vector<hand::HandDimension>& dimensions = strata.front().all.dimension;
+  for (const hand::HandDimension dimension : dimensions) {
     EstimatedDimension one{.dimension = dimension, .is_measured = is_measured(dimension, measures)};
     double square = 0.0;
     for (std::size_t s = 0; s < strata.size(); ++s) {
@@ -167,12 +172,12 @@ PersonEstimate estimate_person(const Population& population,
   return result;
 }
 
-std::vector<SizedDimension> sizes_of(const PersonEstimate& estimate) {
-  std::vector<SizedDimension> sizes;
+std::vector<hand::SizedDimension> sizes_of(const PersonEstimate& estimate) {
+  std::vector<hand::SizedDimension> sizes;
   for (const EstimatedDimension& one : estimate.dimensions) {
     if (one.dimension != kMiddleProximal) sizes.push_back({one.dimension, one.value});
   }
   return sizes;
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

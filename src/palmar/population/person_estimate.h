@@ -9,22 +9,22 @@
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/population/population.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// Something measured on a person: a dimension or a sum of several (a finger's length from web to
 /// tip is that of its three segments), and how well.
 struct KnownMeasure {
-  std::vector<std::pair<HandDimension, double>> terms;  ///< dimension, factor
-  double value = 0.0;                                   ///< mm
-  double sd = 0.0;                                      ///< of the measurement's error, mm
-  std::string name;                                     ///< for messages
+  std::vector<std::pair<hand::HandDimension, double>> terms;  ///< dimension, factor
+  double value = 0.0;                                         ///< mm
+  double sd = 0.0;                                            ///< of the measurement's error, mm
+  std::string name;                                           ///< for messages
 
-  static KnownMeasure of(HandDimension dimension, double value, double sd);
+  static KnownMeasure of(hand::HandDimension dimension, double value, double sd);
 };
 
 /// One dimension of a person as population and measurements have it.
 struct EstimatedDimension {
-  HandDimension dimension;
+  hand::HandDimension dimension;
   double value = 0.0;  ///< mm
   double sd = 0.0;     ///< mm: about 95 of 100 such people lie within two of them
   bool is_measured = false;
@@ -54,6 +54,6 @@ PersonEstimate estimate_person(const Population& population,
 inline constexpr double kProportionScatter = 0.05;
 
 /// What makes a hand of it: all but the middle finger's proximal length, which the others leave.
-std::vector<SizedDimension> sizes_of(const PersonEstimate& estimate);
+std::vector<hand::SizedDimension> sizes_of(const PersonEstimate& estimate);
 
-}  // namespace palmar
+}  // namespace palmar::population

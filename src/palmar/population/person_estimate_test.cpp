@@ -10,15 +10,15 @@
 #include "palmar/core/error.h"
 #include "palmar/population/built_in_populations.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-constexpr HandDimension kL{DimensionKind::kHandLength};
-constexpr HandDimension kC{DimensionKind::kHandCircumference};
-constexpr HandDimension kW{DimensionKind::kHandWidth};
+constexpr hand::HandDimension kL{hand::DimensionKind::kHandLength};
+constexpr hand::HandDimension kC{hand::DimensionKind::kHandCircumference};
+constexpr hand::HandDimension kW{hand::DimensionKind::kHandWidth};
 
 /// L 180 +- 10, C 200 +- 12, r 0.6; W = 10 + 0.35 C +- 2.
 Population two_drivers() {
@@ -34,7 +34,7 @@ Population two_drivers() {
   return {"made", "Made up", {all}, "made up", {}};
 }
 
-const EstimatedDimension& at(const PersonEstimate& estimate, HandDimension dimension) {
+const EstimatedDimension& at(const PersonEstimate& estimate, hand::HandDimension dimension) {
   for (const EstimatedDimension& one : estimate.dimensions) {
     if (one.dimension == dimension) return one;
   }
@@ -88,14 +88,14 @@ TEST(PersonEstimate, StrataAreWeighedByWhatIsKnown) {
 }
 
 TEST(PersonEstimate, TheMiddleFingerIsWhatHandAndPalmLeave) {
-  const HandDimension palm{DimensionKind::kSegmentLength, Segment::kPalm};
+  const hand::HandDimension palm{hand::DimensionKind::kSegmentLength, hand::Segment::kPalm};
   const PersonEstimate one =
       estimate_person(population_named("ansur2_women"),
                       {KnownMeasure::of(kL, 181.0, 1.0), KnownMeasure::of(kC, 187.0, 1.0)});
   double middle = 0.0;
-  for (const Segment s :
-       {Segment::kMiddleProximal, Segment::kMiddleMiddle, Segment::kMiddleDistal}) {
-    middle += at(one, {DimensionKind::kSegmentLength, s}).value;
+  for (const hand::Segment s : {hand::Segment::kMiddleProximal, hand::Segment::kMiddleMiddle,
+                                hand::Segment::kMiddleDistal}) {
+    middle += at(one, {hand::DimensionKind::kSegmentLength, s}).value;
   }
   EXPECT_NEAR(at(one, kL).value - at(one, palm).value, middle, 1e-6);
   for (const EstimatedDimension& dimension : one.dimensions) {
@@ -112,10 +112,10 @@ TEST(PersonEstimate, RareAndImpossibleMeasuresAreReported) {
               ThrowsMessage<UsageError>(HasSubstr("one is needed")));
   EXPECT_THAT([] { estimate_person(two_drivers(), {KnownMeasure::of(kL, 0.0, 1.0)}); },
               ThrowsMessage<UsageError>(HasSubstr("1 to 400 mm is allowed")));
-  const HandDimension palm{DimensionKind::kSegmentLength, Segment::kPalm};
+  const hand::HandDimension palm{hand::DimensionKind::kSegmentLength, hand::Segment::kPalm};
   EXPECT_THAT([&] { estimate_person(two_drivers(), {KnownMeasure::of(palm, 100.0, 1.0)}); },
               ThrowsMessage<UsageError>(HasSubstr("palm_length isn't among")));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::population

@@ -10,7 +10,7 @@
 #include "palmar/core/text.h"
 #include "palmar/population/joint_moments.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 constexpr double kLargestLength = 400.0;      // mm; no hand is as long
@@ -67,14 +67,15 @@ std::string fault_of_correlation(const Stratum& stratum) {
   return "";
 }
 
-std::optional<Eigen::Index> index_of(const std::vector<HandDimension>& list, HandDimension d) {
+std::optional<Eigen::Index> index_of(const std::vector<hand::HandDimension>& list,
+                                     hand::HandDimension d) {
   const auto found = std::find(list.begin(), list.end(), d);
   if (found == list.end()) return std::nullopt;
   return found - list.begin();
 }
 
 std::string fault_of_regressions(const Stratum& stratum) {
-  std::vector<HandDimension> known;
+  std::vector<hand::HandDimension> known;
   for (const DrivingDimension& one : stratum.driving) known.push_back(one.dimension);
   for (const DimensionRegression& regression : stratum.regressions) {
     const std::string what = "regression of " + name_of(regression.dimension);
@@ -184,7 +185,7 @@ std::string fault_of(const Stratum& stratum) {
   return fault.empty() ? fault_of_regressions(stratum) : fault;
 }
 
-std::optional<DimensionMoments> moments_of(const Stratum& stratum, HandDimension dimension) {
+std::optional<DimensionMoments> moments_of(const Stratum& stratum, hand::HandDimension dimension) {
   const JointMoments m = joint_moments(stratum);
   const auto i = index_of(m.dimension, dimension);
   if (!i) return std::nullopt;
@@ -219,4 +220,4 @@ void Population::check() const {
   if (!fault.empty()) throw UsageError(what + fault);
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -12,7 +12,7 @@
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/hand/dimensions/hand_dimension.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// How a dimension of a population is known.
 enum class Evidence {
@@ -25,7 +25,7 @@ std::optional<Evidence> evidence_named(std::string_view name);
 
 /// One dimension of the joint normal distribution.
 struct DrivingDimension {
-  HandDimension dimension;
+  hand::HandDimension dimension;
   double mean = 0.0;  ///< mm
   double sd = 0.0;    ///< mm; 0: only the mean is known
   std::string source;
@@ -35,10 +35,10 @@ struct DrivingDimension {
 /// y = intercept + sum_k slope_k x_k + residual; residual normal with the given deviation,
 /// independent of everything else. The x are driving dimensions or ones regressed before.
 struct DimensionRegression {
-  HandDimension dimension;
+  hand::HandDimension dimension;
   double intercept = 0.0;  ///< mm
   struct Term {
-    HandDimension predictor;
+    hand::HandDimension predictor;
     double slope = 0.0;  ///< mm per mm
   };
   std::vector<Term> terms;
@@ -49,10 +49,10 @@ struct DimensionRegression {
 
 /// People that one normal distribution describes: one sex, usually.
 struct Stratum {
-  std::string name;           ///< "women"
-  std::optional<Sex> sex;     ///< nothing: mixed or unknown
-  double share = 1.0;         ///< of the population
-  std::optional<double> age;  ///< mean, years; for grip strength
+  std::string name;               ///< "women"
+  std::optional<grasp::Sex> sex;  ///< nothing: mixed or unknown
+  double share = 1.0;             ///< of the population
+  std::optional<double> age;      ///< mean, years; for grip strength
   std::vector<DrivingDimension> driving;
   Eigen::MatrixXd correlation;  ///< of `driving`, symmetric, unit diagonal, positive definite
   std::vector<DimensionRegression> regressions;
@@ -68,7 +68,7 @@ std::string fault_of(const Stratum& stratum);
 struct DimensionMoments {
   double mean = 0.0, sd = 0.0;
 };
-std::optional<DimensionMoments> moments_of(const Stratum& stratum, HandDimension dimension);
+std::optional<DimensionMoments> moments_of(const Stratum& stratum, hand::HandDimension dimension);
 
 /// Whose hands: a mixture of strata. Dimensions that neither drive nor are regressed follow in the
 /// template's proportions (make_hand_instance()).
@@ -84,4 +84,4 @@ struct Population {
 /// What is wrong with a population apart from its strata's own faults; empty if nothing is.
 std::string fault_of(const Population& population);
 
-}  // namespace palmar
+}  // namespace palmar::population

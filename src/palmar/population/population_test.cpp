@@ -12,15 +12,15 @@
 #include "palmar/population/built_in_populations.h"
 #include "palmar/population/survey_figures.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr HandDimension kLength{DimensionKind::kHandLength};
-constexpr HandDimension kCircumference{DimensionKind::kHandCircumference};
-constexpr HandDimension kWidth{DimensionKind::kHandWidth};
-constexpr HandDimension kPalm{DimensionKind::kSegmentLength, Segment::kPalm};
+constexpr hand::HandDimension kLength{hand::DimensionKind::kHandLength};
+constexpr hand::HandDimension kCircumference{hand::DimensionKind::kHandCircumference};
+constexpr hand::HandDimension kWidth{hand::DimensionKind::kHandWidth};
+constexpr hand::HandDimension kPalm{hand::DimensionKind::kSegmentLength, hand::Segment::kPalm};
 
 Stratum people() {
   Stratum stratum;
@@ -30,7 +30,7 @@ Stratum people() {
   return stratum;
 }
 
-DimensionRegression regression(HandDimension dimension, double intercept,
+DimensionRegression regression(hand::HandDimension dimension, double intercept,
                                std::vector<DimensionRegression::Term> terms, double residual) {
   DimensionRegression one;
   one.dimension = dimension;
@@ -141,7 +141,8 @@ TEST(SegmentRegressions, PalmScattersAsInTheSurvey) {
 // scatter at given hand length, through the palm and by itself.
 TEST(SegmentRegressions, FingersScatterAtGivenLengthAsInTheSource) {
   const Stratum& stratum = population_named("ansur2_men").strata.front();
-  const HandDimension distal{DimensionKind::kSegmentLength, Segment::kIndexDistal};
+  const hand::HandDimension distal{hand::DimensionKind::kSegmentLength,
+                                   hand::Segment::kIndexDistal};
   for (const DimensionRegression& one : stratum.regressions) {
     if (one.dimension != distal) continue;
     const double mean = moments_of(stratum, distal)->mean;
@@ -166,7 +167,7 @@ TEST(MomentsOf, FollowsRegressionsOnRegressions) {
   const double variance =
       0.25 * 10.4 * 10.4 + 0.01 * width.sd * width.sd + 2.0 * 0.5 * 0.1 * covariance + 1.0;
   EXPECT_NEAR(palm.sd, std::sqrt(variance), 1e-12);
-  EXPECT_FALSE(moments_of(stratum, {DimensionKind::kHandThickness}));
+  EXPECT_FALSE(moments_of(stratum, {hand::DimensionKind::kHandThickness}));
 }
 
 TEST(Population, RefusesWithStratumDimensionValueAndRange) {
@@ -201,4 +202,4 @@ TEST(Population, RefusesWithStratumDimensionValueAndRange) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::population

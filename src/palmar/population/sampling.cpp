@@ -11,7 +11,7 @@
 #include "palmar/core/text.h"
 #include "palmar/population/hand_sample.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 constexpr int kMostHands = 1000000;
@@ -33,7 +33,7 @@ struct Predictors {
 };
 
 Predictors find_predictors(const Stratum& stratum) {
-  std::vector<HandDimension> known;
+  std::vector<hand::HandDimension> known;
   for (const DrivingDimension& one : stratum.driving) known.push_back(one.dimension);
   Predictors predictors;
   for (const DimensionRegression& regression : stratum.regressions) {
@@ -106,9 +106,9 @@ class Drawer {
  private:
   double grip(RandomStream* random) const {
     if (!stratum_.sex || !stratum_.age) return 0.0;
-    const double mean = grip_strength(*stratum_.sex, *stratum_.age).value_or(0.0);
+    const double mean = grasp::grip_strength(*stratum_.sex, *stratum_.age).value_or(0.0);
     if (random == nullptr) return mean;
-    const double sd = grip_strength_sd(*stratum_.sex, *stratum_.age).value_or(0.0);
+    const double sd = grasp::grip_strength_sd(*stratum_.sex, *stratum_.age).value_or(0.0);
     // A tenth of the mean is left to the weakest; four in a million are cut.
     return std::max(0.1 * mean, mean + sd * random->normal());
   }
@@ -265,7 +265,7 @@ std::vector<HandSample> boundary_hands(const Population& population,
 
 std::string person_word(const Stratum& stratum) {
   if (!stratum.sex) return stratum.name;
-  return *stratum.sex == Sex::kMale ? "man" : "woman";
+  return *stratum.sex == grasp::Sex::kMale ? "man" : "woman";
 }
 
 std::vector<HandSample> percentile_hands(const Population& population,
@@ -346,4 +346,4 @@ std::vector<HandSample> sample_hands(const Population& population, const Samplin
   return hands;
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

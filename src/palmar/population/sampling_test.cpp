@@ -14,23 +14,23 @@
 #include "palmar/population/built_in_populations.h"
 #include "palmar/population/hand_sample.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr HandDimension kHandLength{DimensionKind::kHandLength};
-constexpr HandDimension kHandCircumference{DimensionKind::kHandCircumference};
+constexpr hand::HandDimension kHandLength{hand::DimensionKind::kHandLength};
+constexpr hand::HandDimension kHandCircumference{hand::DimensionKind::kHandCircumference};
 
-double value_of(const HandSample& sample, HandDimension dimension) {
-  for (const SizedDimension& one : sample.dimensions) {
+double value_of(const HandSample& sample, hand::HandDimension dimension) {
+  for (const hand::SizedDimension& one : sample.dimensions) {
     if (one.dimension == dimension) return one.value;
   }
   ADD_FAILURE() << "no " << name_of(dimension);
   return 0.0;
 }
 
-std::vector<double> values_of(const std::vector<HandSample>& hands, HandDimension dimension) {
+std::vector<double> values_of(const std::vector<HandSample>& hands, hand::HandDimension dimension) {
   std::vector<double> values;
   for (const HandSample& hand : hands) values.push_back(value_of(hand, dimension));
   return values;
@@ -205,7 +205,7 @@ TEST(LatinHypercube, EvenThirtyHandsHaveThePopulationsCorrelation) {
 }
 
 TEST(LatinHypercube, MeansScatterFarLessThanThoseOfRandomDraws) {
-  for (const HandDimension dimension : {kHandLength, kHandCircumference}) {
+  for (const hand::HandDimension dimension : {kHandLength, kHandCircumference}) {
     const auto means = [&](SamplingDesign design) {
       std::vector<double> list;
       for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -273,10 +273,11 @@ TEST(SampleHands, MiddleFingerKeepsAProximalSegment) {
   for (const Population& population : built_in_populations()) {
     if (population.strata.front().regressions.empty()) continue;
     for (const HandSample& hand : draw(population, SamplingDesign::kRandom, 10000, 6)) {
-      const double rest = value_of(hand, kHandLength) -
-                          value_of(hand, {DimensionKind::kSegmentLength, Segment::kPalm}) -
-                          value_of(hand, {DimensionKind::kSegmentLength, Segment::kMiddleMiddle}) -
-                          value_of(hand, {DimensionKind::kSegmentLength, Segment::kMiddleDistal});
+      const double rest =
+          value_of(hand, kHandLength) -
+          value_of(hand, {hand::DimensionKind::kSegmentLength, hand::Segment::kPalm}) -
+          value_of(hand, {hand::DimensionKind::kSegmentLength, hand::Segment::kMiddleMiddle}) -
+          value_of(hand, {hand::DimensionKind::kSegmentLength, hand::Segment::kMiddleDistal});
       // 8 mm on a hand of 176, where the mean is 22.6
       ASSERT_GT(rest, 8.0 / 176.0 * value_of(hand, kHandLength))
           << population.name << " hand " << hand.label;
@@ -292,7 +293,7 @@ TEST(SampleHands, HandsAreNotBroaderThanTheirGirthAllows) {
       for (const HandSample& hand :
            draw(population_named(name), SamplingDesign::kLatinHypercube, hands, 2)) {
         ASSERT_GT(value_of(hand, kHandCircumference),
-                  2.0 * value_of(hand, {DimensionKind::kHandWidth}))
+                  2.0 * value_of(hand, {hand::DimensionKind::kHandWidth}))
             << name << " " << hand.label;
       }
     }
@@ -333,4 +334,4 @@ TEST(SamplingOptions, RefusesWithValueAndRange) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::population

@@ -7,10 +7,11 @@
 
 #include "palmar/population/survey_figures.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
-constexpr HandDimension kMiddleWidth{DimensionKind::kSegmentWidth, Segment::kMiddleProximal};
+constexpr hand::HandDimension kMiddleWidth{hand::DimensionKind::kSegmentWidth,
+                                           hand::Segment::kMiddleProximal};
 
 // Proximal phalanx of the thumb, 66 European adults: 31.57 mm, SD 3.13 mm (Buryanov & Kotiuk 2010,
 // Int J Morphol 28:755-758), less a hand length that varies by 5.1 % as in ANSUR II. Greiner's link
@@ -29,19 +30,22 @@ constexpr const char* kBuryanov =
 constexpr const char* kShared =
     "in the template's proportion to the width of the middle finger's proximal segment";
 
-HandDimension length_of(Segment segment) { return {DimensionKind::kSegmentLength, segment}; }
+hand::HandDimension length_of(hand::Segment segment) {
+  return {hand::DimensionKind::kSegmentLength, segment};
+}
 
-double template_value(HandDimension dimension) {
-  return value_of(template_proportions(), dimension);
+double template_value(hand::HandDimension dimension) {
+  return hand::value_of(template_proportions(), dimension);
 }
 
 DimensionRegression palm(const SegmentDrivers& drivers) {
   const AnsurFigures& ansur = ansur2_figures(drivers.sex);
   const double elasticity = ansur.palm_slope * ansur.length.mean / ansur.palm.mean;
-  const double share = template_value(kPalmLengthDimension) / template_value(kHandLengthDimension);
-  return {.dimension = kPalmLengthDimension,
+  const double share =
+      template_value(hand::kPalmLengthDimension) / template_value(hand::kHandLengthDimension);
+  return {.dimension = hand::kPalmLengthDimension,
           .intercept = share * drivers.mean_length * (1.0 - elasticity),
-          .terms = {{kHandLengthDimension, share * elasticity}},
+          .terms = {{hand::kHandLengthDimension, share * elasticity}},
           .residual_sd = share * drivers.mean_length * ansur.palm_residual / ansur.palm.mean,
           .evidence = Evidence::kRegressed,
           .source = kAnsur};
@@ -49,29 +53,30 @@ DimensionRegression palm(const SegmentDrivers& drivers) {
 
 // Segment of a finger from the length L - P that hand and palm leave. `scatter` at given L as a
 // share of the mean; part of it comes through the palm's residual already.
-DimensionRegression finger_segment(Segment segment, const SegmentDrivers& drivers,
+DimensionRegression finger_segment(hand::Segment segment, const SegmentDrivers& drivers,
                                    const DimensionRegression& palm, double scatter) {
   const double template_rest =
-      template_value(kHandLengthDimension) - template_value(kPalmLengthDimension);
+      template_value(hand::kHandLengthDimension) - template_value(hand::kPalmLengthDimension);
   const double share = template_value(length_of(segment)) / template_rest;
-  const double rest =
-      drivers.mean_length * template_rest / template_value(kHandLengthDimension);  // mean of L - P
+  const double rest = drivers.mean_length * template_rest /
+                      template_value(hand::kHandLengthDimension);  // mean of L - P
   const double through_palm = palm.residual_sd / rest;
   const double own = std::sqrt(std::max(0.0, scatter * scatter - through_palm * through_palm));
   return {.dimension = length_of(segment),
           .intercept = 0.0,
-          .terms = {{kHandLengthDimension, share}, {kPalmLengthDimension, -share}},
+          .terms = {{hand::kHandLengthDimension, share}, {hand::kPalmLengthDimension, -share}},
           .residual_sd = own * share * rest,
           .evidence = Evidence::kRegressed,
           .source = kGreiner};
 }
 
-DimensionRegression thumb_segment(Segment segment, const SegmentDrivers& drivers, double scatter,
-                                  const char* source) {
-  const double share = template_value(length_of(segment)) / template_value(kHandLengthDimension);
+DimensionRegression thumb_segment(hand::Segment segment, const SegmentDrivers& drivers,
+                                  double scatter, const char* source) {
+  const double share =
+      template_value(length_of(segment)) / template_value(hand::kHandLengthDimension);
   return {.dimension = length_of(segment),
           .intercept = 0.0,
-          .terms = {{kHandLengthDimension, share}},
+          .terms = {{hand::kHandLengthDimension, share}},
           .residual_sd = scatter * share * drivers.mean_length,
           .evidence = Evidence::kRegressed,
           .source = source};
@@ -81,10 +86,10 @@ DimensionRegression leading_width(const SegmentDrivers& drivers) {
   const GreinerFigures& greiner = greiner_figures(drivers.sex);
   const double scatter = 0.5 * (residual_share(greiner.index_pip_breadth, greiner.circumference) +
                                 residual_share(greiner.middle_pip_breadth, greiner.circumference));
-  const double share = template_value(kMiddleWidth) / template_value(kCircumferenceDimension);
+  const double share = template_value(kMiddleWidth) / template_value(hand::kCircumferenceDimension);
   return {.dimension = kMiddleWidth,
           .intercept = 0.0,
-          .terms = {{kCircumferenceDimension, share}},
+          .terms = {{hand::kCircumferenceDimension, share}},
           .residual_sd = scatter * share * drivers.mean_circumference,
           .evidence = Evidence::kRegressed,
           .source = kGreiner};
@@ -92,9 +97,9 @@ DimensionRegression leading_width(const SegmentDrivers& drivers) {
 
 }  // namespace
 
-const HandDimensions& template_proportions() {
-  static const HandDimensions dimensions = [] {
-    HandDimensions d;
+const hand::HandDimensions& template_proportions() {
+  static const hand::HandDimensions dimensions = [] {
+    hand::HandDimensions d;
     d.hand_length = 176.1;
     d.hand_circumference = 193.5;
     d.hand_width = 80.7;
@@ -123,22 +128,22 @@ std::vector<DimensionRegression> segment_regressions(const SegmentDrivers& drive
   const GreinerFigures& greiner = greiner_figures(drivers.sex);
   std::vector<DimensionRegression> list = {palm(drivers)};
   const DimensionRegression palm_length = list.front();
-  list.push_back(thumb_segment(Segment::kThumbProximal, drivers,
+  list.push_back(thumb_segment(hand::Segment::kThumbProximal, drivers,
                                residual_share(kThumbProximal, kHandLength), kBuryanov));
-  list.push_back(thumb_segment(Segment::kThumbDistal, drivers,
+  list.push_back(thumb_segment(hand::Segment::kThumbDistal, drivers,
                                residual_share(greiner.thumb_distal, greiner.length), kGreiner));
-  for (int s = static_cast<int>(Segment::kIndexProximal); s < kSegmentCount; ++s) {
-    const auto segment = static_cast<Segment>(s);
-    if (segment == Segment::kMiddleProximal) continue;  // what the others leave
-    const auto at = static_cast<std::size_t>(s - static_cast<int>(Segment::kIndexProximal));
+  for (int s = static_cast<int>(hand::Segment::kIndexProximal); s < hand::kSegmentCount; ++s) {
+    const auto segment = static_cast<hand::Segment>(s);
+    if (segment == hand::Segment::kMiddleProximal) continue;  // what the others leave
+    const auto at = static_cast<std::size_t>(s - static_cast<int>(hand::Segment::kIndexProximal));
     list.push_back(finger_segment(segment, drivers, palm_length,
                                   residual_share(greiner.link[at / 3][at % 3], greiner.length)));
   }
   list.push_back(leading_width(drivers));
-  for (const DimensionKind kind :
-       {DimensionKind::kSegmentWidth, DimensionKind::kSegmentThickness}) {
-    for (int s = 1; s < kSegmentCount; ++s) {
-      const HandDimension dimension{kind, static_cast<Segment>(s)};
+  for (const hand::DimensionKind kind :
+       {hand::DimensionKind::kSegmentWidth, hand::DimensionKind::kSegmentThickness}) {
+    for (int s = 1; s < hand::kSegmentCount; ++s) {
+      const hand::HandDimension dimension{kind, static_cast<hand::Segment>(s)};
       if (dimension == kMiddleWidth) continue;
       list.push_back(
           {.dimension = dimension,
@@ -152,4 +157,4 @@ std::vector<DimensionRegression> segment_regressions(const SegmentDrivers& drive
   return list;
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -6,11 +6,11 @@
 
 #include "palmar/population/population.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// Means of the people whose segments are predicted, mm.
 struct SegmentDrivers {
-  Sex sex = Sex::kMale;
+  grasp::Sex sex = grasp::Sex::kMale;
   double mean_length = 0.0;         ///< hand length
   double mean_circumference = 0.0;  ///< of the hand
 };
@@ -32,6 +32,6 @@ std::vector<DimensionRegression> segment_regressions(const SegmentDrivers& drive
 
 /// The template's own dimensions that the regressions are in proportion to, as measure_hand() gives
 /// them, rounded to 0.1 mm.
-const HandDimensions& template_proportions();
+const hand::HandDimensions& template_proportions();
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -4,27 +4,27 @@
 
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::population {
 
-std::string name_of(Sex sex) { return sex == Sex::kMale ? "male" : "female"; }
+std::string name_of(grasp::Sex sex) { return sex == grasp::Sex::kMale ? "male" : "female"; }
 
-std::string people_of(Sex sex) { return sex == Sex::kMale ? "men" : "women"; }
+std::string people_of(grasp::Sex sex) { return sex == grasp::Sex::kMale ? "men" : "women"; }
 
-std::optional<Sex> sex_named(std::string_view name) {
-  if (name == "male") return Sex::kMale;
-  if (name == "female") return Sex::kFemale;
+std::optional<grasp::Sex> sex_named(std::string_view name) {
+  if (name == "male") return grasp::Sex::kMale;
+  if (name == "female") return grasp::Sex::kFemale;
   return std::nullopt;
 }
 
-std::optional<Sex> sex_of_text(std::string_view text) {
+std::optional<grasp::Sex> sex_of_text(std::string_view text) {
   const std::string word = lower_case(text);
   for (const char* male : {"m", "male", "males", "man", "men", "boy", "boys"}) {
-    if (word == male) return Sex::kMale;
+    if (word == male) return grasp::Sex::kMale;
   }
   for (const char* female : {"f", "female", "females", "w", "woman", "women", "girl", "girls"}) {
-    if (word == female) return Sex::kFemale;
+    if (word == female) return grasp::Sex::kFemale;
   }
   return std::nullopt;
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

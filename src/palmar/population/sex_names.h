@@ -8,13 +8,13 @@
 
 #include "palmar/grasp/joint_strength.h"
 
-namespace palmar {
+namespace palmar::population {
 
-std::string name_of(Sex sex);    ///< "male", "female"
-std::string people_of(Sex sex);  ///< "men", "women"
-std::optional<Sex> sex_named(std::string_view name);
+std::string name_of(grasp::Sex sex);    ///< "male", "female"
+std::string people_of(grasp::Sex sex);  ///< "men", "women"
+std::optional<grasp::Sex> sex_named(std::string_view name);
 
 /// Sex from a cell's text: "M", "male", "men", "F", "women" ...; nothing if it is no such word.
-std::optional<Sex> sex_of_text(std::string_view text);
+std::optional<grasp::Sex> sex_of_text(std::string_view text);
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 constexpr AnsurFigures kAnsurMen = {.n = 4082,
@@ -50,17 +50,19 @@ constexpr GreinerFigures kGreinerWomen = {.length = {180.7, 9.8},
 
 }  // namespace
 
-const AnsurFigures& ansur2_figures(Sex sex) { return sex == Sex::kMale ? kAnsurMen : kAnsurWomen; }
+const AnsurFigures& ansur2_figures(grasp::Sex sex) {
+  return sex == grasp::Sex::kMale ? kAnsurMen : kAnsurWomen;
+}
 
-Eigen::Matrix3d ansur_correlation(Sex sex) {
+Eigen::Matrix3d ansur_correlation(grasp::Sex sex) {
   const AnsurFigures& figures = ansur2_figures(sex);
   const double lc = figures.r_length_circumference, lw = figures.r_length_breadth,
                cw = figures.r_circumference_breadth;
   return Eigen::Matrix3d{{1.0, lc, lw}, {lc, 1.0, cw}, {lw, cw, 1.0}};
 }
 
-const GreinerFigures& greiner_figures(Sex sex) {
-  return sex == Sex::kMale ? kGreinerMen : kGreinerWomen;
+const GreinerFigures& greiner_figures(grasp::Sex sex) {
+  return sex == grasp::Sex::kMale ? kGreinerMen : kGreinerWomen;
 }
 
 double residual_share(const Moment& dimension, const Moment& driver) {
@@ -69,4 +71,4 @@ double residual_share(const Moment& dimension, const Moment& driver) {
   return std::sqrt(std::max(0.0, rest)) / dimension.mean;
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -8,7 +8,7 @@
 
 #include "palmar/grasp/joint_strength.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// Published figures of hands from which the built-in populations are made; mm. Nothing here is raw
 /// survey data.
@@ -27,9 +27,9 @@ struct AnsurFigures {
   double palm_slope = 0.0;     ///< mm of palm length per mm of hand length
   double palm_residual = 0.0;  ///< mm
 };
-const AnsurFigures& ansur2_figures(Sex sex);
+const AnsurFigures& ansur2_figures(grasp::Sex sex);
 /// Of length, circumference and breadth in ANSUR II, in this order.
-Eigen::Matrix3d ansur_correlation(Sex sex);
+Eigen::Matrix3d ansur_correlation(grasp::Sex sex);
 
 /// Greiner 1991 (NATICK/TR-92/011): 1 003 men and 1 304 women of the US Army, 1988; from a
 /// third party's transcription.
@@ -40,7 +40,7 @@ struct GreinerFigures {
   std::array<std::array<Moment, 3>, 4> link;
   Moment index_pip_breadth, middle_pip_breadth;
 };
-const GreinerFigures& greiner_figures(Sex sex);
+const GreinerFigures& greiner_figures(grasp::Sex sex);
 
 /// Share of its mean by which a dimension scatters at given hand length (or circumference) if its
 /// mean is in proportion to that:  sqrt(sd^2 - (mean / driver.mean * driver.sd)^2) / mean.
@@ -51,4 +51,4 @@ inline constexpr const char* kSegmentCaution =
     "Segments are regressed: other people's scatter about the template's proportions (ANSUR II, "
     "Greiner 1991 at second hand, Buryanov & Kotiuk 2010).";
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -11,7 +11,7 @@
 #include "palmar/population/sex_names.h"
 #include "palmar/population/table_statistics.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 constexpr int kSmallGroup = 30;
@@ -25,7 +25,7 @@ const TableRegression& kept(const std::vector<TableRegression>& regressions,
     if (r.name != name || r.predictors.size() < 2) continue;
     const bool all_help =
         std::all_of(r.fit.slopes.begin(), r.fit.slopes.end(),
-                    [](const Coefficient& c) { return c.p_value < kSignificant; });
+                    [](const statistics::Coefficient& c) { return c.p_value < kSignificant; });
     if (all_help) return r;
   }
   return regressions[best_predictor(regressions, name)];
@@ -80,7 +80,7 @@ Stratum stratum_of(const TableGroup& group, const std::vector<std::string>& driv
   }
   for (const ColumnDescription& d : describe(table, driving)) {
     DrivingDimension dimension;
-    dimension.dimension = *hand_dimension_named(d.name);
+    dimension.dimension = *hand::hand_dimension_named(d.name);
     dimension.mean = d.summary->mean;
     dimension.sd = d.summary->sd;
     dimension.source = source + ", n = " + std::to_string(d.summary->n);
@@ -106,11 +106,11 @@ Stratum stratum_of(const TableGroup& group, const std::vector<std::string>& driv
   for (const std::string& name : others) {
     const TableRegression& r = kept(regressions, name);
     DimensionRegression regression;
-    regression.dimension = *hand_dimension_named(name);
+    regression.dimension = *hand::hand_dimension_named(name);
     regression.intercept = r.fit.intercept.estimate;
     for (std::size_t k = 0; k < r.predictors.size(); ++k) {
       regression.terms.push_back(
-          {*hand_dimension_named(r.predictors[k]), r.fit.slopes[k].estimate});
+          {*hand::hand_dimension_named(r.predictors[k]), r.fit.slopes[k].estimate});
     }
     // In the order that a file keeps them.
     std::sort(regression.terms.begin(), regression.terms.end(), [](const auto& a, const auto& b) {
@@ -140,10 +140,10 @@ void add_sex_and_age(const DimensionTable& table, Stratum& stratum, bool& is_mix
       for (const auto& age : column.values) {
         if (age) ages.push_back(*age);
       }
-      if (!ages.empty()) stratum.age = summarise(ages).mean;
+      if (!ages.empty()) stratum.age = statistics::summarise(ages).mean;
     }
     if ((column.name != "sex" && column.name != "gender") || column.is_number) continue;
-    std::optional<Sex> sex;
+    std::optional<grasp::Sex> sex;
     bool is_one = true;
     for (const std::string& text : column.texts) {
       const auto one = sex_of_text(text);
@@ -208,4 +208,4 @@ Population population_of_table(const std::vector<TableGroup>& as_measured,
   return population;
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

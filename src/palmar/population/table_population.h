@@ -8,7 +8,7 @@
 #include "palmar/population/dimension_table.h"
 #include "palmar/population/population.h"
 
-namespace palmar {
+namespace palmar::population {
 
 /// What a table of subjects says about the people it was taken from, one stratum per group: driving
 /// dimensions with mean, standard deviation and correlation over the subjects that have all of
@@ -25,4 +25,4 @@ Population population_of_table(const std::vector<TableGroup>& as_measured,
                                const std::vector<std::string>& driving, const std::string& name,
                                const std::string& title);
 
-}  // namespace palmar
+}  // namespace palmar::population

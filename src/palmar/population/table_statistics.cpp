@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::population {
 namespace {
 
 // Share of a column's variance that others leave unexplained; below it the covariance is singular
@@ -35,7 +35,7 @@ void check_varies(const DimensionTable& table, const TableColumn& column,
                    (values.size() == 1 ? " subject has it" : " subjects have it") +
                    "; at least 3 are needed");
   }
-  if (is_constant(values)) {
+  if (statistics::is_constant(values)) {
     table.fail(first_line(table), column,
                "all " + std::to_string(values.size()) + " values are " + significant(values[0], 6) +
                    (column.unit.empty() ? "" : " " + column.unit) +
@@ -100,7 +100,7 @@ void check_independent(const DimensionTable& table, const Eigen::MatrixXd& value
   Eigen::MatrixXd r = Eigen::MatrixXd::Identity(k, k);
   for (Eigen::Index i = 0; i < k; ++i) {
     for (Eigen::Index j = i + 1; j < k; ++j) {
-      r(i, j) = r(j, i) = pearson(column_of(values, i), column_of(values, j)).r;
+      r(i, j) = r(j, i) = statistics::pearson(column_of(values, i), column_of(values, j)).r;
     }
   }
   const auto dependent = dependent_columns(r, predictors);
@@ -140,10 +140,10 @@ std::vector<ColumnDescription> describe(const DimensionTable& table,
     d.unit = column->unit;
     d.missing = table.subjects() - static_cast<int>(values.size());
     if (!values.empty()) {
-      d.summary = summarise(values);
+      d.summary = statistics::summarise(values);
       std::sort(values.begin(), values.end());
       for (std::size_t i = 0; i < kTablePercentiles.size(); ++i) {
-        d.percentiles[i] = quantile(values, kTablePercentiles[i] / 100.0);
+        d.percentiles[i] = statistics::quantile(values, kTablePercentiles[i] / 100.0);
       }
     }
     result.push_back(std::move(d));
@@ -179,14 +179,15 @@ TableCorrelation correlate(const DimensionTable& table, const std::vector<std::s
     for (Eigen::Index b = a + 1; b < k; ++b) {
       const TableColumn& x = *columns[a];
       const TableColumn& y = *columns[b];
-      const auto [xs, ys] = complete_pairs(x.values, y.values);
+      const auto [xs, ys] = statistics::complete_pairs(x.values, y.values);
       if (xs.size() < 3) {
         table.fail(first_line(table), y,
                    std::to_string(xs.size()) + " subjects have it together with column " +
                        std::to_string(x.number) + " (" + x.header + "); at least 3 are needed");
       }
       const TableCorrelation::Pair pair{static_cast<int>(a), static_cast<int>(b),
-                                        pearson(xs, ys, level), spearman(xs, ys)};
+                                        statistics::pearson(xs, ys, level),
+                                        statistics::spearman(xs, ys)};
       result.r(a, b) = result.r(b, a) = pair.pearson.r;
       result.pairs.push_back(pair);
     }
@@ -251,7 +252,7 @@ std::vector<TableRegression> regress(const DimensionTable& table,
       const Eigen::MatrixXd x = values.middleCols(first - predictors.begin(), k);
       TableRegression regression{y->name, y->unit, {}, {}};
       for (const TableColumn* p : set) regression.predictors.push_back(p->name);
-      regression.fit = fit_linear(x, column_of(values, count), regression.predictors);
+      regression.fit = statistics::fit_linear(x, column_of(values, count), regression.predictors);
       result.push_back(std::move(regression));
     }
   }
@@ -285,4 +286,4 @@ std::vector<std::string> usual_predictors(const DimensionTable& table) {
   return names;
 }
 
-}  // namespace palmar
+}  // namespace palmar::population

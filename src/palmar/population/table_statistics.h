@@ -13,7 +13,7 @@
 #include "palmar/statistics/linear_fit.h"
 #include "palmar/statistics/summary.h"
 
-namespace palmar {
+namespace palmar::population {
 
 inline constexpr std::array<double, 7> kTablePercentiles{1, 5, 25, 50, 75, 95, 99};
 
@@ -21,7 +21,7 @@ inline constexpr std::array<double, 7> kTablePercentiles{1, 5, 25, 50, 75, 95, 9
 struct ColumnDescription {
   std::string name, unit;
   int missing = 0;
-  std::optional<Summary> summary;  ///< nothing: no subject has it
+  std::optional<statistics::Summary> summary;  ///< nothing: no subject has it
   std::array<double, kTablePercentiles.size()> percentiles{};
 };
 /// Of every measure of the table (or of those named). Throws UsageError on an unknown name.
@@ -33,7 +33,7 @@ struct TableCorrelation {
   std::vector<std::string> names;
   struct Pair {
     int a = 0, b = 0;  ///< places in `names`, a < b
-    Correlation pearson, spearman;
+    statistics::Correlation pearson, spearman;
   };
   std::vector<Pair> pairs;
   Eigen::MatrixXd r;               ///< Pearson's; unit diagonal
@@ -48,7 +48,7 @@ TableCorrelation correlate(const DimensionTable& table, const std::vector<std::s
 struct TableRegression {
   std::string name, unit;
   std::vector<std::string> predictors;
-  LinearFit fit;
+  statistics::LinearFit fit;
 };
 /// Every column of `names` (empty: every measure) that is no predictor, on each of `predictors` by
 /// itself and, if there are several, on all of them together; in that order per column, over the
@@ -70,4 +70,4 @@ std::vector<std::string> usual_predictors(const DimensionTable& table);
 std::vector<const TableColumn*> chosen_columns(const DimensionTable& table,
                                                const std::vector<std::string>& names);
 
-}  // namespace palmar
+}  // namespace palmar::population

@@ -10,24 +10,24 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 /// A solid grown by a constant thickness.
-class OffsetDistance final : public DistanceField {
+class OffsetDistance final : public geometry::DistanceField {
  public:
   OffsetDistance(std::shared_ptr<const DistanceField> inner, double thickness)
       : inner_(std::move(inner)), thickness_(thickness) {}
 
   void sample(std::span<const Vec3> points, double range,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     inner_->sample(points, range + thickness_, samples);
     grow(points, range, samples);
   }
 
   void resample(std::span<const Vec3> points, double range,
-                std::span<DistanceSample> samples) const override {
-    for (DistanceSample& sample : samples) {
+                std::span<geometry::DistanceSample> samples) const override {
+    for (geometry::DistanceSample& sample : samples) {
       sample.distance += thickness_;
       sample.closest -= thickness_ * sample.normal;
     }
@@ -43,9 +43,10 @@ class OffsetDistance final : public DistanceField {
   }
 
  private:
-  void grow(std::span<const Vec3> points, double range, std::span<DistanceSample> samples) const {
+  void grow(std::span<const Vec3> points, double range,
+            std::span<geometry::DistanceSample> samples) const {
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      DistanceSample& sample = samples[i];
+      geometry::DistanceSample& sample = samples[i];
       sample.distance -= thickness_;
       if (std::abs(sample.distance) >= range) {
         sample = {std::copysign(range, sample.distance), points[i], sample.normal, -1};
@@ -70,7 +71,7 @@ Product gloved(const Product& product, double thickness) {
   if (thickness == 0.0) return product;
   Product grown = product;  // with its faces, as their designer knows them: r 3 stays r 3
   grown.distance = std::make_shared<OffsetDistance>(product.distance, thickness);
-  std::vector<DistanceSample> samples(grown.mesh.vertices.size());
+  std::vector<geometry::DistanceSample> samples(grown.mesh.vertices.size());
   product.distance->sample(grown.mesh.vertices, 1.0, samples);
   for (std::size_t v = 0; v < samples.size(); ++v) {
     grown.mesh.vertices[v] += thickness * samples[v].normal;
@@ -78,4 +79,4 @@ Product gloved(const Product& product, double thickness) {
   return grown;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

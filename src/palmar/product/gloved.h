@@ -4,7 +4,7 @@
 
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// The product as it is for the bare skin inside a glove: grown by the glove's thickness. The glove
 /// is taken to lie on the product's surface, so that what closes round it and what presses on it
@@ -19,4 +19,4 @@ namespace palmar {
 /// Throws UsageError unless 0 <= thickness <= 20 mm.
 Product gloved(const Product& product, double thickness);
 
-}  // namespace palmar
+}  // namespace palmar::product

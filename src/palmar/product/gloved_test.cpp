@@ -14,7 +14,7 @@
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 std::vector<Vec3> points_round(double size) {
@@ -32,9 +32,10 @@ std::vector<Vec3> points_round(double size) {
 TEST(Gloved, CylinderIsOneOfLargerRadius) {
   const Product inner = make_cylinder_product({.diameter = 40.0, .length = 400.0});
   const Product outer = gloved(inner, 3.0);
-  const DistanceFieldPtr truth = make_cylinder_distance({.radius = 23.0, .length = 406.0});
+  const geometry::DistanceFieldPtr truth =
+      geometry::make_cylinder_distance({.radius = 23.0, .length = 406.0});
   for (const Vec3& point : points_round(50.0)) {
-    const DistanceSample ours = outer.distance->at(point), theirs = truth->at(point);
+    const geometry::DistanceSample ours = outer.distance->at(point), theirs = truth->at(point);
     EXPECT_NEAR(ours.distance, theirs.distance, 1e-9);
     if (point.head<2>().norm() < 1e-3) continue;  // on the axis every direction is nearest
     EXPECT_NEAR((ours.closest - theirs.closest).norm(), 0.0, 1e-9);
@@ -52,14 +53,14 @@ TEST(Gloved, CylinderIsOneOfLargerRadius) {
 TEST(Gloved, RangeAndMemoryDontChangeTheAnswer) {
   const Product sphere = make_sphere_product({.diameter = 40.0});
   Product meshed = sphere;
-  meshed.distance = std::make_shared<MeshDistance>(sphere.mesh);
+  meshed.distance = std::make_shared<geometry::MeshDistance>(sphere.mesh);
   const Product grown = gloved(meshed, 2.0);
   const std::vector<Vec3> points = points_round(30.0);
-  std::vector<DistanceSample> samples(points.size());
+  std::vector<geometry::DistanceSample> samples(points.size());
   constexpr double kRange = 4.0;
   grown.distance->sample(points, kRange, samples);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const DistanceSample whole = grown.distance->at(points[i]);
+    const geometry::DistanceSample whole = grown.distance->at(points[i]);
     if (std::abs(whole.distance) < kRange) {
       EXPECT_NEAR(samples[i].distance, whole.distance, 1e-9);
     } else {
@@ -69,7 +70,7 @@ TEST(Gloved, RangeAndMemoryDontChangeTheAnswer) {
   }
   std::vector<Vec3> moved = points;
   for (Vec3& point : moved) point += Vec3(0.1, -0.2, 0.05);
-  std::vector<DistanceSample> again(moved.size());
+  std::vector<geometry::DistanceSample> again(moved.size());
   grown.distance->sample(moved, kRange, again);
   grown.distance->resample(moved, kRange, samples);
   for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -90,4 +91,4 @@ TEST(Gloved, RefusesAThicknessThatIsNoGlove) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::product

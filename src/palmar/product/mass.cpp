@@ -10,18 +10,18 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::product {
 
 MassProperties mass_properties(const Product& product) {
   constexpr double kMostRim = 0.05;  // of the square root of the area
   constexpr double kSheet = 1e-4;    // volume over area^1.5; a cube has 0.07
-  const TriangleMesh& mesh = product.mesh;
+  const geometry::TriangleMesh& mesh = product.mesh;
   double rim = 0.0;
-  for (const auto& [a, b] : boundary_edges(build_topology(mesh))) {
+  for (const auto& [a, b] : geometry::boundary_edges(geometry::build_topology(mesh))) {
     rim += (mesh.vertices[a] - mesh.vertices[b]).norm();
   }
-  const double area = surface_area(mesh);
-  const double volume = std::abs(signed_volume(mesh));
+  const double area = geometry::surface_area(mesh);
+  const double volume = std::abs(geometry::signed_volume(mesh));
   const bool is_open = rim > kMostRim * std::sqrt(area);
   if (is_open || !(volume > kSheet * std::pow(area, 1.5))) {
     std::array<char, 120> why{};
@@ -34,11 +34,11 @@ MassProperties mass_properties(const Product& product) {
                      ", so its volume and centre of mass are not known; give setting \"mass\" or "
                      "setting \"weight\" and setting \"mass at\", or close the mesh");
   }
-  return {volume, centre_of_volume(mesh)};
+  return {volume, geometry::centre_of_volume(mesh)};
 }
 
 double weight_of(double volume, double density) {
   return volume * 1e-3 * density * 1e-3 * kStandardGravity;  // mm^3 -> cm^3 -> g -> kg -> N
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -4,7 +4,7 @@
 
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Of a product that is solid throughout.
 struct MassProperties {
@@ -22,4 +22,4 @@ inline constexpr double kStandardGravity = 9.80665;  ///< m/s^2; CGPM 1901
 /// Weight [N] of a volume [mm^3] at a density [g/cm^3], standard gravity.
 double weight_of(double volume, double density);
 
-}  // namespace palmar
+}  // namespace palmar::product

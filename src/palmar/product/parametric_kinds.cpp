@@ -11,7 +11,7 @@
 #include "palmar/core/text.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 /// Bounds come from sums of what people type: 0.49 * 8 is no reason to refuse 3.92.
@@ -73,7 +73,8 @@ ParametricKind elliptic_handle() {
 }
 
 double thin_end(const KindValues& v) {
-  return v.at("diameter_mm") - 2.0 * v.at("length_mm") * std::tan(v.at("taper_deg") * kDegree);
+  return v.at("diameter_mm") -
+         2.0 * v.at("length_mm") * std::tan(v.at("taper_deg") * geometry::kDegree);
 }
 
 ParametricKind tapered_handle() {
@@ -86,11 +87,11 @@ ParametricKind tapered_handle() {
           {at_most("taper_deg", "the taper that leaves 5 mm at the thin end",
                    [](const KindValues& v) {
                      return std::atan(0.5 * (v.at("diameter_mm") - 5.0) / v.at("length_mm")) /
-                            kDegree;
+                            geometry::kDegree;
                    }),
            at_most("end_fillet_mm", "what both ends and the side have room for",
                    [](const KindValues& v) {
-                     const double taper = v.at("taper_deg") * kDegree;
+                     const double taper = v.at("taper_deg") * geometry::kDegree;
                      // Lengths that a fillet of radius 1 takes of cap and side.
                      const double thick = std::tan(0.5 * (0.5 * std::numbers::pi + taper));
                      const double thin = std::tan(0.5 * (0.5 * std::numbers::pi - taper));
@@ -223,7 +224,7 @@ ParametricKind pistol_grip() {
        at_most("width_mm", "depth_mm", [](const KindValues& v) { return v.at("depth_mm"); }),
        at_most("end_fillet_mm", "a tenth of", 0.1, "width_mm")},
       [](const KindValues& v) {
-        const double rake = v.at("rake_deg") * kDegree;
+        const double rake = v.at("rake_deg") * geometry::kDegree;
         return Vec3(0.0, -std::sin(rake), std::cos(rake));
       }};
 }
@@ -367,4 +368,4 @@ KindValues complete_values(const ParametricKind& kind,
   return values;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

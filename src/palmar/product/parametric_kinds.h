@@ -11,7 +11,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Values of a kind's parameters by their names, in the unit that the name ends with.
 using KindValues = std::map<std::string, double>;
@@ -63,4 +63,4 @@ std::string unit_of_parameter(const std::string& parameter);
 KindValues complete_values(const ParametricKind& kind,
                            const std::vector<std::pair<std::string, double>>& given);
 
-}  // namespace palmar
+}  // namespace palmar::product

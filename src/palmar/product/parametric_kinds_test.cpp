@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 using ::testing::AllOf;
@@ -86,4 +86,4 @@ TEST(ParametricKinds, ABoundMayBeReached) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::product

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 /// A run of segments on the same side.
@@ -146,4 +146,4 @@ std::shared_ptr<const ProductFaces> bar_faces(const BarSection& section,
   return std::make_shared<const ProductFaces>(std::move(faces));
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -10,7 +10,7 @@
 
 #include "palmar/product/product_faces.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Section of a bar along z, counter-clockwise about the origin, and on which side of the bar each
 /// of its segments lies.
@@ -43,4 +43,4 @@ std::shared_ptr<const ProductFaces> bar_faces(const BarSection& section,
                                               const std::vector<BarSide>& sides,
                                               const BarRings& rings);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/product/primitive_faces.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr int kMaxEdges = 400;  // per side: 400 x 400 squares are 320 000 triangles
@@ -46,9 +46,9 @@ int divisions(double length, const MeshFineness& fineness) {
 
 /// Convex section (counter-clockwise, about the origin) swept along z over |z| <= length / 2. The
 /// ends are rings that shrink towards the middle.
-TriangleMesh sweep(std::span<const Eigen::Vector2d> section, double length, int rings,
-                   int end_rings) {
-  TriangleMesh mesh;
+geometry::TriangleMesh sweep(std::span<const Eigen::Vector2d> section, double length, int rings,
+                             int end_rings) {
+  geometry::TriangleMesh mesh;
   const int n = static_cast<int>(section.size());
   const auto add_ring = [&](double scale, double z) {
     for (const Eigen::Vector2d& p : section) {
@@ -139,7 +139,7 @@ std::vector<BarSide> prism_sides(const PrismProductOptions& o) {
 }
 
 /// Unit sphere fine enough for an ellipsoid with these semi-axes.
-TriangleMesh fine_icosphere(const Vec3& semi_axes, const MeshFineness& fineness) {
+geometry::TriangleMesh fine_icosphere(const Vec3& semi_axes, const MeshFineness& fineness) {
   const double largest = semi_axes.maxCoeff();
   // Largest gap under a triangle of edge e on a sphere of radius R: the circumradius is e / sqrt 3,
   // so e^2 / 6 R; stretching it to the ellipsoid keeps the gap below that times the largest axis.
@@ -147,10 +147,11 @@ TriangleMesh fine_icosphere(const Vec3& semi_axes, const MeshFineness& fineness)
       std::min(fineness.longest_edge / largest, std::sqrt(6.0 * fineness.chordal_error / largest));
   int subdivisions = 2;
   while (subdivisions < kMaxSubdivisions && 1.25 / (1 << subdivisions) > edge) ++subdivisions;
-  return make_icosphere(1.0, subdivisions);
+  return geometry::make_icosphere(1.0, subdivisions);
 }
 
-Product finish(const std::string& name, TriangleMesh mesh, DistanceFieldPtr distance) {
+Product finish(const std::string& name, geometry::TriangleMesh mesh,
+               geometry::DistanceFieldPtr distance) {
   Product product;
   product.name = name;
   product.mesh = std::move(mesh);
@@ -186,10 +187,11 @@ Product make_cylinder_product(const CylinderProductOptions& options) {
                           .end_area = std::numbers::pi * radius * radius,
                           .along = divisions(options.length, options.fineness),
                           .on_ends = divisions(radius, options.fineness)};
-  Product product = finish("cylinder " + significant(options.diameter, 6) + " x " +
-                               significant(options.length, 6) + " mm",
-                           sweep(circle.points, options.length, rings.along, rings.on_ends),
-                           make_cylinder_distance({.radius = radius, .length = options.length}));
+  Product product =
+      finish("cylinder " + significant(options.diameter, 6) + " x " +
+                 significant(options.length, 6) + " mm",
+             sweep(circle.points, options.length, rings.along, rings.on_ends),
+             geometry::make_cylinder_distance({.radius = radius, .length = options.length}));
   const BarSide side = {.name = "side", .radius = radius, .width = 2.0 * std::numbers::pi * radius};
   product.faces = bar_faces(circle, {side}, rings);
   return product;
@@ -217,10 +219,10 @@ Product make_prism_product(const PrismProductOptions& options) {
                  " x " + significant(options.length, 6) + " mm, fillet " +
                  significant(options.fillet_radius, 6) + " mm",
              sweep(section.points, options.length, rings.along, rings.on_ends),
-             make_prism_distance({.width = options.width,
-                                  .depth = options.depth,
-                                  .length = options.length,
-                                  .fillet_radius = options.fillet_radius}));
+             geometry::make_prism_distance({.width = options.width,
+                                            .depth = options.depth,
+                                            .length = options.length,
+                                            .fillet_radius = options.fillet_radius}));
   product.faces = bar_faces(section, prism_sides(options), rings);
   return product;
 }
@@ -233,10 +235,10 @@ void SphereProductOptions::check() const {
 Product make_sphere_product(const SphereProductOptions& options) {
   options.check();
   const double radius = 0.5 * options.diameter;
-  TriangleMesh mesh = fine_icosphere(Vec3::Constant(radius), options.fineness);
+  geometry::TriangleMesh mesh = fine_icosphere(Vec3::Constant(radius), options.fineness);
   for (Vec3& x : mesh.vertices) x *= radius;
   return finish("sphere " + significant(options.diameter, 6) + " mm", std::move(mesh),
-                make_sphere_distance(radius));
+                geometry::make_sphere_distance(radius));
 }
 
 void EllipsoidProductOptions::check() const {
@@ -249,12 +251,12 @@ void EllipsoidProductOptions::check() const {
 Product make_ellipsoid_product(const EllipsoidProductOptions& options) {
   options.check();
   const Vec3 axes = 0.5 * options.diameters;
-  TriangleMesh mesh = fine_icosphere(axes, options.fineness);
+  geometry::TriangleMesh mesh = fine_icosphere(axes, options.fineness);
   for (Vec3& x : mesh.vertices) x = x.cwiseProduct(axes);
   return finish("ellipsoid " + significant(options.diameters.x(), 6) + " x " +
                     significant(options.diameters.y(), 6) + " x " +
                     significant(options.diameters.z(), 6) + " mm",
-                std::move(mesh), make_ellipsoid_distance(axes));
+                std::move(mesh), geometry::make_ellipsoid_distance(axes));
 }
 
 void PlaneProductOptions::check() const {
@@ -267,12 +269,12 @@ void PlaneProductOptions::check() const {
 Product make_plane_product(const PlaneProductOptions& options) {
   options.check();
   const Vec3 size(options.width, options.depth, options.thickness);
-  TriangleMesh mesh = make_box(
+  geometry::TriangleMesh mesh = geometry::make_box(
       size, std::min(100, divisions(std::max(options.width, options.depth), options.fineness)));
   for (Vec3& x : mesh.vertices) x.z() -= 0.5 * options.thickness;
   return finish("plane " + significant(options.width, 6) + " x " + significant(options.depth, 6) +
                     " x " + significant(options.thickness, 6) + " mm",
-                std::move(mesh), make_slab_distance(size));
+                std::move(mesh), geometry::make_slab_distance(size));
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -5,7 +5,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::product {
 
 // Simple solids as products, about the origin; lengths in mm. The signed distance is exact (see
 // analytic_distance.h); the mesh, for pictures and for maps on the product, has its vertices on the
@@ -66,4 +66,4 @@ struct PlaneProductOptions {
 };
 Product make_plane_product(const PlaneProductOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::product {
 
 std::string name_of(UnitSource source) {
   switch (source) {
@@ -18,4 +18,4 @@ std::string name_of(UnitSource source) {
   return "";
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -11,7 +11,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product_faces.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// How the unit of a product was known.
 enum class UnitSource {
@@ -26,13 +26,13 @@ std::string name_of(UnitSource source);  ///< "file", "user", "proposed", "made"
 /// mesh and field are in the product's own frame, mm.
 struct Product {
   std::string name;  ///< for people; file stem by default
-  TriangleMesh mesh;
-  std::shared_ptr<const DistanceField> distance;
+  geometry::TriangleMesh mesh;
+  std::shared_ptr<const geometry::DistanceField> distance;
   std::shared_ptr<const ProductFaces> faces;  ///< of a CAD model; null of a mesh without faces
-  LengthUnit unit = LengthUnit::kMillimetre;  ///< unit of the file it came from
+  geometry::LengthUnit unit = geometry::LengthUnit::kMillimetre;  ///< unit of the file it came from
   UnitSource unit_source = UnitSource::kMade;
   std::string source;              ///< path or generating command
   std::vector<std::string> notes;  ///< what was repaired, proposed or doubted; shown to the user
 };
 
-}  // namespace palmar
+}  // namespace palmar::product

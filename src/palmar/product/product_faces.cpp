@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::product {
 
 std::string name_of(FaceKind kind) {
   switch (kind) {
@@ -75,7 +75,7 @@ void check_faces(const ProductFaces& faces, int triangles, const std::string& so
   }
 }
 
-std::vector<std::array<int, 2>> border_edges(const TriangleMesh& mesh,
+std::vector<std::array<int, 2>> border_edges(const geometry::TriangleMesh& mesh,
                                              const std::vector<int>& face_of_triangle) {
   std::vector<std::array<int, 3>> sides;  // two vertices, then the face
   sides.reserve(3 * mesh.triangles.size());
@@ -96,4 +96,4 @@ std::vector<std::array<int, 2>> border_edges(const TriangleMesh& mesh,
   return borders;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

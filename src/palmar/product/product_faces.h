@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// What surface a face of a CAD model lies on.
 enum class FaceKind { kPlane, kCylinder, kCone, kSphere, kTorus, kFreeform };
@@ -60,7 +60,7 @@ void check_faces(const ProductFaces& faces, int triangles, const std::string& so
 
 /// Edges of a mesh where triangles of different faces meet: pairs of vertices, ascending. For
 /// drawing; ProductFaces::edge are those that the designer knows.
-std::vector<std::array<int, 2>> border_edges(const TriangleMesh& mesh,
+std::vector<std::array<int, 2>> border_edges(const geometry::TriangleMesh& mesh,
                                              const std::vector<int>& face_of_triangle);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -14,16 +14,16 @@
 #include "palmar/product/intake/make_product.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const UnitDecision kMm{LengthUnit::kMillimetre, UnitSource::kUser, ""};
-const UnitDecision kInches{LengthUnit::kInch, UnitSource::kUser, ""};
+const UnitDecision kMm{geometry::LengthUnit::kMillimetre, UnitSource::kUser, ""};
+const UnitDecision kInches{geometry::LengthUnit::kInch, UnitSource::kUser, ""};
 
-double triangle_area(const TriangleMesh& mesh, int t) {
+double triangle_area(const geometry::TriangleMesh& mesh, int t) {
   const Triangle& k = mesh.triangles[t];
   return 0.5 * (mesh.vertices[k[1]] - mesh.vertices[k[0]])
                    .cross(mesh.vertices[k[2]] - mesh.vertices[k[0]])
@@ -46,8 +46,8 @@ std::vector<std::string> names(const Product& product) {
 
 /// The product's mesh as a file could hold it: no shared vertices, in inches, every third triangle
 /// turned round, after every fifth one a needle without area on the same face.
-TriangleMesh soup_of(const Product& product, ProductFaces& faces) {
-  TriangleMesh soup;
+geometry::TriangleMesh soup_of(const Product& product, ProductFaces& faces) {
+  geometry::TriangleMesh soup;
   faces = scaled(*product.faces, 1.0 / 25.4);
   faces.face_of_triangle.clear();
   const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c, int face) {
@@ -159,7 +159,7 @@ TEST(PrimitiveFaces, SidesThatFilletsTakeAwayAreLeftOut) {
 TEST(ProductFaces, FollowAMeshThroughUnitWeldAndOrientation) {
   const Product prism = make_prism_product({});
   ProductFaces faces;
-  const TriangleMesh soup = soup_of(prism, faces);
+  const geometry::TriangleMesh soup = soup_of(prism, faces);
   const Product read = make_product("prism", soup, kInches, "prism.step", &faces);
   ASSERT_NE(read.faces, nullptr);
   EXPECT_NO_THROW(check_faces(*read.faces, read.mesh.triangle_count(), "read"));
@@ -202,7 +202,7 @@ TEST(ProductFaces, OfBodiesThatTouchKeepTheirTriangles) {
   // Two bars of 40 x 30 mm on top of each other: the faces between them lie on each other.
   const Product prism = make_prism_product({.width = 40, .depth = 30, .length = 60});
   ProductFaces faces = *prism.faces;
-  TriangleMesh mesh = prism.mesh;
+  geometry::TriangleMesh mesh = prism.mesh;
   const auto count = static_cast<int>(faces.face.size());
   const int vertices = mesh.vertex_count();
   for (int f = 0; f < count; ++f) {
@@ -234,7 +234,7 @@ TEST(ProductFaces, OfBodiesThatTouchKeepTheirTriangles) {
 TEST(ProductFaces, ReportWhichFaceIsTooSmallToBeKept) {
   const Product prism = make_prism_product({});
   ProductFaces faces = *prism.faces;
-  TriangleMesh mesh = prism.mesh;
+  geometry::TriangleMesh mesh = prism.mesh;
   ProductFace sliver;
   sliver.number = 11;
   sliver.name = "sliver";
@@ -272,4 +272,4 @@ TEST(ProductFaces, ThatDoNotFitTheMeshAreRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::product

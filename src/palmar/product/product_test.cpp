@@ -23,7 +23,7 @@
 #include "palmar/product/intake/unit_guard.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 using testing::HasSubstr;
@@ -43,7 +43,7 @@ Box3 box_of(double longest) {
   return Box3(Vec3::Zero(), Vec3(0.3 * longest, longest, 0.2 * longest));
 }
 
-const UnitDecision kInMm{LengthUnit::kMillimetre, UnitSource::kUser, ""};
+const UnitDecision kInMm{geometry::LengthUnit::kMillimetre, UnitSource::kUser, ""};
 
 bool has_note(const Product& product, const std::string& part) {
   for (const std::string& note : product.notes) {
@@ -56,9 +56,9 @@ TEST(UnitGuard, ProposesTheOnlyUnitThatFitsAHand) {
   const auto propose = [](double longest) {
     return decide_unit(box_of(longest), {}, {}, "cup.stl");
   };
-  EXPECT_EQ(propose(120.0).unit, LengthUnit::kMillimetre);
-  EXPECT_EQ(propose(0.12).unit, LengthUnit::kMetre);
-  EXPECT_EQ(propose(2.5).unit, LengthUnit::kInch);
+  EXPECT_EQ(propose(120.0).unit, geometry::LengthUnit::kMillimetre);
+  EXPECT_EQ(propose(0.12).unit, geometry::LengthUnit::kMetre);
+  EXPECT_EQ(propose(2.5).unit, geometry::LengthUnit::kInch);
   EXPECT_EQ(propose(120.0).source, UnitSource::kProposed);
   EXPECT_THAT(propose(0.12).explanation, HasSubstr("36 x 120 x 24 mm"));
   EXPECT_THAT(propose(0.12).explanation, HasSubstr("setting \"unit\""));
@@ -78,17 +78,20 @@ TEST(UnitGuard, RefusesToGuessBetweenTwoUnits) {
 }
 
 TEST(UnitGuard, UserWinsOverFileAndIsReported) {
-  EXPECT_EQ(decide_unit(box_of(5.0), {}, LengthUnit::kInch, "cup").unit, LengthUnit::kInch);
-  EXPECT_EQ(decide_unit(box_of(0.1), LengthUnit::kMetre, {}, "cup").source, UnitSource::kFile);
-  const UnitDecision both =
-      decide_unit(box_of(100.0), LengthUnit::kCentimetre, LengthUnit::kMillimetre, "cup");
-  EXPECT_EQ(both.unit, LengthUnit::kMillimetre);
+  EXPECT_EQ(decide_unit(box_of(5.0), {}, geometry::LengthUnit::kInch, "cup").unit,
+            geometry::LengthUnit::kInch);
+  EXPECT_EQ(decide_unit(box_of(0.1), geometry::LengthUnit::kMetre, {}, "cup").source,
+            UnitSource::kFile);
+  const UnitDecision both = decide_unit(box_of(100.0), geometry::LengthUnit::kCentimetre,
+                                        geometry::LengthUnit::kMillimetre, "cup");
+  EXPECT_EQ(both.unit, geometry::LengthUnit::kMillimetre);
   EXPECT_THAT(both.explanation, HasSubstr("file says cm"));
 }
 
 TEST(UnitGuard, RefusesAbsurdSizes) {
-  EXPECT_THAT(message_of<InputError>(
-                  [] { decide_unit(box_of(1e9), LengthUnit::kMillimetre, {}, "cup.3mf"); }),
+  EXPECT_THAT(message_of<InputError>([] {
+                decide_unit(box_of(1e9), geometry::LengthUnit::kMillimetre, {}, "cup.3mf");
+              }),
               HasSubstr("1e+09"));
   EXPECT_THAT(message_of<InputError>([] { decide_unit(box_of(0.0), {}, {}, "cup.stl"); }),
               HasSubstr("0 x 0 x 0"));
@@ -100,33 +103,35 @@ TEST(UnitGuard, RefusesAbsurdSizes) {
 }
 
 TEST(UnitNames, ReadWhatTheyWrite) {
-  for (const LengthUnit unit :
-       {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre, LengthUnit::kInch}) {
-    EXPECT_EQ(length_unit(name_of(unit)), unit);
+  for (const geometry::LengthUnit unit :
+       {geometry::LengthUnit::kMillimetre, geometry::LengthUnit::kCentimetre,
+        geometry::LengthUnit::kMetre, geometry::LengthUnit::kInch}) {
+    EXPECT_EQ(geometry::length_unit(name_of(unit)), unit);
   }
-  EXPECT_EQ(length_unit_named("Millimeters"), LengthUnit::kMillimetre);
-  EXPECT_EQ(length_unit_named("centimetres"), LengthUnit::kCentimetre);
-  EXPECT_EQ(length_unit_named("meter"), LengthUnit::kMetre);
-  EXPECT_EQ(length_unit_named("inches"), LengthUnit::kInch);
+  EXPECT_EQ(geometry::length_unit_named("Millimeters"), geometry::LengthUnit::kMillimetre);
+  EXPECT_EQ(geometry::length_unit_named("centimetres"), geometry::LengthUnit::kCentimetre);
+  EXPECT_EQ(geometry::length_unit_named("meter"), geometry::LengthUnit::kMetre);
+  EXPECT_EQ(geometry::length_unit_named("inches"), geometry::LengthUnit::kInch);
   for (const char* other : {"", "kilometre", "et", "meterstick", "mms"}) {
-    EXPECT_FALSE(length_unit_named(other)) << other;
+    EXPECT_FALSE(geometry::length_unit_named(other)) << other;
   }
-  EXPECT_THAT(message_of<UsageError>([] { length_unit("furlong"); }), HasSubstr("\"furlong\""));
+  EXPECT_THAT(message_of<UsageError>([] { geometry::length_unit("furlong"); }),
+              HasSubstr("\"furlong\""));
 }
 
 TEST(MakeProduct, ConvertsToMillimetres) {
-  const TriangleMesh inches = make_box(Vec3(1.0, 2.0, 4.0), 2);
+  const geometry::TriangleMesh inches = geometry::make_box(Vec3(1.0, 2.0, 4.0), 2);
   const Product product =
-      make_product("box", inches, {LengthUnit::kInch, UnitSource::kUser, ""}, "box.stl");
-  EXPECT_LT((bounding_box(product.mesh).sizes() - Vec3(25.4, 50.8, 101.6)).norm(), 1e-9);
+      make_product("box", inches, {geometry::LengthUnit::kInch, UnitSource::kUser, ""}, "box.stl");
+  EXPECT_LT((geometry::bounding_box(product.mesh).sizes() - Vec3(25.4, 50.8, 101.6)).norm(), 1e-9);
   EXPECT_NEAR(product.distance->at(Vec3(0, 0, 60)).distance, 60.0 - 50.8, 1e-9);
-  EXPECT_EQ(product.unit, LengthUnit::kInch);
+  EXPECT_EQ(product.unit, geometry::LengthUnit::kInch);
 }
 
 TEST(MakeProduct, WeldsTrianglesThatShareNoVertices) {
   // As STL stores them.
-  const TriangleMesh whole = make_icosphere(30.0, 3);
-  TriangleMesh soup;
+  const geometry::TriangleMesh whole = geometry::make_icosphere(30.0, 3);
+  geometry::TriangleMesh soup;
   for (const Triangle& t : whole.triangles) {
     const int n = soup.vertex_count();
     for (const int v : t) soup.vertices.push_back(whole.vertices[v].cast<float>().cast<double>());
@@ -134,12 +139,12 @@ TEST(MakeProduct, WeldsTrianglesThatShareNoVertices) {
   }
   const Product product = make_product("ball", soup, kInMm, "ball.stl");
   EXPECT_EQ(product.mesh.vertex_count(), whole.vertex_count());
-  EXPECT_TRUE(examine_topology(product.mesh).is_closed);
+  EXPECT_TRUE(geometry::examine_topology(product.mesh).is_closed);
   EXPECT_TRUE(product.notes.empty());
 }
 
 TEST(MakeProduct, TurnsAnInvertedMeshAndSaysSo) {
-  TriangleMesh inverted = make_icosphere(30.0, 3);
+  geometry::TriangleMesh inverted = geometry::make_icosphere(30.0, 3);
   for (Triangle& t : inverted.triangles) std::swap(t[0], t[1]);
   const Product product = make_product("ball", inverted, kInMm, "ball.stl");
   EXPECT_LT(product.distance->at(Vec3::Zero()).distance, 0.0);
@@ -148,8 +153,9 @@ TEST(MakeProduct, TurnsAnInvertedMeshAndSaysSo) {
 
 TEST(MakeProduct, ReportsThatAMeshIsOpen) {
   const Product product = make_product(
-      "tube", make_cylinder({.radius = 20, .length = 100, .rings = 20, .is_capped = false}), kInMm,
-      "tube.stl");
+      "tube",
+      geometry::make_cylinder({.radius = 20, .length = 100, .rings = 20, .is_capped = false}),
+      kInMm, "tube.stl");
   EXPECT_TRUE(has_note(product, "2 holes"));
   EXPECT_LT(product.distance->at(Vec3::Zero()).distance, 0.0);
 }
@@ -157,18 +163,18 @@ TEST(MakeProduct, ReportsThatAMeshIsOpen) {
 TEST(MakeProduct, NamesWhatIsMissing) {
   EXPECT_THAT(message_of<InputError>([] { make_product("x", {}, kInMm, "x.stl"); }),
               HasSubstr("x.stl: no triangles"));
-  TriangleMesh one;
+  geometry::TriangleMesh one;
   one.vertices = {Vec3(0, 0, 0), Vec3(50, 0, 0), Vec3(0, 50, 0)};
   one.triangles = {{0, 1, 2}};
   EXPECT_THAT(message_of<InputError>([&] { make_product("x", one, kInMm, "x.stl"); }),
               HasSubstr("only one triangle"));
-  TriangleMesh bad = make_box(Vec3(50, 50, 50), 1);
+  geometry::TriangleMesh bad = geometry::make_box(Vec3(50, 50, 50), 1);
   bad.vertices[4].z() = std::numeric_limits<double>::infinity();
   const std::string message =
       message_of<InputError>([&] { make_product("x", bad, kInMm, "x.stl"); });
   EXPECT_THAT(message, HasSubstr("vertex 4"));
   EXPECT_THAT(message, HasSubstr("inf"));
-  TriangleMesh line;
+  geometry::TriangleMesh line;
   line.vertices = {Vec3(0, 0, 0), Vec3(50, 0, 0), Vec3(100, 0, 0), Vec3(70, 0, 0)};
   line.triangles = {{0, 1, 2}, {0, 1, 3}};
   EXPECT_THAT(message_of<InputError>([&] { make_product("x", line, kInMm, "x.stl"); }),
@@ -177,11 +183,11 @@ TEST(MakeProduct, NamesWhatIsMissing) {
 
 /// Mesh vertices lie on the exact solid, triangle centres within the chordal error of it.
 void expect_mesh_on_solid(const Product& product, double chordal_error) {
-  const TopologyReport topology = examine_topology(product.mesh);
+  const geometry::TopologyReport topology = geometry::examine_topology(product.mesh);
   EXPECT_TRUE(topology.is_closed && topology.is_two_manifold && topology.is_oriented)
       << product.name;
   EXPECT_EQ(topology.euler_number, 2) << product.name;
-  EXPECT_GT(signed_volume(product.mesh), 0.0) << product.name;
+  EXPECT_GT(geometry::signed_volume(product.mesh), 0.0) << product.name;
   for (const Vec3& x : product.mesh.vertices) {
     ASSERT_NEAR(product.distance->at(x).distance, 0.0, 1e-8) << product.name << x.transpose();
   }
@@ -207,7 +213,7 @@ TEST(Primitives, MeshesLieOnTheExactSolids) {
 
 TEST(Primitives, VolumesAreThoseOfTheSolids) {
   using std::numbers::pi;
-  const auto volume = [](const Product& p) { return signed_volume(p.mesh); };
+  const auto volume = [](const Product& p) { return geometry::signed_volume(p.mesh); };
   // Chords of 0.01 mm take at most their height times the area away.
   EXPECT_NEAR(volume(make_cylinder_product({.diameter = 48, .length = 100})), pi * 576 * 100,
               0.01 * pi * 48 * 100);
@@ -239,10 +245,10 @@ TEST(CheckMesh, FindsNothingOnACleanSolid) {
 }
 
 TEST(CheckMesh, CountsHolesFlipsAndParts) {
-  TriangleMesh mesh = make_icosphere(30.0, 3);
+  geometry::TriangleMesh mesh = geometry::make_icosphere(30.0, 3);
   mesh.triangles.erase(mesh.triangles.begin() + 100);
   std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
-  const TriangleMesh dust = make_icosphere(0.1, 0);
+  const geometry::TriangleMesh dust = geometry::make_icosphere(0.1, 0);
   const int n = mesh.vertex_count();
   for (const Vec3& x : dust.vertices) mesh.vertices.push_back(x + Vec3(40, 0, 0));
   for (const Triangle& t : dust.triangles) {
@@ -259,12 +265,12 @@ TEST(CheckMesh, CountsHolesFlipsAndParts) {
 }
 
 TEST(CheckMesh, SeesCrossingAndInversion) {
-  TriangleMesh mesh = make_icosphere(20.0, 2);
+  geometry::TriangleMesh mesh = geometry::make_icosphere(20.0, 2);
   for (Triangle& t : mesh.triangles) std::swap(t[0], t[1]);
   EXPECT_TRUE(check_mesh(mesh).is_inverted);
 
-  TriangleMesh two = make_icosphere(20.0, 2);
-  const TriangleMesh other = two;
+  geometry::TriangleMesh two = geometry::make_icosphere(20.0, 2);
+  const geometry::TriangleMesh other = two;
   for (const Vec3& x : other.vertices) two.vertices.push_back(x + Vec3(15.3, 1.7, 0.4));
   for (const Triangle& t : other.triangles) {
     two.triangles.push_back(
@@ -275,7 +281,7 @@ TEST(CheckMesh, SeesCrossingAndInversion) {
 
 TEST(CheckMesh, ASolidWithoutVolumeIsAnError) {
   // A sheet of 60 x 40 mm with two sides and nothing between them.
-  TriangleMesh sheet;
+  geometry::TriangleMesh sheet;
   sheet.vertices = {{0, 0, 0}, {60, 0, 0}, {60, 40, 0}, {0, 40, 0}, {30, 20, 0}, {30, 20, 1e-4}};
   for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 3}, {3, 0}}) {
     sheet.triangles.push_back({a, b, 5});
@@ -294,8 +300,8 @@ TEST(CheckMesh, HoldsTheSizeAgainstAHand) {
 }
 
 /// Vertices and triangles of an OBJ file, nothing else; the real reader stands in a later module.
-TriangleMesh read_plain_obj(const std::filesystem::path& path) {
-  TriangleMesh mesh;
+geometry::TriangleMesh read_plain_obj(const std::filesystem::path& path) {
+  geometry::TriangleMesh mesh;
   std::ifstream file(path);
   for (std::string line, kind; std::getline(file, line);) {
     std::istringstream words(line);
@@ -330,11 +336,12 @@ TEST(ScannedProducts, BecomeProductsWithRightSigns) {
   std::sort(files.begin(), files.end());
   EXPECT_EQ(files.size(), 10u);
   for (const auto& path : files) {
-    const TriangleMesh raw = read_plain_obj(path);
-    const UnitDecision unit = decide_unit(bounding_box(raw), {}, {}, path.filename().string());
-    EXPECT_EQ(unit.unit, LengthUnit::kMillimetre);  // the headers say so
+    const geometry::TriangleMesh raw = read_plain_obj(path);
+    const UnitDecision unit =
+        decide_unit(geometry::bounding_box(raw), {}, {}, path.filename().string());
+    EXPECT_EQ(unit.unit, geometry::LengthUnit::kMillimetre);  // the headers say so
     const Product product = make_product(path.stem().string(), raw, unit, path.string());
-    const auto& field = dynamic_cast<const MeshDistance&>(*product.distance);
+    const auto& field = dynamic_cast<const geometry::MeshDistance&>(*product.distance);
     std::mt19937 generator(1);
     const Box3 box = field.bounding_box();
     int inside = 0;
@@ -345,7 +352,7 @@ TEST(ScannedProducts, BecomeProductsWithRightSigns) {
       for (int k = 0; k < 3; ++k) u[k] = static_cast<double>(generator()) / 4294967296.0;
       points.push_back(box.min() + u.cwiseProduct(box.sizes()));
     }
-    std::vector<DistanceSample> samples(points.size());
+    std::vector<geometry::DistanceSample> samples(points.size());
     field.sample(points, std::numeric_limits<double>::infinity(), samples);
     for (std::size_t i = 0; i < points.size(); ++i) {
       inside += samples[i].distance < 0.0 ? 1 : 0;
@@ -359,13 +366,13 @@ TEST(ScannedProducts, BecomeProductsWithRightSigns) {
     // deviations of at most 2.4 % of the box.
     const double share = static_cast<double>(inside) / count;
     // The inside of the mug counts as solid.
-    const TriangleMesh body = contact_body(product.mesh).mesh;
-    const double filled = signed_volume(body) / signed_volume(product.mesh);
+    const geometry::TriangleMesh body = contact_body(product.mesh).mesh;
+    const double filled = geometry::signed_volume(body) / geometry::signed_volume(product.mesh);
     EXPECT_GT(filled, path.stem() == "mug" ? 1.5 : 0.99) << path;
-    EXPECT_NEAR(share, signed_volume(body) / box.volume(), 0.03) << path;
+    EXPECT_NEAR(share, geometry::signed_volume(body) / box.volume(), 0.03) << path;
     EXPECT_FALSE(check_product(product).is_too_small) << path;
   }
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::product

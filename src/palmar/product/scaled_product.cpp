@@ -7,7 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 
-namespace palmar {
+namespace palmar::product {
 
 Product scaled(const Product& product, double factor) {
   if (!(factor > 0.0) || !std::isfinite(factor)) {
@@ -17,11 +17,11 @@ Product scaled(const Product& product, double factor) {
   if (factor == 1.0) return product;
   Product result = product;
   for (Vec3& v : result.mesh.vertices) v *= factor;
-  result.distance = std::make_shared<const MeshDistance>(result.mesh);
+  result.distance = std::make_shared<const geometry::MeshDistance>(result.mesh);
   if (result.faces != nullptr) {
     result.faces = std::make_shared<const ProductFaces>(scaled(*result.faces, factor));
   }
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

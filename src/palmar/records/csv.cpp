@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 /// As in JSON: bytes that are no UTF-8 become U+FFFD, the same ones as in assessment.json.
@@ -39,32 +39,33 @@ std::string line(const std::vector<std::string>& cells) {
 
 /// Force and peak on sensor cells for low and high tissue, and the force per relative change of the
 /// modulus; empty where there is no such result.
-std::vector<std::string> band_cells(const std::optional<ContactBand>& band,
-                                    const ContactBandRow* row) {
+std::vector<std::string> band_cells(const std::optional<contact::ContactBand>& band,
+                                    const contact::ContactBandRow* row) {
   std::vector<std::string> cells(5);
   if (!band || row == nullptr) return cells;
   if (band->total.force_low > 0.0) {
-    cells[0] = shortest(row->force_low);
-    cells[2] = shortest(row->peak_pressure_cells_low);
+    cells[0] = formats::shortest(row->force_low);
+    cells[2] = formats::shortest(row->peak_pressure_cells_low);
   }
   if (band->total.force_high > 0.0) {
-    cells[1] = shortest(row->force_high);
-    cells[3] = shortest(row->peak_pressure_cells_high);
+    cells[1] = formats::shortest(row->force_high);
+    cells[3] = formats::shortest(row->peak_pressure_cells_high);
   }
-  cells[4] = shortest(row->force_per_modulus);
+  cells[4] = formats::shortest(row->force_per_modulus);
   return cells;
 }
 
 /// `band`: of this region, or null.
-std::vector<std::string> region_row(const AssessedProduct& one, const std::string& region,
-                                    const RegionContact& contact, const ContactBandRow* band) {
+std::vector<std::string> region_row(const study::AssessedProduct& one, const std::string& region,
+                                    const contact::RegionContact& contact,
+                                    const contact::ContactBandRow* band) {
   const bool is_total = &contact == &one.assessment.contact.total;
   std::vector<std::string> row = {one.product.name, one.assessment.hand_name, region,
-                                  is_total ? shortest(grip_force_of(one)) : ""};
+                                  is_total ? formats::shortest(study::grip_force_of(one)) : ""};
   for (const double value : {contact.force, contact.area, contact.peak_pressure,
                              contact.peak_pressure_cells, contact.mean_pressure, contact.centre.x(),
                              contact.centre.y(), contact.centre.z(), contact.max_penetration}) {
-    row.push_back(shortest(value));
+    row.push_back(formats::shortest(value));
   }
   for (std::string& text : band_cells(one.assessment.contact.band, band)) {
     row.push_back(std::move(text));
@@ -89,7 +90,7 @@ std::string format_csv(const CsvTable& table) {
   return text;
 }
 
-CsvTable region_table(const AssessmentSet& set) {
+CsvTable region_table(const study::AssessmentSet& set) {
   CsvTable table;
   table.header = {"product",
                   "hand",
@@ -111,12 +112,12 @@ CsvTable region_table(const AssessmentSet& set) {
                   "force_per_modulus_n",
                   "contact_model",
                   "source"};
-  for (const AssessedProduct& one : set.assessments) {
-    const ContactResult& contact = one.assessment.contact;
-    for (const RegionContact& region : contact.regions) {
-      const ContactBandRow* band = nullptr;
+  for (const study::AssessedProduct& one : set.assessments) {
+    const contact::ContactResult& contact = one.assessment.contact;
+    for (const contact::RegionContact& region : contact.regions) {
+      const contact::ContactBandRow* band = nullptr;
       if (contact.band) {
-        for (const ContactBandRow& row : contact.band->regions) {
+        for (const contact::ContactBandRow& row : contact.band->regions) {
           if (row.region == region.region) band = &row;
         }
       }
@@ -128,7 +129,7 @@ CsvTable region_table(const AssessmentSet& set) {
   return table;
 }
 
-CsvTable sensor_table(const AssessmentSet& set) {
+CsvTable sensor_table(const study::AssessmentSet& set) {
   CsvTable table;
   table.header = {"product",
                   "hand",
@@ -143,20 +144,21 @@ CsvTable sensor_table(const AssessmentSet& set) {
                   "measured_force_n",
                   "measured_mean_pressure_mpa",
                   "source"};
-  for (const AssessedProduct& one : set.assessments) {
+  for (const study::AssessedProduct& one : set.assessments) {
     if (!one.assessment.sensors) continue;
-    const SensorReading& reading = *one.assessment.sensors;
+    const study::SensorReading& reading = *one.assessment.sensors;
     for (std::size_t i = 0; i < reading.cells.size(); ++i) {
-      const SensorCell& cell = reading.cells[i];
+      const study::SensorCell& cell = reading.cells[i];
       std::string force, pressure;
       if (one.assessment.measured) {
         const double measured = one.assessment.measured->measured[i];
-        force = shortest(measured);
-        if (cell.area > 0.0) pressure = shortest(measured / cell.area);
+        force = formats::shortest(measured);
+        if (cell.area > 0.0) pressure = formats::shortest(measured / cell.area);
       }
       table.rows.push_back({one.product.name, one.assessment.hand_name, reading.layout.name,
                             cell.patch, std::to_string(cell.row), std::to_string(cell.column),
-                            shortest(cell.area), shortest(cell.force), shortest(cell.mean_pressure),
+                            formats::shortest(cell.area), formats::shortest(cell.force),
+                            formats::shortest(cell.mean_pressure),
                             cell.region ? std::string(name_of(*cell.region)) : "", force, pressure,
                             one.product.source});
     }
@@ -164,7 +166,7 @@ CsvTable sensor_table(const AssessmentSet& set) {
   return table;
 }
 
-CsvTable face_table(const AssessmentSet& set) {
+CsvTable face_table(const study::AssessmentSet& set) {
   CsvTable table;
   table.header = {"product",
                   "hand",
@@ -180,31 +182,33 @@ CsvTable face_table(const AssessmentSet& set) {
                   "mean_pressure_mpa",
                   "has_peak",
                   "source"};
-  for (const AssessedProduct& one : set.assessments) {
-    for (const FaceContact& contact : one.assessment.faces) {
-      const ProductFace& face = one.product.faces->face[contact.face];
+  for (const study::AssessedProduct& one : set.assessments) {
+    for (const study::FaceContact& contact : one.assessment.faces) {
+      const product::ProductFace& face = one.product.faces->face[contact.face];
       table.rows.push_back({one.product.name, one.assessment.hand_name, std::to_string(face.number),
-                            title_of(face), face.name, name_of(face.kind), shortest(face.radius),
-                            shortest(face.area), shortest(contact.force), shortest(contact.area),
-                            shortest(contact.peak_pressure), shortest(contact.mean_pressure),
-                            contact.has_peak ? "1" : "0", one.product.source});
-    }
-  }
-  return table;
-}
-
-CsvTable index_table(const AssessmentSet& set) {
-  CsvTable table;
-  table.header = {"product", "hand", "group", "key", "name", "value", "unit", "better", "source"};
-  for (const AssessedProduct& one : set.assessments) {
-    for (const GraspIndex& index : one.assessment.indices) {
-      if (!index.value) continue;
-      table.rows.push_back({one.product.name, one.assessment.hand_name, index.group, index.key,
-                            index.name, shortest(*index.value), index.unit, name_of(index.better),
+                            product::title_of(face), face.name, name_of(face.kind),
+                            formats::shortest(face.radius), formats::shortest(face.area),
+                            formats::shortest(contact.force), formats::shortest(contact.area),
+                            formats::shortest(contact.peak_pressure),
+                            formats::shortest(contact.mean_pressure), contact.has_peak ? "1" : "0",
                             one.product.source});
     }
   }
   return table;
 }
 
-}  // namespace palmar
+CsvTable index_table(const study::AssessmentSet& set) {
+  CsvTable table;
+  table.header = {"product", "hand", "group", "key", "name", "value", "unit", "better", "source"};
+  for (const study::AssessedProduct& one : set.assessments) {
+    for (const grasp::GraspIndex& index : one.assessment.indices) {
+      if (!index.value) continue;
+      table.rows.push_back({one.product.name, one.assessment.hand_name, index.group, index.key,
+                            index.name, formats::shortest(*index.value), index.unit,
+                            name_of(index.better), one.product.source});
+    }
+  }
+  return table;
+}
+
+}  // namespace palmar::records

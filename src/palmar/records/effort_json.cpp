@@ -10,12 +10,12 @@
 #include "palmar/core/version.h"
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json fingertip_object(const FingertipForce& tip, const Posture& posture) {
+Json fingertip_object(const effort::FingertipForce& tip, const hand::Posture& posture) {
   Json joints = Json::array();
   Json angles = Json::object();
   for (std::size_t k = 0; k < tip.dof.size(); ++k) {
@@ -27,7 +27,7 @@ Json fingertip_object(const FingertipForce& tip, const Posture& posture) {
   }
   return {{"finger", name_of(tip.finger)},
           {"tendon", name_of(tip.tendon)},
-          {"tendon_name", anatomical_name_of(tip.tendon)},
+          {"tendon_name", hand::anatomical_name_of(tip.tendon)},
           {"tendon_force_n", tip.tendon_force},
           {"posture", std::move(angles)},
           {"frame", "hand: x towards the thumb in a right hand, y distal, z palmar"},
@@ -42,16 +42,16 @@ Json fingertip_object(const FingertipForce& tip, const Posture& posture) {
           {"joints", std::move(joints)}};
 }
 
-Json digit_object(const DigitEffort& digit) {
+Json digit_object(const effort::DigitEffort& digit) {
   Json joints = Json::array(), tendons = Json::array();
-  for (const JointEffort& joint : digit.joints) {
+  for (const effort::JointEffort& joint : digit.joints) {
     joints.push_back({{"angle", name_of(joint.dof)},
                       {"external_moment_n_mm", joint.external},
                       {"muscle_moment_n_mm", joint.muscles},
                       {"stop_moment_n_mm", joint.stop},
                       {"missing_moment_n_mm", joint.missing}});
   }
-  for (const TendonLoad& load : digit.tendons) {
+  for (const effort::TendonLoad& load : digit.tendons) {
     Json arms = Json::object();
     for (std::size_t k = 0; k < load.moment_arm.size(); ++k) {
       arms[std::string(name_of(digit.joints[k].dof))] = load.moment_arm[k];
@@ -68,10 +68,10 @@ Json digit_object(const DigitEffort& digit) {
           {"iterations", digit.iterations}};
 }
 
-Json wrist_object(const WristEffort& wrist) {
+Json wrist_object(const effort::WristEffort& wrist) {
   Json muscles = Json::array();
-  for (int i = 0; i < kWristMuscleCount; ++i) {
-    const auto muscle = static_cast<WristMuscle>(i);
+  for (int i = 0; i < hand::kWristMuscleCount; ++i) {
+    const auto muscle = static_cast<hand::WristMuscle>(i);
     muscles.push_back({{"muscle", name_of(muscle)},
                        {"force_n", wrist.force[index_of(muscle)]},
                        {"strength_n", wrist.strength[index_of(muscle)]},
@@ -88,23 +88,25 @@ Json versions() { return {{"palmar", version()}}; }
 
 }  // namespace
 
-std::string fingertip_json(const std::vector<FingertipForce>& forces, const Posture& posture) {
+std::string fingertip_json(const std::vector<effort::FingertipForce>& forces,
+                           const hand::Posture& posture) {
   Json json;
   if (forces.size() == 1) {
     json = fingertip_object(forces.front(), posture);
   } else {
     Json list = Json::array();
-    for (const FingertipForce& force : forces) list.push_back(fingertip_object(force, posture));
+    for (const effort::FingertipForce& force : forces)
+      list.push_back(fingertip_object(force, posture));
     json = {{"tendons", std::move(list)}};
   }
   json["versions"] = versions();
   return json.dump(2);
 }
 
-std::string effort_json(const EffortResult& effort) {
+std::string effort_json(const effort::EffortResult& effort) {
   Json digits = Json::array(), indices = Json::object();
-  for (const DigitEffort& digit : effort.digits) digits.push_back(digit_object(digit));
-  for (const GraspIndex& index : effort_indices(effort)) {
+  for (const effort::DigitEffort& digit : effort.digits) digits.push_back(digit_object(digit));
+  for (const grasp::GraspIndex& index : effort::effort_indices(effort)) {
     indices[index.key] = or_null(index.value);
   }
   Json wrist = nullptr;
@@ -121,4 +123,4 @@ std::string effort_json(const EffortResult& effort) {
   return json.dump(2);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

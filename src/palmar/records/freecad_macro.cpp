@@ -8,7 +8,7 @@
 
 #include "palmar/records/handle_file.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr double kOutlineStep = 2.0;  // mm, of the original's outlines
@@ -137,8 +137,8 @@ print("handle: valid %s, volume %.1f mm3, faces %d"
 )PY";
 
 /// The original's outlines and the share of the features, as Python lists.
-std::string outline_tables(const HandleShape& shape) {
-  const HandleBody& body = shape.body;
+std::string outline_tables(const redesign::HandleShape& shape) {
+  const redesign::HandleBody& body = shape.body;
   const double length = body.top - body.bottom;
   const int steps = std::max(2, static_cast<int>(std::ceil(length / kOutlineStep)));
   std::string heights, radii, shares;
@@ -161,13 +161,13 @@ std::string outline_tables(const HandleShape& shape) {
 
 }  // namespace
 
-std::string freecad_macro(const HandleShape& shape, const std::string& product) {
-  const HandleBody& body = shape.body;
+std::string freecad_macro(const redesign::HandleShape& shape, const std::string& product) {
+  const redesign::HandleBody& body = shape.body;
   std::string text = fmt::format(
       "# {}: a handle by its features, made by Palmar. Edit the numbers and run it again.\n"
       "import math\nimport FreeCAD\nimport Part\n\n",
       product);
-  for (const HandleFeature& one : handle_features()) {
+  for (const redesign::HandleFeature& one : redesign::handle_features()) {
     text += fmt::format("{} = {:.4f}  # {}{}{}\n", one.name, one.scale * shape.features.*one.value,
                         one.unit, one.unit.empty() ? "" : "; ", one.meaning);
   }
@@ -187,11 +187,11 @@ std::string freecad_macro(const HandleShape& shape, const std::string& product) 
       "placement = FreeCAD.Placement(FreeCAD.Vector({:.6f}, {:.6f}, {:.6f}),\n"
       "                              FreeCAD.Rotation({:.12f}, {:.12f}, {:.12f}, {:.12f}))\n",
       o.x(), o.y(), o.z(), q.x(), q.y(), q.z(), q.w());
-  const HandleRows rows = rows_for(shape);
+  const redesign::HandleRows rows = redesign::rows_for(shape);
   text += fmt::format(
       "end_angle = math.radians({:.1f})  # over which the edges at both ends turn\n"
       "columns, row_distance = {}, {:.2f}  # points round a section; mm between sections\n",
-      kEndAngle * 180.0 / std::numbers::pi, rows.columns, rows.distance);
+      redesign::kEndAngle * 180.0 / std::numbers::pi, rows.columns, rows.distance);
   text +=
       "\n# What is kept: the outlines that were there, by z and direction, mm, and the share of "
       "the\n"
@@ -200,4 +200,4 @@ std::string freecad_macro(const HandleShape& shape, const std::string& product) 
   return text + kBody;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

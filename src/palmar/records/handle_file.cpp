@@ -13,7 +13,7 @@
 #include "palmar/formats/toml_section.h"
 #include "palmar/records/handle_json.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::uint64_t kMostHandleBytes = 1 << 16;
@@ -23,7 +23,7 @@ constexpr double kFar = 1e4;        // mm
 /// A value to a thousandth: finer than anything is made.
 std::string rounded(double value) {
   const double whole = std::round(value * 1000.0) / 1000.0;
-  return toml_number(whole == 0.0 ? 0.0 : whole);
+  return formats::toml_number(whole == 0.0 ? 0.0 : whole);
 }
 
 std::string vector_text(const Vec3& v) {
@@ -32,7 +32,7 @@ std::string vector_text(const Vec3& v) {
 
 }  // namespace
 
-std::string key_of(const HandleFeature& feature) {
+std::string key_of(const redesign::HandleFeature& feature) {
   if (feature.unit.empty()) return feature.name;
   std::string unit = feature.unit;
   if (const std::size_t slash = unit.find('/'); slash != std::string::npos) {
@@ -41,17 +41,17 @@ std::string key_of(const HandleFeature& feature) {
   return feature.name + "_" + unit;
 }
 
-std::string handle_toml(const HandleShape& shape, const std::string& product) {
+std::string handle_toml(const redesign::HandleShape& shape, const std::string& product) {
   std::string text =
       "# A handle by its features: change the numbers and make it anew with\n"
       "# palmar redesign shape PRODUCT --features THIS --out FOLDER\n";
   text += fmt::format("version = {}\nproduct = {}  # for information\n\n[features]\n",
-                      kHandleFileVersion, toml_string(product));
-  for (const HandleFeature& one : handle_features()) {
+                      kHandleFileVersion, formats::toml_string(product));
+  for (const redesign::HandleFeature& one : redesign::handle_features()) {
     text += fmt::format("{} = {}  # {}\n", key_of(one),
                         rounded(one.scale * shape.features.*one.value), one.meaning);
   }
-  const Rigid3& frame = shape.body.product_from_handle;
+  const geometry::Rigid3& frame = shape.body.product_from_handle;
   text += fmt::format(
       "\n[ends]\nend_radius_mm = {}\nkept_mm = [{}, {}]  # at the bottom, the top\n",
       rounded(shape.end_radius), rounded(shape.kept_ends[0]), rounded(shape.kept_ends[1]));
@@ -62,7 +62,7 @@ std::string handle_toml(const HandleShape& shape, const std::string& product) {
   text += "kept_boxes_mm = [" + boxes + "]\n";
   std::string faces;
   for (const std::string& one : shape.kept_faces) {
-    faces += (faces.empty() ? "" : ", ") + toml_string(one);
+    faces += (faces.empty() ? "" : ", ") + formats::toml_string(one);
   }
   text += "kept_faces = [" + faces + "]\n";
   text += fmt::format("\n[frame]  # for information\norigin_mm = {}\nalong = {}\npalm = {}\n",
@@ -72,8 +72,9 @@ std::string handle_toml(const HandleShape& shape, const std::string& product) {
 }
 
 HandleFile read_handle(const std::filesystem::path& path) {
-  const toml::table table = parse_toml(read_file(path, kMostHandleBytes), path.string());
-  const TomlSection file(path.string(), "", table);
+  const toml::table table =
+      formats::parse_toml(formats::read_file(path, kMostHandleBytes), path.string());
+  const formats::TomlSection file(path.string(), "", table);
   file.allow({"version", "product", "features", "ends", "frame"});
   if (!file.integer("version", 1, kHandleFileVersion)) {
     file.fail("version", fmt::format("version is needed; {} is allowed", kHandleFileVersion));
@@ -82,10 +83,11 @@ HandleFile read_handle(const std::filesystem::path& path) {
   if (!features)
     file.fail("features", "features is needed: a table with the features of the handle");
   std::vector<std::string> keys;
-  for (const HandleFeature& one : handle_features()) keys.push_back(key_of(one));
+  for (const redesign::HandleFeature& one : redesign::handle_features())
+    keys.push_back(key_of(one));
   features->allow(keys);
   HandleFile result;
-  for (const HandleFeature& one : handle_features()) {
+  for (const redesign::HandleFeature& one : redesign::handle_features()) {
     const std::string key = key_of(one);
     const bool is_needed = one.name == "width" || one.name == "depth";
     const double value =
@@ -122,4 +124,4 @@ HandleFile read_handle(const std::filesystem::path& path) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

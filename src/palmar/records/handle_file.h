@@ -9,7 +9,7 @@
 
 #include "palmar/redesign/handle_shape.h"
 
-namespace palmar {
+namespace palmar::records {
 
 inline constexpr int kHandleFileVersion = 1;
 
@@ -30,10 +30,10 @@ inline constexpr int kHandleFileVersion = 1;
 ///     origin_mm = [0.0, 0.0, 4.0]
 ///     along = [0.0, 0.0, 1.0]  # towards the thumb
 ///     palm = [0.0, 1.0, 0.0]   # towards the palm
-std::string handle_toml(const HandleShape& shape, const std::string& product);
+std::string handle_toml(const redesign::HandleShape& shape, const std::string& product);
 
 struct HandleFile {
-  HandleFeatures features;
+  redesign::HandleFeatures features;
   double end_radius = 0.0;                       ///< mm
   std::array<double, 2> kept_ends = {0.0, 0.0};  ///< bottom and top, mm
   std::vector<Box3> kept_boxes = {};             ///< product frame, mm
@@ -43,10 +43,10 @@ struct HandleFile {
 HandleFile read_handle(const std::filesystem::path& path);
 
 /// "width_mm", "twist_deg_per_100mm", "egg".
-std::string key_of(const HandleFeature& feature);
+std::string key_of(const redesign::HandleFeature& feature);
 
 /// A FreeCAD macro (Python) that builds the same solid from the same sections, with the numbers to
 /// edit on top.
-std::string freecad_macro(const HandleShape& shape, const std::string& product);
+std::string freecad_macro(const redesign::HandleShape& shape, const std::string& product);
 
-}  // namespace palmar
+}  // namespace palmar::records

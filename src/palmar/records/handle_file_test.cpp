@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
@@ -16,12 +16,12 @@ using ::testing::ThrowsMessage;
 
 std::filesystem::path written(const std::string& text) {
   const auto path = std::filesystem::path(::testing::TempDir()) / "handle_file_test.toml";
-  write_file(path, text);
+  formats::write_file(path, text);
   return path;
 }
 
 TEST(HandleFile, ReadsBackWhatWasWritten) {
-  HandleShape shape;
+  redesign::HandleShape shape;
   shape.features.width = 34.2;
   shape.features.depth = 41.5;
   shape.features.egg = -0.12;
@@ -32,7 +32,7 @@ TEST(HandleFile, ReadsBackWhatWasWritten) {
   shape.kept_boxes = {Box3(Vec3(-9, -8, -7), Vec3(1, 2, 3.5)),
                       Box3(Vec3(0, 0, 40), Vec3(5, 5, 65))};
   const HandleFile file = read_handle(written(handle_toml(shape, "a \"prism\"")));
-  for (const HandleFeature& one : handle_features()) {
+  for (const redesign::HandleFeature& one : redesign::handle_features()) {
     EXPECT_NEAR(one.scale * file.features.*one.value, one.scale * shape.features.*one.value, 5.1e-4)
         << one.name;
   }
@@ -68,4 +68,4 @@ TEST(HandleFile, OneLengthKeptIsThatOfBothEnds) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

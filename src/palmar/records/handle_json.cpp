@@ -4,7 +4,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::records {
 
 namespace {
 
@@ -29,12 +29,12 @@ Box3 box_of_corners(std::span<const double> corners) {
 
 namespace {
 
-Json outlines_json(const HandleOutlines& outlines) {
+Json outlines_json(const redesign::HandleOutlines& outlines) {
   return {{"z_mm", outlines.z}, {"columns", outlines.columns}, {"radius_mm", outlines.radius}};
 }
 
-HandleOutlines outlines_from(const Json& json) {
-  const HandleOutlines outlines{
+redesign::HandleOutlines outlines_from(const Json& json) {
+  const redesign::HandleOutlines outlines{
       .z = json.at("z_mm").get<std::vector<double>>(),
       .columns = json.at("columns").get<int>(),
       .radius = json.at("radius_mm").get<std::vector<std::vector<double>>>()};
@@ -49,16 +49,16 @@ HandleOutlines outlines_from(const Json& json) {
 
 }  // namespace
 
-Json features_json(const HandleFeatures& features) {
+Json features_json(const redesign::HandleFeatures& features) {
   Json json = Json::object();
-  for (const HandleFeature& one : handle_features()) {
+  for (const redesign::HandleFeature& one : redesign::handle_features()) {
     json[one.name] = one.scale * features.*one.value;
   }
   return json;
 }
 
-Json handle_shape_json(const HandleShape& shape) {
-  const HandleBody& body = shape.body;
+Json handle_shape_json(const redesign::HandleShape& shape) {
+  const redesign::HandleBody& body = shape.body;
   const Quat& q = body.product_from_handle.rotation;
   const Vec3& o = body.product_from_handle.translation;
   Json centre = Json::array();
@@ -89,9 +89,9 @@ Json handle_shape_json(const HandleShape& shape) {
                                     : Json()}};
 }
 
-HandleShape handle_shape_from(const Json& json) {
-  HandleShape shape;
-  HandleBody& body = shape.body;
+redesign::HandleShape handle_shape_from(const Json& json) {
+  redesign::HandleShape shape;
+  redesign::HandleBody& body = shape.body;
   const auto q = json.at("rotation_xyzw").get<std::array<double, 4>>();
   const auto o = json.at("origin_mm").get<std::array<double, 3>>();
   body.product_from_handle = {Quat(q[3], q[0], q[1], q[2]).normalized(), Vec3(o[0], o[1], o[2])};
@@ -109,7 +109,7 @@ HandleShape handle_shape_from(const Json& json) {
   body.hands = {json.at("breadth_mm").get<double>(), json.at("thumb_at_mm").get<double>(),
                 json.at("thumb_phi_rad").get<double>()};
   for (const auto& [name, value] : json.at("features").items()) {
-    const HandleFeature& one = handle_feature(name);
+    const redesign::HandleFeature& one = redesign::handle_feature(name);
     shape.features.*one.value = value.get<double>() / one.scale;
   }
   shape.end_radius = json.at("end_radius_mm").get<double>();
@@ -130,4 +130,4 @@ HandleShape handle_shape_from(const Json& json) {
   return shape;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

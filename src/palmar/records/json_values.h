@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// [x, y, z].
 inline nlohmann::ordered_json vector3(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -31,4 +31,4 @@ inline std::string json_file_text(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -15,7 +15,7 @@
 #include "palmar/formats/csv_reader.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 enum class CurveQuantity { kDepth, kForce, kArea, kWeight, kForceSd, kSubject };
@@ -45,11 +45,11 @@ constexpr std::array<NeedsUnit, 4> kNeedsUnit = {
 
 class CurveReader {
  public:
-  explicit CurveReader(const CsvFile& file) : file_(file) {}
+  explicit CurveReader(const formats::CsvFile& file) : file_(file) {}
 
   MeasuredCurves read() {
     read_header();
-    for (const CsvFile::Row& row : file_.rows) read_row(row);
+    for (const formats::CsvFile::Row& row : file_.rows) read_row(row);
     if (curves_.points.empty()) {
       throw InputError(file_.path + ": it has no readings below the header");
     }
@@ -65,7 +65,8 @@ class CurveReader {
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::string name = lower_case(names[i]);
       if (names[i].size() > 3 && names[i].substr(names[i].size() - 3) == "_MN") {
-        fail("column " + in_quotes(names[i]) + ": MN could be meganewton; force_mN is millinewton");
+        fail("column " + formats::in_quotes(names[i]) +
+             ": MN could be meganewton; force_mN is millinewton");
       }
       const auto* known = std::find_if(kCurveColumns.begin(), kCurveColumns.end(),
                                        [&](const CurveColumn& c) { return name == c.name; });
@@ -77,8 +78,8 @@ class CurveReader {
       column_[i] = known;
       const auto [other, is_new] = of_quantity_.emplace(known->quantity, i);
       if (!is_new) {
-        fail("columns " + in_quotes(names[other->second]) + " and " + in_quotes(names[i]) +
-             " say the same; one is needed");
+        fail("columns " + formats::in_quotes(names[other->second]) + " and " +
+             formats::in_quotes(names[i]) + " say the same; one is needed");
       }
     }
     if (of_quantity_.count(CurveQuantity::kWeight) + of_quantity_.count(CurveQuantity::kForceSd) >
@@ -95,14 +96,14 @@ class CurveReader {
       if (name.rfind(one.stem, 0) != 0) continue;
       const std::string rest = name.substr(one.stem.size());
       if (rest.empty()) {
-        fail("column " + in_quotes(shown) + " has no unit; " + std::string(one.stem) + "_" +
-             std::string(one.units) + " is needed");
+        fail("column " + formats::in_quotes(shown) + " has no unit; " + std::string(one.stem) +
+             "_" + std::string(one.units) + " is needed");
       }
       if (rest.front() == '_' || rest.front() == ' ' || rest.front() == '(' ||
           rest.front() == '[') {
-        fail("column " + in_quotes(shown) + ": unit " + in_quotes(rest.substr(1)) +
-             " is not known; " + std::string(one.stem) + "_ with " + std::string(one.units) +
-             " is allowed");
+        fail("column " + formats::in_quotes(shown) + ": unit " +
+             formats::in_quotes(rest.substr(1)) + " is not known; " + std::string(one.stem) +
+             "_ with " + std::string(one.units) + " is allowed");
       }
     }
   }
@@ -114,28 +115,28 @@ class CurveReader {
          (nearest.empty() ? "" : " (is " + nearest + " meant?)"));
   }
 
-  double number(const CsvFile::Row& row, std::size_t i) const {
+  double number(const formats::CsvFile::Row& row, std::size_t i) const {
     return file_.number(row, i) * column_[i]->factor;
   }
 
-  double at_least_zero(const CsvFile::Row& row, std::size_t i) const {
+  double at_least_zero(const formats::CsvFile::Row& row, std::size_t i) const {
     const double value = number(row, i);
     if (value < 0.0) file_.fail(row.line, shown(row, i) + "; 0 or more is needed");
     return value;
   }
 
-  double above_zero(const CsvFile::Row& row, std::size_t i) const {
+  double above_zero(const formats::CsvFile::Row& row, std::size_t i) const {
     const double value = number(row, i);
     if (!(value > 0.0)) file_.fail(row.line, shown(row, i) + "; more than 0 is needed");
     return value;
   }
 
-  std::string shown(const CsvFile::Row& row, std::size_t i) const {
+  std::string shown(const formats::CsvFile::Row& row, std::size_t i) const {
     return file_.header[i] + " is " + row.cells[i];
   }
 
-  void read_row(const CsvFile::Row& row) {
-    MeasuredPoint point;
+  void read_row(const formats::CsvFile::Row& row) {
+    contact::MeasuredPoint point;
     point.line = row.line;
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       if (column_[i] == nullptr) continue;
@@ -167,7 +168,7 @@ class CurveReader {
     }
   }
 
-  const CsvFile& file_;
+  const formats::CsvFile& file_;
   std::vector<const CurveColumn*> column_;  ///< per cell; null: ignored
   std::map<CurveQuantity, std::size_t> of_quantity_;
   MeasuredCurves curves_;
@@ -176,8 +177,8 @@ class CurveReader {
 }  // namespace
 
 MeasuredCurves read_measured_curves(const std::string& path) {
-  const CsvFile file = read_csv(path);
+  const formats::CsvFile file = formats::read_csv(path);
   return CurveReader(file).read();
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

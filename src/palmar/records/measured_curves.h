@@ -7,13 +7,13 @@
 
 #include "palmar/contact/tissue/tissue_fit.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Readings of indentation tests from a CSV file.
 struct MeasuredCurves {
-  std::vector<MeasuredPoint> points;  ///< in the file's order, depth above 0
-  std::vector<std::string> ignored;   ///< columns that mean nothing here
-  int zero_depths = 0;                ///< rows at depth 0, left out: they show nothing
+  std::vector<contact::MeasuredPoint> points;  ///< in the file's order, depth above 0
+  std::vector<std::string> ignored;            ///< columns that mean nothing here
+  int zero_depths = 0;                         ///< rows at depth 0, left out: they show nothing
 };
 
 /// A CSV file as read_csv() takes it apart. Columns:
@@ -29,4 +29,4 @@ struct MeasuredCurves {
 /// standard deviation not above 0, no reading.
 MeasuredCurves read_measured_curves(const std::string& path);
 
-}  // namespace palmar
+}  // namespace palmar::records

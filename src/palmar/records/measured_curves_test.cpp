@@ -9,14 +9,14 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
 
 std::string with_text(const std::string& csv) {
-  const std::string path = own_file("curves.csv");
-  write_file(path, csv);
+  const std::string path = formats::own_file("curves.csv");
+  formats::write_file(path, csv);
   return path;
 }
 
@@ -100,4 +100,4 @@ TEST(MeasuredCurves, FilesWithoutReadingsAreRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

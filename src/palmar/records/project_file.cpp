@@ -6,7 +6,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/toml_section.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::uintmax_t kMostLogoBytes = 1'000'000;  // it stands in every page
@@ -19,7 +19,7 @@ std::string type_of(const std::string& picture) {
   return start.find("<svg") != start.npos ? "image/svg+xml" : "";
 }
 
-std::string short_text(const TomlSection& file, const char* key) {
+std::string short_text(const formats::TomlSection& file, const char* key) {
   const std::string text = file.text(key).value_or("");
   if (text.size() > kMostLetters) {
     file.fail(key, "has " + std::to_string(text.size()) + " letters; at most " +
@@ -31,8 +31,8 @@ std::string short_text(const TomlSection& file, const char* key) {
 }  // namespace
 
 Project read_project(const std::filesystem::path& file) {
-  const toml::table table = parse_toml(read_file(file), file.string());
-  const TomlSection top(file.string(), "", table);
+  const toml::table table = formats::parse_toml(formats::read_file(file), file.string());
+  const formats::TomlSection top(file.string(), "", table);
   top.allow({"name", "author", "notes", "logo"});
   Project project{.name = short_text(top, "name"),
                   .author = short_text(top, "author"),
@@ -49,7 +49,7 @@ Project read_project(const std::filesystem::path& file) {
     top.fail("logo", "is \"" + logo + "\" with " + std::to_string(size) + " bytes; at most " +
                          std::to_string(kMostLogoBytes) + " are allowed");
   }
-  project.logo = read_file(picture);
+  project.logo = formats::read_file(picture);
   project.logo_type = type_of(project.logo);
   if (project.logo_type.empty()) {
     top.fail("logo", "is \"" + logo + "\", which is no PNG, JPEG or SVG picture");
@@ -57,4 +57,4 @@ Project read_project(const std::filesystem::path& file) {
   return project;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

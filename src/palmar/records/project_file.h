@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace palmar {
+namespace palmar::records {
 
 /// What a report is made for: stands over its first screen. All may be empty.
 struct Project {
@@ -28,4 +28,4 @@ struct Project {
 /// these or is too large.
 Project read_project(const std::filesystem::path& file);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -9,7 +9,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 namespace fs = std::filesystem;
@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 class ProjectFile : public ::testing::Test {
  protected:
   fs::path written(const std::string& text) const {
-    write_file(test_folder / "project.toml", text);
+    formats::write_file(test_folder / "project.toml", text);
     return test_folder / "project.toml";
   }
   std::string message(const std::string& text) const {
@@ -30,11 +30,11 @@ class ProjectFile : public ::testing::Test {
     }
     return "no error";
   }
-  TestFolder test_folder;
+  formats::TestFolder test_folder;
 };
 
 TEST_F(ProjectFile, HasNameAuthorNotesAndLogo) {
-  write_file(test_folder / "logo.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
+  formats::write_file(test_folder / "logo.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
   const Project project = read_project(written(
       "name = \"Knife\"\nauthor = \"Studio\"\nnotes = \"Second round.\"\nlogo = \"logo.svg\"\n"));
   EXPECT_EQ(project.name, "Knife");
@@ -49,13 +49,13 @@ TEST_F(ProjectFile, SaysWhatIsWrongWithLineAndKey) {
   EXPECT_THAT(message("nmae = \"x\"\n"), AllOf(HasSubstr("project.toml:1"), HasSubstr("name")));
   EXPECT_THAT(message("name = \"x\"\nlogo = \"nothing.png\"\n"),
               AllOf(HasSubstr("project.toml:2"), HasSubstr("nothing.png"), HasSubstr("read")));
-  write_file(test_folder / "text.png", "no picture");
+  formats::write_file(test_folder / "text.png", "no picture");
   EXPECT_THAT(message("logo = \"text.png\"\n"), HasSubstr("no PNG, JPEG or SVG"));
-  write_file(test_folder / "large.png", "\x89PNG\r\n\x1a\n" + std::string(1'000'001, 'x'));
+  formats::write_file(test_folder / "large.png", "\x89PNG\r\n\x1a\n" + std::string(1'000'001, 'x'));
   EXPECT_THAT(message("logo = \"large.png\"\n"), HasSubstr("at most 1000000"));
   EXPECT_THAT(message("notes = \"" + std::string(401, 'x') + "\"\n"), HasSubstr("401 letters"));
   EXPECT_THAT(message("name = 3\n"), HasSubstr("name"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

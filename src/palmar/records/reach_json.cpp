@@ -8,23 +8,23 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finger_object(const FingerReach& reach) {
+Json finger_object(const grasp::FingerReach& reach) {
   Json posture = Json::object();
-  for (int d = 0; d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
-    posture[std::string(name_of(dof)) + "_deg"] = reach.posture[dof] * kDegreesPerRadian;
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
+    posture[std::string(name_of(dof)) + "_deg"] = reach.posture[dof] * geometry::kDegreesPerRadian;
   }
   return {{"finger", name_of(reach.finger)},
           {"reached", reach.is_reached},
           {"blocked", reach.is_blocked},
           {"miss_mm", reach.miss},
-          {"tilt_deg", reach.tilt * kDegreesPerRadian},
-          {"margin_deg", reach.margin * kDegreesPerRadian},
+          {"tilt_deg", reach.tilt * geometry::kDegreesPerRadian},
+          {"margin_deg", reach.margin * geometry::kDegreesPerRadian},
           {"tightest", name_of(reach.tightest)},
           {"awkward", reach.is_awkward},
           {"grip_kept", reach.is_grip_kept},
@@ -33,12 +33,12 @@ Json finger_object(const FingerReach& reach) {
 
 }  // namespace
 
-std::string reach_json(const Grasp& grasp, const std::vector<ButtonReach>& buttons,
-                       const ReachMap* map, double surface_area) {
+std::string reach_json(const grasp::Grasp& grasp, const std::vector<grasp::ButtonReach>& buttons,
+                       const grasp::ReachMap* map, double surface_area) {
   Json list = Json::array();
-  for (const ButtonReach& reach : buttons) {
+  for (const grasp::ButtonReach& reach : buttons) {
     Json fingers = Json::array();
-    for (const FingerReach& one : reach.fingers) fingers.push_back(finger_object(one));
+    for (const grasp::FingerReach& one : reach.fingers) fingers.push_back(finger_object(one));
     list.push_back({{"name", reach.button.name},
                     {"point_mm", vector3(reach.button.point)},
                     {"force_n", vector3(reach.button.force)},
@@ -61,12 +61,14 @@ std::string reach_json(const Grasp& grasp, const std::vector<ButtonReach>& butto
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string format_reach_map(const TriangleMesh& surface, const ReachMap& map) {
-  PointField finger{"finger", {}, 1}, margin{"margin_deg", {}, 1}, miss{"miss_mm", map.miss, 1};
+std::string format_reach_map(const geometry::TriangleMesh& surface, const grasp::ReachMap& map) {
+  formats::PointField finger{"finger", {}, 1}, margin{"margin_deg", {}, 1},
+      miss{"miss_mm", map.miss, 1};
   for (const int f : map.finger) finger.value.push_back(f);
-  for (const double m : map.margin) margin.value.push_back(m * kDegreesPerRadian);
-  return format_vtp(surface, {finger, margin, miss},
-                    {{"finger", "-1 nobody, 0 thumb, 1 index, 2 middle, 3 ring, 4 little"}});
+  for (const double m : map.margin) margin.value.push_back(m * geometry::kDegreesPerRadian);
+  return formats::format_vtp(
+      surface, {finger, margin, miss},
+      {{"finger", "-1 nobody, 0 thumb, 1 index, 2 middle, 3 ring, 4 little"}});
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

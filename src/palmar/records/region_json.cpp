@@ -6,7 +6,7 @@
 #include "palmar/formats/json_reason.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -29,9 +29,10 @@ std::vector<Vec3> points_from(const Json& value) {
   return points;
 }
 
-FaceKind kind_from(const std::string& name) {
-  for (const FaceKind kind : {FaceKind::kPlane, FaceKind::kCylinder, FaceKind::kCone,
-                              FaceKind::kSphere, FaceKind::kTorus}) {
+product::FaceKind kind_from(const std::string& name) {
+  for (const product::FaceKind kind :
+       {product::FaceKind::kPlane, product::FaceKind::kCylinder, product::FaceKind::kCone,
+        product::FaceKind::kSphere, product::FaceKind::kTorus}) {
     if (name_of(kind) == name) return kind;
   }
   throw InputError("region: \"" + name + "\" is no simple surface");
@@ -44,7 +45,7 @@ void for_each(const Json& request, const char* key, const Read& read) {
   try {
     for (const Json& one : request.at(key)) read(one);
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(std::string("region: ") + key + ": " + json_reason(error));
+    throw InputError(std::string("region: ") + key + ": " + formats::json_reason(error));
   }
 }
 
@@ -52,7 +53,7 @@ void for_each(const Json& request, const char* key, const Read& read) {
 
 Json region_request(const std::vector<NamedCurve>& curves,
                     const std::vector<NamedSurface>& surfaces,
-                    const std::vector<RidgeRelief>& reliefs) {
+                    const std::vector<redesign::RidgeRelief>& reliefs) {
   Json request = {
       {"curves", Json::array()}, {"surfaces", Json::array()}, {"reliefs", Json::array()}};
   for (const NamedCurve& one : curves) {
@@ -60,7 +61,7 @@ Json region_request(const std::vector<NamedCurve>& curves,
         {{"name", one.name}, {"colour", one.colour}, {"points_mm", json_of(one.points)}});
   }
   for (const NamedSurface& one : surfaces) {
-    const SimpleSurface& s = one.surface;
+    const redesign::SimpleSurface& s = one.surface;
     request["surfaces"].push_back({{"name", one.name},
                                    {"colour", one.colour},
                                    {"kind", name_of(s.kind)},
@@ -68,17 +69,17 @@ Json region_request(const std::vector<NamedCurve>& curves,
                                    {"axis", json_of(s.axis)},
                                    {"radius_mm", s.radius},
                                    {"tube_radius_mm", s.tube_radius},
-                                   {"half_angle_deg", s.half_angle / kDegree},
+                                   {"half_angle_deg", s.half_angle / geometry::kDegree},
                                    {"points_mm", json_of(one.points)},
                                    {"outline_mm", json_of(one.outline)}});
   }
-  for (const RidgeRelief& one : reliefs) {
+  for (const redesign::RidgeRelief& one : reliefs) {
     request["reliefs"].push_back({{"name", one.name},
                                   {"start_mm", json_of(one.start)},
                                   {"end_mm", json_of(one.end)},
                                   {"outward", json_of(one.outward)},
                                   {"radius_mm", one.radius},
-                                  {"half_angle_deg", one.half_angle / kDegree},
+                                  {"half_angle_deg", one.half_angle / geometry::kDegree},
                                   {"run_out_mm", one.run_out},
                                   {"depth_mm", one.depth},
                                   {"radius_before_mm", one.radius_before},
@@ -101,13 +102,13 @@ std::vector<NamedCurve> region_curves(const Json& request) {
 std::vector<NamedSurface> region_surfaces(const Json& request) {
   std::vector<NamedSurface> surfaces;
   for_each(request, "surfaces", [&](const Json& one) {
-    SimpleSurface s;
+    redesign::SimpleSurface s;
     s.kind = kind_from(one.at("kind").get<std::string>());
     s.point = vector_from(one.at("point_mm"));
     s.axis = vector_from(one.at("axis"));
     s.radius = one.at("radius_mm").get<double>();
     s.tube_radius = one.at("tube_radius_mm").get<double>();
-    s.half_angle = one.at("half_angle_deg").get<double>() * kDegree;
+    s.half_angle = one.at("half_angle_deg").get<double>() * geometry::kDegree;
     surfaces.push_back({.name = one.at("name").get<std::string>(),
                         .colour = one.at("colour").get<std::array<float, 3>>(),
                         .surface = s,
@@ -117,16 +118,16 @@ std::vector<NamedSurface> region_surfaces(const Json& request) {
   return surfaces;
 }
 
-std::vector<RidgeRelief> region_reliefs(const Json& request) {
-  std::vector<RidgeRelief> reliefs;
+std::vector<redesign::RidgeRelief> region_reliefs(const Json& request) {
+  std::vector<redesign::RidgeRelief> reliefs;
   for_each(request, "reliefs", [&](const Json& one) {
-    RidgeRelief relief;
+    redesign::RidgeRelief relief;
     relief.name = one.at("name").get<std::string>();
     relief.start = vector_from(one.at("start_mm"));
     relief.end = vector_from(one.at("end_mm"));
     relief.outward = vector_from(one.at("outward"));
     relief.radius = one.at("radius_mm").get<double>();
-    relief.half_angle = one.at("half_angle_deg").get<double>() * kDegree;
+    relief.half_angle = one.at("half_angle_deg").get<double>() * geometry::kDegree;
     relief.run_out = one.at("run_out_mm").get<double>();
     relief.depth = one.at("depth_mm").get<double>();
     relief.radius_before = one.at("radius_before_mm").get<double>();
@@ -137,4 +138,4 @@ std::vector<RidgeRelief> region_reliefs(const Json& request) {
   return reliefs;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -10,7 +10,7 @@
 #include "palmar/redesign/ridge_relief.h"
 #include "palmar/redesign/surface_fit.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// A closed curve through points, for CAD.
 struct NamedCurve {
@@ -23,7 +23,7 @@ struct NamedCurve {
 struct NamedSurface {
   std::string name;
   std::array<float, 3> colour{};
-  SimpleSurface surface;
+  redesign::SimpleSurface surface;
   std::vector<Vec3> points;   ///< that it covers, mm; near the surface
   std::vector<Vec3> outline;  ///< that it ends at, projected onto the surface; may be empty
 };
@@ -32,9 +32,9 @@ struct NamedSurface {
 // "curves", "surfaces", "reliefs" of its request. Reading what isn't so throws InputError.
 nlohmann::ordered_json region_request(const std::vector<NamedCurve>& curves,
                                       const std::vector<NamedSurface>& surfaces,
-                                      const std::vector<RidgeRelief>& reliefs);
+                                      const std::vector<redesign::RidgeRelief>& reliefs);
 std::vector<NamedCurve> region_curves(const nlohmann::ordered_json& request);
 std::vector<NamedSurface> region_surfaces(const nlohmann::ordered_json& request);
-std::vector<RidgeRelief> region_reliefs(const nlohmann::ordered_json& request);
+std::vector<redesign::RidgeRelief> region_reliefs(const nlohmann::ordered_json& request);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -18,7 +18,7 @@
 #include "palmar/records/hand/hand_json.h"
 #include "palmar/records/press_json.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::ElementsAre;
@@ -26,13 +26,13 @@ using ::testing::HasSubstr;
 using PlainJson = nlohmann::json;
 
 TEST(Base64, HasTheTestVectorsOfRfc4648) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foob"), "Zm9vYg==");
-  EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(formats::base64(""), "");
+  EXPECT_EQ(formats::base64("f"), "Zg==");
+  EXPECT_EQ(formats::base64("fo"), "Zm8=");
+  EXPECT_EQ(formats::base64("foo"), "Zm9v");
+  EXPECT_EQ(formats::base64("foob"), "Zm9vYg==");
+  EXPECT_EQ(formats::base64("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(formats::base64("foobar"), "Zm9vYmFy");
 }
 
 /// Bytes of a base64 text, by the table of RFC 4648.
@@ -59,19 +59,21 @@ std::vector<T> vtp_array(const std::string& vtp, const std::string& name) {
   const std::size_t offset = std::stoul(vtp.substr(key));
   const std::size_t data = vtp.find("<AppendedData encoding=\"base64\">\n_") + 34;
   const std::string_view block(vtp.data() + data + offset, vtp.size() - data - offset);
-  const auto length = read_value<std::uint64_t>(decoded(block.substr(0, 12)), 0);
+  const auto length = formats::read_value<std::uint64_t>(decoded(block.substr(0, 12)), 0);
   const std::string raw = decoded(block.substr(0, (length + 8 + 2) / 3 * 4)).substr(8, length);
   std::vector<T> values;
-  for (std::size_t i = 0; i < raw.size(); i += sizeof(T)) values.push_back(read_value<T>(raw, i));
+  for (std::size_t i = 0; i < raw.size(); i += sizeof(T))
+    values.push_back(formats::read_value<T>(raw, i));
   return values;
 }
 
 TEST(Vtp, PointsTrianglesAndFieldsReadBackExactly) {
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1.0 / 3.0, 0, 0}, {0, 1e-9, 0}, {0, 0, 5}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const std::string vtp = format_vtp(
-      mesh, {{"pressure_mpa", {0.1, 0.2, 0.3, 0.4}, 1}, vector_field("motion_mm", mesh.vertices)});
+  const std::string vtp =
+      formats::format_vtp(mesh, {{"pressure_mpa", {0.1, 0.2, 0.3, 0.4}, 1},
+                                 formats::vector_field("motion_mm", mesh.vertices)});
   EXPECT_THAT(vtp, HasSubstr("NumberOfPoints=\"4\""));
   EXPECT_THAT(vtp, HasSubstr("NumberOfPolys=\"2\""));
   EXPECT_THAT(vtp, HasSubstr("<PointData Scalars=\"pressure_mpa\">"));
@@ -84,8 +86,8 @@ TEST(Vtp, PointsTrianglesAndFieldsReadBackExactly) {
 }
 
 TEST(Vtp, FieldsThatDontFitAreRefused) {
-  EXPECT_EQ(message_of<Error>([] {
-              format_vtp(box_mesh({1, 1, 1}), {{"force_n", {1, 2}, 1}});
+  EXPECT_EQ(formats::message_of<Error>([] {
+              formats::format_vtp(formats::box_mesh({1, 1, 1}), {{"force_n", {1, 2}, 1}});
             }),
             "field \"force_n\": 2 numbers; 1 for each of 8 vertices are required");
 }
@@ -93,34 +95,34 @@ TEST(Vtp, FieldsThatDontFitAreRefused) {
 TEST(Csv, QuotesWhatRfc4180Quotes) {
   EXPECT_EQ(format_csv({{"name", "force_n"}, {{"plain", "1.5"}, {"a,\"b\"", "line\nbreak"}}}),
             "name,force_n\nplain,1.5\n\"a,\"\"b\"\"\",\"line\nbreak\"\n");
-  EXPECT_EQ(message_of<Error>([] {
+  EXPECT_EQ(formats::message_of<Error>([] {
               format_csv({{"a", "b"}, {{"1"}}});
             }),
             "table row 1 has 1 cells; 2 are required");
 }
 
-AssessmentSet example() {
-  auto hand = std::make_shared<Hand>();
+study::AssessmentSet example() {
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "template";
   hand->dimensions.hand_length = 190.0;
-  Assessment assessment;
+  study::Assessment assessment;
   assessment.hand_name = "template";
-  Grasp& grasp = assessment.grasp;
-  grasp.status = GraspStatus::kHeld;
-  grasp.posture[Dof::kIndexPipFlexion] = std::numbers::pi / 4.0;
+  grasp::Grasp& grasp = assessment.grasp;
+  grasp.status = grasp::GraspStatus::kHeld;
+  grasp.posture[hand::Dof::kIndexPipFlexion] = std::numbers::pi / 4.0;
   // A quarter turn about z: x -> y, then +10 in x.
   grasp.product_from_hand = {Quat(Eigen::AngleAxisd(std::numbers::pi / 2.0, Vec3::UnitZ())),
                              Vec3(10, 0, 0)};
-  for (int s = 0; s < kSegmentCount; ++s) {
-    grasp.stops[s].segment = static_cast<Segment>(s);
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    grasp.stops[s].segment = static_cast<hand::Segment>(s);
   }
-  grasp.stops[5] = {static_cast<Segment>(5), StopReason::kLimitDepth, 4.0};
-  ContactResult& contact = assessment.contact;
-  contact.status = ContactStatus::kSolved;
+  grasp.stops[5] = {static_cast<hand::Segment>(5), grasp::StopReason::kLimitDepth, 4.0};
+  contact::ContactResult& contact = assessment.contact;
+  contact.status = contact::ContactStatus::kSolved;
   contact.complementarity_error = 1e-12;
   contact.fallbacks.dense_solutions = 2;
-  RegionContact region;
-  region.region = Region::kIndexDistal;
+  contact::RegionContact region;
+  region.region = hand::Region::kIndexDistal;
   region.force = 0.1 + 0.2;  // 0.30000000000000004
   region.area = 100.0;
   region.peak_pressure = 0.25;
@@ -129,11 +131,11 @@ AssessmentSet example() {
   contact.total = region;
   assessment.options.seed = 18446744073709551615u;
   assessment.options.grasp.power.placement.turn = std::numbers::pi;
-  Product product;
+  product::Product product;
   product.name = "handle \xff";  // no UTF-8
-  product.mesh = box_mesh({120, 30, 20});
-  product.unit = LengthUnit::kInch;
-  product.unit_source = UnitSource::kUser;
+  product.mesh = formats::box_mesh({120, 30, 20});
+  product.unit = geometry::LengthUnit::kInch;
+  product.unit_source = product::UnitSource::kUser;
   return {hand, {{product, assessment}}, "palmar assess handle.stl"};
 }
 
@@ -193,17 +195,17 @@ TEST(AssessmentJson, ThePlacementMapsHandPointsToTheProduct) {
 }
 
 TEST(PressJson, HasTheShapeThatOtherProgramsRelyOn) {
-  PressStep step;
+  contact::PressStep step;
   step.depth = 1.5;
   step.force = 0.1 + 0.2;
   step.area = 20.0;
   step.peak_pressure = 0.03;
-  PressOptions options;
-  options.indenter = {PressIndenter::Kind::kTwoPunches, 2.0, 10.0};
-  options.coating = Coating{1.5, 0.2, 0.4, {}};
+  contact::PressOptions options;
+  options.indenter = {contact::PressIndenter::Kind::kTwoPunches, 2.0, 10.0};
+  options.coating = contact::Coating{1.5, 0.2, 0.4, {}};
   options.layer_thickness = 6.0;
   PressSetting setting;
-  setting.model.tissue = TissueModel::kLayered;
+  setting.model.tissue = contact::TissueModel::kLayered;
   const PlainJson json = PlainJson::parse(press_json(options, setting, {step, step}));
   EXPECT_EQ(json["test"]["specimen"], "plane");
   EXPECT_EQ(json["test"]["indenter"], "punches:2,10");
@@ -223,7 +225,7 @@ TEST(PressJson, HasTheShapeThatOtherProgramsRelyOn) {
 }
 
 TEST(PressTable, HasOneRowPerStepAndUnitsInTheHeader) {
-  PressStep step;
+  contact::PressStep step;
   step.depth = 1.5;
   step.force = 0.1 + 0.2;
   const CsvTable table = press_table({step, step, step});
@@ -249,7 +251,7 @@ TEST(RegionTable, HasOneRowPerRegionAndATotal) {
 }
 
 TEST(RegionTable, DistinguishesProductsOfOneNameBySource) {
-  AssessmentSet set = example();
+  study::AssessmentSet set = example();
   set.assessments.push_back(set.assessments[0]);
   set.assessments[0].product.source = "old/handle.stl";
   set.assessments[1].product.source = "new/handle, 2.stl";
@@ -268,7 +270,7 @@ TEST(Csv, BrokenBytesAreReplacedAsInJson) {
 }
 
 TEST(HandJson, TakesNamesThatAreNoUtf8) {
-  Hand hand;
+  hand::Hand hand;
   hand.name = "hand \xff";
   EXPECT_EQ(PlainJson::parse(hand_info_json(hand))["name"], "hand \xef\xbf\xbd");
 }
@@ -282,4 +284,4 @@ TEST(AssessmentJson, IsDistinguishedFromOtherJson) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -4,7 +4,7 @@
 
 #include <sqlite3.h>
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 [[noreturn]] void fail(sqlite3* handle, int code) {
@@ -126,4 +126,4 @@ bool SqliteStatement::is_null(int column) const {
   return sqlite3_column_type(statement_, column) == SQLITE_NULL;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

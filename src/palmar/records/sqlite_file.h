@@ -11,7 +11,7 @@
 struct sqlite3;
 struct sqlite3_stmt;
 
-namespace palmar {
+namespace palmar::records {
 
 /// What SQLite says when it can't; callers turn it into an Error with the file's name.
 struct SqliteFailure : std::runtime_error {
@@ -73,4 +73,4 @@ class SqliteStatement {
   sqlite3_stmt* statement_ = nullptr;
 };
 
-}  // namespace palmar
+}  // namespace palmar::records

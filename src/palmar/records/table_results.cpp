@@ -11,7 +11,7 @@
 #include "palmar/records/json_values.h"
 #include "palmar/statistics/paired_test.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using nlohmann::ordered_json;
@@ -39,18 +39,18 @@ std::string results_json(const TableResults<Result>& results, const Fill& fill) 
   return json_file_text(json);
 }
 
-ordered_json interval(const std::optional<Interval>& ends) {
+ordered_json interval(const std::optional<statistics::Interval>& ends) {
   return ends ? ordered_json{ends->low, ends->high} : ordered_json(nullptr);
 }
 
-ordered_json description(const ColumnDescription& d) {
+ordered_json description(const population::ColumnDescription& d) {
   ordered_json one;
   one["name"] = d.name;
   one["unit"] = d.unit;
   one["n"] = d.summary ? d.summary->n : 0;
   one["missing"] = d.missing;
   if (!d.summary) return one;
-  const Summary& s = *d.summary;
+  const statistics::Summary& s = *d.summary;
   one[key("mean", d.unit)] = s.mean;
   one[key("mean_interval", d.unit)] = interval(s.mean_interval);
   // One person has no deviation.
@@ -59,8 +59,8 @@ ordered_json description(const ColumnDescription& d) {
       s.n > 1 ? ordered_json(s.standard_error) : ordered_json(nullptr);
   one[key("min", d.unit)] = s.min;
   ordered_json& percentiles = one[key("percentiles", d.unit)];
-  for (std::size_t i = 0; i < kTablePercentiles.size(); ++i) {
-    percentiles["p" + shortest(kTablePercentiles[i])] = d.percentiles[i];
+  for (std::size_t i = 0; i < population::kTablePercentiles.size(); ++i) {
+    percentiles["p" + formats::shortest(population::kTablePercentiles[i])] = d.percentiles[i];
   }
   one[key("max", d.unit)] = s.max;
   one["skewness"] = or_null(s.skewness);
@@ -68,26 +68,26 @@ ordered_json description(const ColumnDescription& d) {
   return one;
 }
 
-ordered_json coefficient(const Coefficient& c) {
+ordered_json coefficient(const statistics::Coefficient& c) {
   return {{"estimate", c.estimate},
           {"standard_error", c.standard_error},
           {"t", c.t},
           {"p_value", c.p_value}};
 }
 
-std::string name_of_status(FitStatus status) {
+std::string name_of_status(statistics::FitStatus status) {
   switch (status) {
-    case FitStatus::kFitted:
+    case statistics::FitStatus::kFitted:
       return "fitted";
-    case FitStatus::kExact:
+    case statistics::FitStatus::kExact:
       return "exact";
-    case FitStatus::kConstantY:
+    case statistics::FitStatus::kConstantY:
       break;
   }
   return "constant";
 }
 
-ordered_json regression(const TableRegression& r, bool is_best) {
+ordered_json regression(const population::TableRegression& r, bool is_best) {
   ordered_json one;
   one["dimension"] = r.name;
   one["unit"] = r.unit;
@@ -96,7 +96,8 @@ ordered_json regression(const TableRegression& r, bool is_best) {
   one["status"] = name_of_status(r.fit.status);
   one["intercept"] = coefficient(r.fit.intercept);
   one["slopes"] = ordered_json::array();
-  for (const Coefficient& slope : r.fit.slopes) one["slopes"].push_back(coefficient(slope));
+  for (const statistics::Coefficient& slope : r.fit.slopes)
+    one["slopes"].push_back(coefficient(slope));
   one["r2"] = r.fit.r2;
   one["adjusted_r2"] = r.fit.adjusted_r2;
   one[key("residual_sd", r.unit)] = r.fit.residual_sd;
@@ -106,31 +107,32 @@ ordered_json regression(const TableRegression& r, bool is_best) {
   return one;
 }
 
-bool is_best(const std::vector<TableRegression>& all, std::size_t place) {
-  return best_predictor(all, all[place].name) == static_cast<int>(place);
+bool is_best(const std::vector<population::TableRegression>& all, std::size_t place) {
+  return population::best_predictor(all, all[place].name) == static_cast<int>(place);
 }
 
-std::string end_of(const std::optional<Interval>& ends, bool is_low) {
-  return ends ? shortest(is_low ? ends->low : ends->high) : "";
+std::string end_of(const std::optional<statistics::Interval>& ends, bool is_low) {
+  return ends ? formats::shortest(is_low ? ends->low : ends->high) : "";
 }
 
 }  // namespace
 
-std::vector<double> adjusted_p_values(const TableCorrelation& correlation) {
+std::vector<double> adjusted_p_values(const population::TableCorrelation& correlation) {
   std::vector<double> p;
   for (const auto& pair : correlation.pairs) p.push_back(pair.pearson.p_value);
-  return holm(p);
+  return statistics::holm(p);
 }
 
 std::string descriptions_json(const Descriptions& descriptions) {
   return results_json(descriptions, [](ordered_json& group, const auto& columns) {
     group["dimensions"] = ordered_json::array();
-    for (const ColumnDescription& d : columns) group["dimensions"].push_back(description(d));
+    for (const population::ColumnDescription& d : columns)
+      group["dimensions"].push_back(description(d));
   });
 }
 
 std::string correlations_json(const Correlations& correlations) {
-  return results_json(correlations, [](ordered_json& group, const TableCorrelation& c) {
+  return results_json(correlations, [](ordered_json& group, const population::TableCorrelation& c) {
     const std::vector<double> adjusted = adjusted_p_values(c);
     group["pairs"] = ordered_json::array();
     for (std::size_t i = 0; i < c.pairs.size(); ++i) {
@@ -162,22 +164,24 @@ CsvTable descriptions_csv(const Descriptions& descriptions) {
   CsvTable table;
   table.header = {"group",     "dimension", "unit",           "n",  "missing", "mean", "mean_low",
                   "mean_high", "sd",        "standard_error", "min"};
-  for (const double p : kTablePercentiles) table.header.push_back("p" + shortest(p));
+  for (const double p : population::kTablePercentiles)
+    table.header.push_back("p" + formats::shortest(p));
   for (const char* name : {"max", "skewness", "excess_kurtosis"}) table.header.emplace_back(name);
   for (const auto& group : descriptions.groups) {
-    for (const ColumnDescription& d : group.result) {
+    for (const population::ColumnDescription& d : group.result) {
       std::vector<std::string> row = {group.name, d.name, d.unit,
                                       std::to_string(d.summary ? d.summary->n : 0),
                                       std::to_string(d.missing)};
       if (d.summary) {
-        const Summary& s = *d.summary;
-        row.insert(row.end(), {shortest(s.mean), end_of(s.mean_interval, true),
-                               end_of(s.mean_interval, false), s.n > 1 ? shortest(s.sd) : "",
-                               s.n > 1 ? shortest(s.standard_error) : "", shortest(s.min)});
-        for (const double p : d.percentiles) row.push_back(shortest(p));
-        row.push_back(shortest(s.max));
-        row.push_back(s.skewness ? shortest(*s.skewness) : "");
-        row.push_back(s.excess_kurtosis ? shortest(*s.excess_kurtosis) : "");
+        const statistics::Summary& s = *d.summary;
+        row.insert(row.end(),
+                   {formats::shortest(s.mean), end_of(s.mean_interval, true),
+                    end_of(s.mean_interval, false), s.n > 1 ? formats::shortest(s.sd) : "",
+                    s.n > 1 ? formats::shortest(s.standard_error) : "", formats::shortest(s.min)});
+        for (const double p : d.percentiles) row.push_back(formats::shortest(p));
+        row.push_back(formats::shortest(s.max));
+        row.push_back(s.skewness ? formats::shortest(*s.skewness) : "");
+        row.push_back(s.excess_kurtosis ? formats::shortest(*s.excess_kurtosis) : "");
       }
       row.resize(table.header.size());
       table.rows.push_back(std::move(row));
@@ -192,15 +196,16 @@ CsvTable correlations_csv(const Correlations& correlations) {
                   "r_low",           "r_high", "p_value", "p_holm", "spearman_rho",
                   "spearman_p_value"};
   for (const auto& group : correlations.groups) {
-    const TableCorrelation& c = group.result;
+    const population::TableCorrelation& c = group.result;
     const std::vector<double> adjusted = adjusted_p_values(c);
     for (std::size_t i = 0; i < c.pairs.size(); ++i) {
       const auto& pair = c.pairs[i];
       table.rows.push_back(
           {group.name, c.names[pair.a], c.names[pair.b], std::to_string(pair.pearson.n),
-           shortest(pair.pearson.r), end_of(pair.pearson.interval, true),
-           end_of(pair.pearson.interval, false), shortest(pair.pearson.p_value),
-           shortest(adjusted[i]), shortest(pair.spearman.r), shortest(pair.spearman.p_value)});
+           formats::shortest(pair.pearson.r), end_of(pair.pearson.interval, true),
+           end_of(pair.pearson.interval, false), formats::shortest(pair.pearson.p_value),
+           formats::shortest(adjusted[i]), formats::shortest(pair.spearman.r),
+           formats::shortest(pair.spearman.p_value)});
     }
   }
   return table;
@@ -214,16 +219,18 @@ CsvTable regressions_csv(const Regressions& regressions) {
                   "residual_sd", "f",         "f_p_value", "is_best_single"};
   for (const auto& group : regressions.groups) {
     for (std::size_t i = 0; i < group.result.size(); ++i) {
-      const TableRegression& r = group.result[i];
+      const population::TableRegression& r = group.result[i];
       // One row per number: the intercept, then the slopes.
       for (std::size_t k = 0; k <= r.predictors.size(); ++k) {
-        const Coefficient& c = k == 0 ? r.fit.intercept : r.fit.slopes[k - 1];
+        const statistics::Coefficient& c = k == 0 ? r.fit.intercept : r.fit.slopes[k - 1];
         table.rows.push_back({group.name, r.name, r.unit, joined(r.predictors, "+"),
                               std::to_string(r.fit.n), k == 0 ? "intercept" : r.predictors[k - 1],
-                              shortest(c.estimate), shortest(c.standard_error), shortest(c.t),
-                              shortest(c.p_value), shortest(r.fit.r2), shortest(r.fit.adjusted_r2),
-                              shortest(r.fit.residual_sd), shortest(r.fit.f),
-                              shortest(r.fit.f_p_value), is_best(group.result, i) ? "yes" : "no"});
+                              formats::shortest(c.estimate), formats::shortest(c.standard_error),
+                              formats::shortest(c.t), formats::shortest(c.p_value),
+                              formats::shortest(r.fit.r2), formats::shortest(r.fit.adjusted_r2),
+                              formats::shortest(r.fit.residual_sd), formats::shortest(r.fit.f),
+                              formats::shortest(r.fit.f_p_value),
+                              is_best(group.result, i) ? "yes" : "no"});
       }
     }
   }
@@ -236,4 +243,4 @@ std::string p_text(double p_value) {
   return fmt::format("{:.3f}", p_value);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -8,7 +8,7 @@
 #include "palmar/population/table_statistics.h"
 #include "palmar/records/csv.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// What was found in each group of a table of subjects.
 template <typename Result>
@@ -24,9 +24,9 @@ struct TableResults {
   };
   std::vector<Group> groups;
 };
-using Descriptions = TableResults<std::vector<ColumnDescription>>;
-using Correlations = TableResults<TableCorrelation>;
-using Regressions = TableResults<std::vector<TableRegression>>;
+using Descriptions = TableResults<std::vector<population::ColumnDescription>>;
+using Correlations = TableResults<population::TableCorrelation>;
+using Regressions = TableResults<std::vector<population::TableRegression>>;
 
 /// JSON of the command line: keys carry the units ("mean_mm"); docs/using/populations.md.
 std::string descriptions_json(const Descriptions& descriptions);
@@ -42,6 +42,6 @@ CsvTable regressions_csv(const Regressions& regressions);
 std::string p_text(double p_value);
 
 /// Holm's adjustment of Pearson's p values over the pairs of one group, in their order.
-std::vector<double> adjusted_p_values(const TableCorrelation& correlation);
+std::vector<double> adjusted_p_values(const population::TableCorrelation& correlation);
 
-}  // namespace palmar
+}  // namespace palmar::records

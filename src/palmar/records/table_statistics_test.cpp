@@ -14,7 +14,7 @@
 #include "palmar/records/population/dimension_table_file.h"
 #include "palmar/records/population/population_file.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using testing::AllOf;
@@ -22,15 +22,15 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-DimensionTable parsed_table(const std::string& text) {
+population::DimensionTable parsed_table(const std::string& text) {
   return parse_dimension_table(text, "t.csv");
 }
 
 /// The survey's own table, which isn't part of the repository.
-const DimensionTable* ansur2() {
+const population::DimensionTable* ansur2() {
   static const std::string path =
       std::string(PALMAR_SHARED_DIR) + "/reference/anatomy/ansur2_hand.csv";
-  static const std::optional<DimensionTable> table =
+  static const std::optional<population::DimensionTable> table =
       std::filesystem::exists(path) ? std::optional(read_dimension_table(path)) : std::nullopt;
   return table ? &*table : nullptr;
 }
@@ -39,9 +39,9 @@ const DimensionTable* ansur2() {
   GTEST_SKIP() << "../shared/reference/anatomy/ansur2_hand.csv is not " \
                   "here"
 
-std::vector<TableGroup> by_sex() {
+std::vector<population::TableGroup> by_sex() {
   std::vector<std::string> notes;
-  return grouped(*ansur2(), "sex", notes);
+  return population::grouped(*ansur2(), "sex", notes);
 }
 
 // Figures of the next three tests: ANSUR II public data (Gordon et al. 2014, 2012 Anthropometric
@@ -73,8 +73,9 @@ TEST(TableStatistics, DescribesTheSurveyAsPublished) {
                                {"F", "wrist_circumference", 1986, 154.79, 7.828, 124, 138.0, 142.2,
                                 150.0, 154.0, 160.0, 168.0, 174.0, 183, 0.248, 0.203}};
   for (const Published& p : figures) {
-    const DimensionTable part = where(*ansur2(), std::string("sex=") + p.group);
-    const ColumnDescription d = describe(part, {p.dimension}).front();
+    const population::DimensionTable part =
+        population::where(*ansur2(), std::string("sex=") + p.group);
+    const population::ColumnDescription d = population::describe(part, {p.dimension}).front();
     SCOPED_TRACE(std::string(p.group) + " " + p.dimension);
     EXPECT_EQ(d.summary->n, p.n);
     EXPECT_EQ(d.missing, 0);
@@ -112,9 +113,9 @@ TEST(TableStatistics, CorrelatesTheSurveyAsPublished) {
       {"", "hand_length", "hand_circumference", 0.7036, 0.6906, 0.7160},
       {"", "hand_width", "hand_circumference", 0.9630, 0.9611, 0.9648}};
   for (const Pair& p : figures) {
-    const DimensionTable part =
-        *p.group == '\0' ? *ansur2() : where(*ansur2(), std::string("sex=") + p.group);
-    const TableCorrelation c = correlate(part, {p.a, p.b});
+    const population::DimensionTable part =
+        *p.group == '\0' ? *ansur2() : population::where(*ansur2(), std::string("sex=") + p.group);
+    const population::TableCorrelation c = population::correlate(part, {p.a, p.b});
     ASSERT_THAT(c.pairs, SizeIs(1));
     EXPECT_NEAR(c.pairs[0].pearson.r, p.r, 0.000051) << p.group << p.a << p.b;
     EXPECT_NEAR(c.pairs[0].pearson.interval->low, p.low, 0.000051);
@@ -140,13 +141,15 @@ TEST(TableStatistics, RegressesTheSurveyAsPublished) {
                           {"", "hand_width", {0.0, 0.39301}, 4.835, 0.9274, 1.710}};
   const char* names[] = {"hand_length", "hand_circumference"};
   for (const Line& line : figures) {
-    const DimensionTable part =
-        *line.group == '\0' ? *ansur2() : where(*ansur2(), std::string("sex=") + line.group);
+    const population::DimensionTable part =
+        *line.group == '\0' ? *ansur2()
+                            : population::where(*ansur2(), std::string("sex=") + line.group);
     std::vector<std::string> predictors;
     for (std::size_t k = 0; k < 2; ++k) {
       if (line.slopes[k] != 0.0) predictors.emplace_back(names[k]);
     }
-    const TableRegression r = regress(part, predictors, {line.dimension}).back();
+    const population::TableRegression r =
+        population::regress(part, predictors, {line.dimension}).back();
     SCOPED_TRACE(std::string(line.group) + " " + line.dimension);
     ASSERT_EQ(r.predictors, predictors);
     EXPECT_NEAR(r.fit.intercept.estimate, line.intercept, 0.00051);
@@ -158,111 +161,127 @@ TEST(TableStatistics, RegressesTheSurveyAsPublished) {
     EXPECT_NEAR(r.fit.r2, line.r2, 0.000051);
     EXPECT_NEAR(r.fit.residual_sd, line.rmse, 0.0011);  // published over n, ours over n - 1 - k
   }
-  const auto all = regress(where(*ansur2(), "sex=M"), usual_predictors(*ansur2()));
-  const auto best = [&](const char* name) { return all[best_predictor(all, name)].predictors[0]; };
+  const auto all = population::regress(population::where(*ansur2(), "sex=M"),
+                                       population::usual_predictors(*ansur2()));
+  const auto best = [&](const char* name) {
+    return all[population::best_predictor(all, name)].predictors[0];
+  };
   EXPECT_EQ(best("hand_width"), "hand_circumference");
   EXPECT_EQ(best("palm_length"), "hand_length");
 }
 
 TEST(TablePopulation, OfTheSurveyKeepsItsMoments) {
   NEED_ANSUR2();
-  const Population population =
-      population_of_table(by_sex(), {"hand_length", "hand_circumference"}, "survey", "The survey");
+  const population::Population population = population::population_of_table(
+      by_sex(), {"hand_length", "hand_circumference"}, "survey", "The survey");
   ASSERT_THAT(population.strata, SizeIs(2));
-  const Stratum& women = population.strata[0];
-  EXPECT_EQ(women.sex, Sex::kFemale);
+  const population::Stratum& women = population.strata[0];
+  EXPECT_EQ(women.sex, grasp::Sex::kFemale);
   EXPECT_NEAR(women.share, 1986.0 / 6068.0, 1e-12);
   EXPECT_NEAR(women.driving[0].mean, 181.08, 0.0051);
   EXPECT_NEAR(women.correlation(0, 1), 0.5623, 0.000051);
   // A regression with its residual gives back mean and deviation of what it predicts.
-  const auto width = moments_of(women, {DimensionKind::kHandWidth});
+  const auto width = population::moments_of(women, {hand::DimensionKind::kHandWidth});
   ASSERT_TRUE(width);
   EXPECT_NEAR(width->mean, 78.15, 0.0051);
   EXPECT_NEAR(width->sd, 3.843, 0.005);
   // The survey's palm reaches further than ours: its mean is the template's 97.2 of 176.1 mm, its
   // coefficient of variation the survey's (Gordon et al. 2014: 108.9, SD 5.8 mm of 181.1 mm).
-  const auto palm = moments_of(women, {DimensionKind::kSegmentLength, Segment::kPalm});
+  const auto palm =
+      population::moments_of(women, {hand::DimensionKind::kSegmentLength, hand::Segment::kPalm});
   ASSERT_TRUE(palm);
   EXPECT_NEAR(palm->mean, 181.08 * 97.2 / 176.1, 0.01);
-  const ColumnDescription measured = describe(where(*ansur2(), "sex=F"), {"palm_length"})[0];
+  const population::ColumnDescription measured =
+      population::describe(population::where(*ansur2(), "sex=F"), {"palm_length"})[0];
   EXPECT_NEAR(palm->sd / palm->mean, measured.summary->sd / measured.summary->mean, 2e-5);
   EXPECT_THAT(population.cautions, Contains(HasSubstr("palm_length is measured as 60.")));
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const std::string path = (folder / "survey.toml").string();
   write_population(path, population);
-  const Population back = read_population(path);
+  const population::Population back = read_population(path);
   EXPECT_EQ(population_toml(back), population_toml(population));
 }
 
 TEST(TableStatistics, LeavesOutPairsThatAreNotComplete) {
-  const DimensionTable table =
+  const population::DimensionTable table =
       parsed_table("hand_length_mm,hand_width_mm\n180,80\n190,NA\n185,84\n,90\n200,92\n195,86\n");
-  const TableCorrelation c = correlate(table);
+  const population::TableCorrelation c = population::correlate(table);
   EXPECT_EQ(c.pairs[0].pearson.n, 4);
-  const auto r = regress(table, {"hand_length"});
+  const auto r = population::regress(table, {"hand_length"});
   EXPECT_EQ(r[0].fit.n, 4);
-  EXPECT_EQ(describe(table)[0].missing, 1);
+  EXPECT_EQ(population::describe(table)[0].missing, 1);
 }
 
 TEST(TableStatistics, FewSubjectsAreDescribedButNotCorrelated) {
-  const DimensionTable two = parsed_table("hand_length_mm,hand_width_mm\n180,80\n190,80\n");
-  EXPECT_DOUBLE_EQ(describe(two)[0].summary->mean, 185.0);
-  EXPECT_EQ(describe(parsed_table("hand_length_mm\n180\n"))[0].summary->n, 1);
-  EXPECT_THAT(message_of<InputError>([&] { correlate(two); }), HasSubstr("at least 3 are needed"));
-  EXPECT_THAT(message_of<InputError>([&] { regress(two, {"hand_length"}); }),
+  const population::DimensionTable two =
+      parsed_table("hand_length_mm,hand_width_mm\n180,80\n190,80\n");
+  EXPECT_DOUBLE_EQ(population::describe(two)[0].summary->mean, 185.0);
+  EXPECT_EQ(population::describe(parsed_table("hand_length_mm\n180\n"))[0].summary->n, 1);
+  EXPECT_THAT(formats::message_of<InputError>([&] { population::correlate(two); }),
               HasSubstr("at least 3 are needed"));
-  EXPECT_THAT(message_of<UsageError>([&] {
-                regress(two, {"hand_length", "handlength"});
+  EXPECT_THAT(formats::message_of<InputError>([&] { population::regress(two, {"hand_length"}); }),
+              HasSubstr("at least 3 are needed"));
+  EXPECT_THAT(formats::message_of<UsageError>([&] {
+                population::regress(two, {"hand_length", "handlength"});
               }),
               HasSubstr("named twice"));
 }
 
 TEST(TableStatistics, ColumnsThatDetermineNothingAreNamed) {
   const auto fault = [](const std::string& text, const std::vector<std::string>& on) {
-    return message_of<InputError>([&] { regress(parsed_table(text), on); });
+    return formats::message_of<InputError>([&] { population::regress(parsed_table(text), on); });
   };
   const std::string constant = "hand_length_mm,hand_width_mm\n180,85\n190,85\n185,85\n200,85\n";
-  EXPECT_THAT(message_of<InputError>([&] { correlate(parsed_table(constant)); }),
-              HasSubstr("t.csv:2: column 2 (hand_width_mm): all 4 values are 85 mm"));
+  EXPECT_THAT(
+      formats::message_of<InputError>([&] { population::correlate(parsed_table(constant)); }),
+      HasSubstr("t.csv:2: column 2 (hand_width_mm): all 4 values are 85 mm"));
   EXPECT_THAT(fault(constant, {"hand_width"}), HasSubstr("column 2 (hand_width_mm): all 4"));
   const std::string dependent =
       "hand_length_mm,span_mm,hand_width_mm\n180,360,85\n190,380,84\n185,370,88\n200,400,90\n";
   EXPECT_THAT(fault(dependent, {"hand_length", "span"}),
               AllOf(HasSubstr("t.csv:1: column 2 (span_mm): the covariance is singular"),
                     HasSubstr("columns 1 (hand_length_mm), 2 (span_mm)")));
-  EXPECT_THAT(correlate(parsed_table(dependent)).notes,
+  EXPECT_THAT(population::correlate(parsed_table(dependent)).notes,
               ElementsAre(HasSubstr("(span_mm) are linear")));
-  EXPECT_THAT(correlate(parsed_table("hand_length_mm,a,b\n180,3,85\n190,1,84\n185,4,88\n")).notes,
-              ElementsAre(HasSubstr("3 subjects for 3 columns")));
+  EXPECT_THAT(
+      population::correlate(parsed_table("hand_length_mm,a,b\n180,3,85\n190,1,84\n185,4,88\n"))
+          .notes,
+      ElementsAre(HasSubstr("3 subjects for 3 columns")));
   EXPECT_THAT(
       fault("hand_length_mm,hand_width_mm\n180,85\n190,\n185,NA\n200,90\n", {"hand_length"}),
       HasSubstr("column 2 (hand_width_mm): 2 subjects have it; at least 3"));
-  EXPECT_THAT(message_of<UsageError>([&] { usual_predictors(parsed_table("a_mm\n1\n2\n3\n")); }),
+  EXPECT_THAT(formats::message_of<UsageError>(
+                  [&] { population::usual_predictors(parsed_table("a_mm\n1\n2\n3\n")); }),
               HasSubstr("setting \"predictors\""));
-  EXPECT_THAT(message_of<UsageError>([&] { correlate(parsed_table("a_mm\n1\n2\n4\n")); }),
+  EXPECT_THAT(formats::message_of<UsageError>(
+                  [&] { population::correlate(parsed_table("a_mm\n1\n2\n4\n")); }),
               HasSubstr("at least 2 are needed"));
-  EXPECT_THAT(
-      message_of<UsageError>([&] { describe(parsed_table("a_mm,sex\n1,F\n2,F\n3,M\n"), {"sex"}); }),
-      HasSubstr("holds text"));
+  EXPECT_THAT(formats::message_of<UsageError>([&] {
+                population::describe(parsed_table("a_mm,sex\n1,F\n2,F\n3,M\n"), {"sex"});
+              }),
+              HasSubstr("holds text"));
 }
 
 TEST(TablePopulation, SmallAndMixedGroupsCarryCautions) {
   std::vector<std::string> notes;
-  const DimensionTable table = parsed_table(
+  const population::DimensionTable table = parsed_table(
       "sex,age,hand_length_mm,hand_circumference_mm,hand_width_mm\n"
       "F,20,170,180,76\nM,30,190,210,88\nF,40,175,183,77\nM,50,199,222,90\nF,30,181,190,82\n");
-  const Population population = population_of_table(
-      grouped(table, "", notes), {"hand_length", "hand_circumference"}, "five", "Five people");
+  const population::Population population =
+      population::population_of_table(population::grouped(table, "", notes),
+                                      {"hand_length", "hand_circumference"}, "five", "Five people");
   ASSERT_THAT(population.strata, SizeIs(1));
   EXPECT_FALSE(population.strata[0].sex);
   EXPECT_NEAR(*population.strata[0].age, 34.0, 1e-12);
   EXPECT_THAT(population.cautions,
               ElementsAre(HasSubstr("only 5 subjects"), HasSubstr("men and women in one"),
                           HasSubstr("grip strength isn't known")));
-  EXPECT_THAT(message_of<UsageError>(
-                  [&] { population_of_table(grouped(table, "", notes), {"age"}, "x", "x"); }),
+  EXPECT_THAT(formats::message_of<UsageError>([&] {
+                population::population_of_table(population::grouped(table, "", notes), {"age"}, "x",
+                                                "x");
+              }),
               HasSubstr("none that Palmar knows"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

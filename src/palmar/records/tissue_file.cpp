@@ -20,7 +20,7 @@
 #include "palmar/formats/toml_section.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::uint64_t kMostTissueBytes = 1 << 20;  // a set of all regions has 20 kB
@@ -31,26 +31,26 @@ struct LawKey {
   const char* name;
   const char* ending;
   const char* unit;
-  double StiffeningLaw::*value;
+  double hand::StiffeningLaw::*value;
   double factor;  ///< file's unit / ours
   double lowest, highest;
 };
 constexpr double kSmallestLength = 1e-3;  // mm; stands for "more than 0"
 constexpr std::array<LawKey, 3> kLawKeys = {
-    {{"g0", "_kpa", "kPa", &StiffeningLaw::g0, kKpaPerMpa, kKpaPerMpa* kMinShearModulus,
-      kKpaPerMpa* kMaxShearModulus},
-     {"g_limit", "_kpa", "kPa", &StiffeningLaw::g_limit, kKpaPerMpa, kKpaPerMpa* kMinShearModulus,
-      kKpaPerMpa* kMaxShearModulus},
-     {"limit_depth", "_mm", "mm", &StiffeningLaw::limit_depth, 1.0, kSmallestLength,
-      kMaxTissueLength}}};
+    {{"g0", "_kpa", "kPa", &hand::StiffeningLaw::g0, kKpaPerMpa, kKpaPerMpa* hand::kMinShearModulus,
+      kKpaPerMpa* hand::kMaxShearModulus},
+     {"g_limit", "_kpa", "kPa", &hand::StiffeningLaw::g_limit, kKpaPerMpa,
+      kKpaPerMpa* hand::kMinShearModulus, kKpaPerMpa* hand::kMaxShearModulus},
+     {"limit_depth", "_mm", "mm", &hand::StiffeningLaw::limit_depth, 1.0, kSmallestLength,
+      hand::kMaxTissueLength}}};
 
 struct Level {
   const char* suffix;
-  StiffeningLaw TissueStiffness::*law;
+  hand::StiffeningLaw hand::TissueStiffness::*law;
 };
-constexpr std::array<Level, 3> kLevels = {{{"", &TissueStiffness::nominal},
-                                           {"_low", &TissueStiffness::low},
-                                           {"_high", &TissueStiffness::high}}};
+constexpr std::array<Level, 3> kLevels = {{{"", &hand::TissueStiffness::nominal},
+                                           {"_low", &hand::TissueStiffness::low},
+                                           {"_high", &hand::TissueStiffness::high}}};
 
 std::string key_of(const LawKey& key, const Level& level) {
   return std::string(key.name) + level.suffix + key.ending;
@@ -59,36 +59,41 @@ std::string key_of(const LawKey& key, const Level& level) {
 struct RegionKey {
   const char* name;
   const char* unit;
-  double RegionTissue::*value;
+  double hand::RegionTissue::*value;
   double lowest, highest;
 };
 constexpr std::array<RegionKey, 5> kRegionKeys = {
-    {{"poisson_layered", "", &RegionTissue::poisson_layered, 0.0, 0.5},
-     {"swelling_height_mm", "mm", &RegionTissue::swelling_height, 0.0, kMaxTissueLength},
-     {"swelling_radius_mm", "mm", &RegionTissue::swelling_radius, kSmallestLength,
-      kMaxTissueLength},
-     {"swelling_width_mm", "mm", &RegionTissue::swelling_width, kSmallestLength, kMaxTissueLength},
-     {"neighbourhood_mm", "mm", &RegionTissue::neighbourhood, kSmallestLength, kMaxTissueLength}}};
+    {{"poisson_layered", "", &hand::RegionTissue::poisson_layered, 0.0, 0.5},
+     {"swelling_height_mm", "mm", &hand::RegionTissue::swelling_height, 0.0,
+      hand::kMaxTissueLength},
+     {"swelling_radius_mm", "mm", &hand::RegionTissue::swelling_radius, kSmallestLength,
+      hand::kMaxTissueLength},
+     {"swelling_width_mm", "mm", &hand::RegionTissue::swelling_width, kSmallestLength,
+      hand::kMaxTissueLength},
+     {"neighbourhood_mm", "mm", &hand::RegionTissue::neighbourhood, kSmallestLength,
+      hand::kMaxTissueLength}}};
 
 struct BoneKey {
   const char* name;
   const char* ending;
   const char* unit;
-  double BoneTissueLaw::*value;
+  double hand::BoneTissueLaw::*value;
   double factor;  ///< file / MPa
   double lowest, highest;
 };
 constexpr std::array<BoneKey, 2> kBoneKeys = {
-    {{"g0", "_kpa", "kPa", &BoneTissueLaw::g0, kKpaPerMpa, kKpaPerMpa* kMinShearModulus,
-      kKpaPerMpa* kMaxShearModulus},
-     {"stiffening", "", "", &BoneTissueLaw::stiffening, 1.0, 0.0, kMostBoneStiffening}}};
+    {{"g0", "_kpa", "kPa", &hand::BoneTissueLaw::g0, kKpaPerMpa, kKpaPerMpa* hand::kMinShearModulus,
+      kKpaPerMpa* hand::kMaxShearModulus},
+     {"stiffening", "", "", &hand::BoneTissueLaw::stiffening, 1.0, 0.0,
+      hand::kMostBoneStiffening}}};
 
 struct BoneLevel {
   const char* suffix;
-  BoneTissueLaw BoneTissue::*law;
+  hand::BoneTissueLaw hand::BoneTissue::*law;
 };
-constexpr std::array<BoneLevel, 3> kBoneLevels = {
-    {{"", &BoneTissue::nominal}, {"_low", &BoneTissue::low}, {"_high", &BoneTissue::high}}};
+constexpr std::array<BoneLevel, 3> kBoneLevels = {{{"", &hand::BoneTissue::nominal},
+                                                   {"_low", &hand::BoneTissue::low},
+                                                   {"_high", &hand::BoneTissue::high}}};
 
 std::string key_of(const BoneKey& key, const BoneLevel& level) {
   return std::string(key.name) + level.suffix + key.ending;
@@ -96,20 +101,21 @@ std::string key_of(const BoneKey& key, const BoneLevel& level) {
 
 struct ModelKey {
   const char* name;
-  TissueStiffness RegionTissue::*stiffness;
+  hand::TissueStiffness hand::RegionTissue::*stiffness;
 };
 constexpr std::array<ModelKey, 2> kModelKeys = {
-    {{"half_space", &RegionTissue::half_space}, {"layered", &RegionTissue::layered}}};
+    {{"half_space", &hand::RegionTissue::half_space}, {"layered", &hand::RegionTissue::layered}}};
 
 /// Reads one file over a base set.
 class TissueReader {
  public:
-  TissueReader(std::string path, Tissue base) : path_(std::move(path)), tissue_(std::move(base)) {}
+  TissueReader(std::string path, hand::Tissue base)
+      : path_(std::move(path)), tissue_(std::move(base)) {}
 
-  Tissue read(const toml::table& file) {
+  hand::Tissue read(const toml::table& file) {
     std::vector<std::string> known = {"version", "source", "region"};
-    for (int c = 0; c < kTissueClassCount; ++c) {
-      known.emplace_back(name_of(static_cast<TissueClass>(c)));
+    for (int c = 0; c < hand::kTissueClassCount; ++c) {
+      known.emplace_back(name_of(static_cast<hand::TissueClass>(c)));
     }
     for (const auto& [key, node] : file) {
       const std::string name(key.str());
@@ -117,7 +123,7 @@ class TissueReader {
         check_version(key, node);
       } else if (name == "source") {
         tissue_.source = text(key, node, "");
-      } else if (tissue_class_named(name)) {
+      } else if (hand::tissue_class_named(name)) {
         table(key, node, name);
       } else if (name == "region") {
         for (const auto& [region, ignored] : table(key, node, name)) check_region(region);
@@ -125,17 +131,17 @@ class TissueReader {
         unknown(key, "the file", known);
       }
     }
-    for (int r = 0; r < kRegionCount; ++r) {
-      const auto region = static_cast<Region>(r);
-      RegionTissue& one = tissue_.region[r];
-      const std::string group(name_of(tissue_class_of(region)));
+    for (int r = 0; r < hand::kRegionCount; ++r) {
+      const auto region = static_cast<hand::Region>(r);
+      hand::RegionTissue& one = tissue_.region[r];
+      const std::string group(name_of(hand::tissue_class_of(region)));
       if (const toml::table* values = file[group].as_table()) apply(*values, group, one);
       const std::string name(name_of(region));
       if (const toml::node* values = file["region"][name].node()) {
         if (!values->is_table()) fail(*values, "[region." + name + "] must be a table");
         apply(*values->as_table(), "region." + name, one);
       }
-      const std::string fault = fault_of(one);
+      const std::string fault = hand::fault_of(one);
       if (!fault.empty()) throw InputError(path_ + ": tissue of " + name + ": " + fault);
     }
     return std::move(tissue_);
@@ -151,7 +157,7 @@ class TissueReader {
   [[noreturn]] void unknown(const toml::key& key, const std::string& section,
                             const std::vector<std::string>& known) const {
     const std::string name(key.str());
-    fail(key.source(), section + ": key " + in_quotes(name) + " is not known; " +
+    fail(key.source(), section + ": key " + formats::in_quotes(name) + " is not known; " +
                            did_you_mean(name, known, "allowed are " + joined(known, ", ")));
   }
 
@@ -166,9 +172,10 @@ class TissueReader {
   }
 
   void check_region(const toml::key& key) const {
-    if (region_named(key.str())) return;
+    if (hand::region_named(key.str())) return;
     std::vector<std::string> known;
-    for (int r = 0; r < kRegionCount; ++r) known.emplace_back(name_of(static_cast<Region>(r)));
+    for (int r = 0; r < hand::kRegionCount; ++r)
+      known.emplace_back(name_of(static_cast<hand::Region>(r)));
     unknown(key, "[region]", known);
   }
 
@@ -199,7 +206,8 @@ class TissueReader {
     return *value;
   }
 
-  void apply(const toml::table& values, const std::string& section, RegionTissue& region) const {
+  void apply(const toml::table& values, const std::string& section,
+             hand::RegionTissue& region) const {
     std::vector<std::string> known = {"source"};
     for (const ModelKey& model : kModelKeys) known.emplace_back(model.name);
     known.emplace_back("on_bone");
@@ -257,7 +265,7 @@ class TissueReader {
   }
 
   std::string path_;
-  Tissue tissue_;
+  hand::Tissue tissue_;
 };
 
 /// 15 digits where they say it to the last bit but one, so that 0.07 MPa is written as 70 kPa.
@@ -267,17 +275,17 @@ std::string decimal(double value) {
   text.precision(15);
   text << value;
   std::string digits = text.str();
-  const double back = parse_double(digits).value_or(0.0);
+  const double back = formats::parse_double(digits).value_or(0.0);
   constexpr double kOneBit = 2.3e-16;  // relative
-  if (std::abs(back - value) > kOneBit * std::abs(value)) digits = shortest(value);
+  if (std::abs(back - value) > kOneBit * std::abs(value)) digits = formats::shortest(value);
   const bool is_float = digits.find_first_of(".en") != std::string::npos;
   return is_float ? digits : digits + ".0";
 }
 
 /// TOML's basic strings have JSON's escapes.
-std::string region_toml(const std::string& section, const RegionTissue& region) {
+std::string region_toml(const std::string& section, const hand::RegionTissue& region) {
   std::string text = "\n[" + section + "]\n";
-  if (!region.source.empty()) text += "source = " + toml_string(region.source) + "\n";
+  if (!region.source.empty()) text += "source = " + formats::toml_string(region.source) + "\n";
   for (const RegionKey& item : kRegionKeys) {
     text += std::string(item.name) + " = " + decimal(region.*item.value) + "\n";
   }
@@ -302,34 +310,36 @@ std::string region_toml(const std::string& section, const RegionTissue& region) 
 
 }  // namespace
 
-Tissue read_tissue(const std::string& path, const Tissue& base) {
-  return TissueReader(path, base).read(parse_toml(read_file(path, kMostTissueBytes), path));
+hand::Tissue read_tissue(const std::string& path, const hand::Tissue& base) {
+  return TissueReader(path, base)
+      .read(formats::parse_toml(formats::read_file(path, kMostTissueBytes), path));
 }
 
-std::string tissue_toml(const Tissue& tissue) {
+std::string tissue_toml(const hand::Tissue& tissue) {
   std::string text =
       "# Tissue of a hand; see docs/using/tissue.md. Moduli in kPa, lengths in mm.\n";
   text += "version = " + std::to_string(kTissueFileVersion) + "\n";
-  text += "source = " + toml_string(tissue.source) + "\n";
-  std::array<const RegionTissue*, kTissueClassCount> group{};
-  for (int r = 0; r < kRegionCount; ++r) {
-    const RegionTissue*& first = group[index_of(tissue_class_of(static_cast<Region>(r)))];
+  text += "source = " + formats::toml_string(tissue.source) + "\n";
+  std::array<const hand::RegionTissue*, hand::kTissueClassCount> group{};
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    const hand::RegionTissue*& first =
+        group[index_of(hand::tissue_class_of(static_cast<hand::Region>(r)))];
     if (first == nullptr) first = &tissue.region[r];
   }
-  for (int c = 0; c < kTissueClassCount; ++c) {
-    text += region_toml(std::string(name_of(static_cast<TissueClass>(c))), *group[c]);
+  for (int c = 0; c < hand::kTissueClassCount; ++c) {
+    text += region_toml(std::string(name_of(static_cast<hand::TissueClass>(c))), *group[c]);
   }
-  for (int r = 0; r < kRegionCount; ++r) {
-    const auto region = static_cast<Region>(r);
-    const RegionTissue& one = tissue.region[r];
-    if (one == *group[index_of(tissue_class_of(region))]) continue;
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    const auto region = static_cast<hand::Region>(r);
+    const hand::RegionTissue& one = tissue.region[r];
+    if (one == *group[index_of(hand::tissue_class_of(region))]) continue;
     text += region_toml("region." + std::string(name_of(region)), one);
   }
   return text;
 }
 
-void write_tissue(const std::string& path, const Tissue& tissue) {
-  write_file(path, tissue_toml(tissue));
+void write_tissue(const std::string& path, const hand::Tissue& tissue) {
+  formats::write_file(path, tissue_toml(tissue));
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

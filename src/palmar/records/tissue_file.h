@@ -6,7 +6,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Version of the tissue files that this program writes; a newer one is refused.
 inline constexpr int kTissueFileVersion = 1;
@@ -30,11 +30,11 @@ inline constexpr int kTissueFileVersion = 1;
 /// Throws InputError naming file, line, key, value and what is allowed: for a file that can't be
 /// read or is no TOML, an unknown key (with the nearest known one), a value of the wrong kind or
 /// outside its limits, and a set with fault_of() (tissue.h).
-Tissue read_tissue(const std::string& path, const Tissue& base);
+hand::Tissue read_tissue(const std::string& path, const hand::Tissue& base);
 
 /// The whole set as such a file: a group's values are those of its first region, regions that
 /// differ stand below. Numbers read back within one unit of the last digit. Throws OutputError.
-void write_tissue(const std::string& path, const Tissue& tissue);
-std::string tissue_toml(const Tissue& tissue);
+void write_tissue(const std::string& path, const hand::Tissue& tissue);
+std::string tissue_toml(const hand::Tissue& tissue);
 
-}  // namespace palmar
+}  // namespace palmar::records

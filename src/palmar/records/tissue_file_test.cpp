@@ -11,18 +11,18 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::string temporary_tissue(const std::string& name) { return own_file(name); }
+std::string temporary_tissue(const std::string& name) { return formats::own_file(name); }
 
-Tissue read_text(const std::string& toml) {
+hand::Tissue read_text(const std::string& toml) {
   const std::string path = temporary_tissue("text.toml");
-  write_file(path, toml);
-  return read_tissue(path, default_tissue());
+  formats::write_file(path, toml);
+  return read_tissue(path, hand::default_tissue());
 }
 
 std::string tissue_message(const std::string& toml) {
@@ -34,11 +34,11 @@ std::string tissue_message(const std::string& toml) {
   return "no error";
 }
 
-const RegionTissue& of(const Tissue& tissue, Region region) {
+const hand::RegionTissue& of(const hand::Tissue& tissue, hand::Region region) {
   return tissue.region[index_of(region)];
 }
 
-void expect_same_law(const StiffeningLaw& a, const StiffeningLaw& b) {
+void expect_same_law(const hand::StiffeningLaw& a, const hand::StiffeningLaw& b) {
   constexpr double kUnits = 1e-15;  // relative; the change of unit and back rounds
   EXPECT_NEAR(a.g0, b.g0, kUnits * b.g0);
   EXPECT_NEAR(a.g_limit, b.g_limit, kUnits * b.g_limit);
@@ -46,37 +46,38 @@ void expect_same_law(const StiffeningLaw& a, const StiffeningLaw& b) {
 }
 
 TEST(TissueFile, ReadBackIsTheSameSet) {
-  Tissue tissue = default_tissue();
+  hand::Tissue tissue = hand::default_tissue();
   tissue.source = "somebody's \"own\" fingers\nand palms";
-  RegionTissue& thumb = tissue.region[index_of(Region::kThumbDistal)];
+  hand::RegionTissue& thumb = tissue.region[index_of(hand::Region::kThumbDistal)];
   thumb.layered.high = {0.0123456789, 0.1 / 3.0, 2.5};
   thumb.source = "thumb alone";
   thumb.swelling_width = 1.0 / 3.0;
-  tissue.region[index_of(Region::kHypothenar)].poisson_layered = 0.45;
+  tissue.region[index_of(hand::Region::kHypothenar)].poisson_layered = 0.45;
   const std::string path = temporary_tissue("same.toml");
   write_tissue(path, tissue);
-  const Tissue back = read_tissue(path, Tissue());  // nothing comes from the base
+  const hand::Tissue back = read_tissue(path, hand::Tissue());  // nothing comes from the base
   EXPECT_EQ(back.source, tissue.source);
-  for (int r = 0; r < kRegionCount; ++r) {
-    SCOPED_TRACE(name_of(static_cast<Region>(r)));
-    const RegionTissue& a = back.region[r];
-    const RegionTissue& b = tissue.region[r];
-    for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
-      expect_same_law(law_at(a.half_space, level), law_at(b.half_space, level));
-      expect_same_law(law_at(a.layered, level), law_at(b.layered, level));
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    SCOPED_TRACE(name_of(static_cast<hand::Region>(r)));
+    const hand::RegionTissue& a = back.region[r];
+    const hand::RegionTissue& b = tissue.region[r];
+    for (const hand::TissueLevel level :
+         {hand::TissueLevel::kLow, hand::TissueLevel::kNominal, hand::TissueLevel::kHigh}) {
+      expect_same_law(hand::law_at(a.half_space, level), hand::law_at(b.half_space, level));
+      expect_same_law(hand::law_at(a.layered, level), hand::law_at(b.layered, level));
     }
     EXPECT_DOUBLE_EQ(a.poisson_layered, b.poisson_layered);
     EXPECT_DOUBLE_EQ(a.swelling_width, b.swelling_width);
     EXPECT_DOUBLE_EQ(a.neighbourhood, b.neighbourhood);
     EXPECT_EQ(a.source, b.source);
   }
-  const std::string first = read_file(path);
+  const std::string first = formats::read_file(path);
   write_tissue(path, back);
-  EXPECT_EQ(read_file(path), first) << "writing again must give the same bytes";
+  EXPECT_EQ(formats::read_file(path), first) << "writing again must give the same bytes";
 }
 
 TEST(TissueFile, AGroupReachesItsRegionsAndARegionOverridesItsGroup) {
-  const Tissue tissue = read_text(
+  const hand::Tissue tissue = read_text(
       "[finger.half_space]\n"
       "g0_kpa = 8\n"
       "[region.index_distal.half_space]\n"
@@ -84,22 +85,22 @@ TEST(TissueFile, AGroupReachesItsRegionsAndARegionOverridesItsGroup) {
       "[palm]\n"
       "swelling_height_mm = 0\n"
       "source = \"flat\"\n");
-  EXPECT_DOUBLE_EQ(of(tissue, Region::kLittleMiddle).half_space.nominal.g0, 0.008);
-  EXPECT_DOUBLE_EQ(of(tissue, Region::kIndexDistal).half_space.nominal.g0, 0.0095);
-  EXPECT_DOUBLE_EQ(of(tissue, Region::kThenar).half_space.nominal.g0, 0.0275);  // as it was
-  EXPECT_EQ(of(tissue, Region::kDorsum), of(default_tissue(), Region::kDorsum));
-  EXPECT_EQ(of(tissue, Region::kUlnarPalm).swelling_height, 0.0);
-  EXPECT_EQ(of(tissue, Region::kUlnarPalm).source, "flat");
+  EXPECT_DOUBLE_EQ(of(tissue, hand::Region::kLittleMiddle).half_space.nominal.g0, 0.008);
+  EXPECT_DOUBLE_EQ(of(tissue, hand::Region::kIndexDistal).half_space.nominal.g0, 0.0095);
+  EXPECT_DOUBLE_EQ(of(tissue, hand::Region::kThenar).half_space.nominal.g0, 0.0275);  // as it was
+  EXPECT_EQ(of(tissue, hand::Region::kDorsum), of(hand::default_tissue(), hand::Region::kDorsum));
+  EXPECT_EQ(of(tissue, hand::Region::kUlnarPalm).swelling_height, 0.0);
+  EXPECT_EQ(of(tissue, hand::Region::kUlnarPalm).source, "flat");
 }
 
 TEST(TissueFile, AValueWithoutARangeHasNone) {
-  const Tissue tissue = read_text(
+  const hand::Tissue tissue = read_text(
       "[palm.half_space]\n"
       "g0_kpa = 20\n"
       "g_limit_low_kpa = 35\n"
       "g_limit_kpa = 50\n"
       "g_limit_high_kpa = 65\n");
-  const TissueStiffness& palm = of(tissue, Region::kThenar).half_space;
+  const hand::TissueStiffness& palm = of(tissue, hand::Region::kThenar).half_space;
   EXPECT_DOUBLE_EQ(palm.low.g0, 0.020);
   EXPECT_DOUBLE_EQ(palm.high.g0, 0.020);
   EXPECT_DOUBLE_EQ(palm.low.g_limit, 0.035);
@@ -148,12 +149,12 @@ TEST(TissueFile, NewerVersionsAndBrokenFilesAreRefused) {
   EXPECT_THAT(tissue_message("[finger\ng0_kpa = 5\n"), HasSubstr("text.toml:1: no TOML: "));
   EXPECT_THAT(tissue_message("[finger.half_space]\ng0_kpa = 5\ng0_kpa = 6\n"),
               HasSubstr(":3: no TOML"));
-  EXPECT_THROW(read_tissue(temporary_tissue("missing.toml"), default_tissue()), InputError);
-  EXPECT_THROW(read_tissue(::testing::TempDir(), default_tissue()), InputError);
+  EXPECT_THROW(read_tissue(temporary_tissue("missing.toml"), hand::default_tissue()), InputError);
+  EXPECT_THROW(read_tissue(::testing::TempDir(), hand::default_tissue()), InputError);
 }
 
 TEST(TissueFile, EveryTruncationIsRefusedOrReadsAsPartOfTheSet) {
-  const std::string whole = tissue_toml(default_tissue());
+  const std::string whole = tissue_toml(hand::default_tissue());
   for (std::size_t length = 1; length < whole.size(); length += 13) {
     const std::string message = tissue_message(whole.substr(0, length));
     if (message == "no error") continue;  // cut between two lines, or inside a number
@@ -162,4 +163,4 @@ TEST(TissueFile, EveryTruncationIsRefusedOrReadsAsPartOfTheSet) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

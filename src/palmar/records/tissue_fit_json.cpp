@@ -7,12 +7,12 @@
 #include "palmar/core/version.h"
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json law(const StiffeningLaw& one) {
+Json law(const hand::StiffeningLaw& one) {
   return {{"g0_kpa", 1000.0 * one.g0},
           {"g_limit_kpa", 1000.0 * one.g_limit},
           {"limit_depth_mm", one.limit_depth}};
@@ -20,32 +20,33 @@ Json law(const StiffeningLaw& one) {
 
 }  // namespace
 
-std::string_view name_of(LeastSquaresStatus status) {
+std::string_view name_of(geometry::LeastSquaresStatus status) {
   switch (status) {
-    case LeastSquaresStatus::kConverged:
+    case geometry::LeastSquaresStatus::kConverged:
       return "converged";
-    case LeastSquaresStatus::kSmallStep:
+    case geometry::LeastSquaresStatus::kSmallStep:
       return "small_step";
-    case LeastSquaresStatus::kIterationLimit:
+    case geometry::LeastSquaresStatus::kIterationLimit:
       return "iteration_limit";
-    case LeastSquaresStatus::kBadStart:
+    case geometry::LeastSquaresStatus::kBadStart:
       break;
   }
   return "bad_start";
 }
 
-std::string_view name_of(ParameterStatus status) {
-  if (status == ParameterStatus::kFitted) return "fitted";
-  return status == ParameterStatus::kHeld ? "held" : "not_identifiable";
+std::string_view name_of(contact::ParameterStatus status) {
+  if (status == contact::ParameterStatus::kFitted) return "fitted";
+  return status == contact::ParameterStatus::kHeld ? "held" : "not_identifiable";
 }
 
-std::string tissue_fit_json(const TissueFit& fit, const std::string& test, double confidence) {
+std::string tissue_fit_json(const contact::TissueFit& fit, const std::string& test,
+                            double confidence) {
   Json json = {{"test", test},
                {"status", name_of(fit.status)},
                {"iterations", fit.iterations},
                {"confidence", confidence}};
   json["parameters"] = Json::array();
-  for (const FittedParameter& one : fit.parameters) {
+  for (const contact::FittedParameter& one : fit.parameters) {
     json["parameters"].push_back({{"name", one.name},
                                   {"unit", one.unit},
                                   {"value", one.value},
@@ -74,14 +75,14 @@ std::string tissue_fit_json(const TissueFit& fit, const std::string& test, doubl
                     {"high", law(fit.stiffness.high)}};
   json["layer_mm"] = or_null(fit.layer_thickness);
   json["subjects"] = Json::array();
-  for (const SubjectFit& one : fit.subjects) {
+  for (const contact::SubjectFit& one : fit.subjects) {
     Json entry = {{"subject", one.subject}, {"readings", one.points}};
     entry.update(law(one.law));
     entry["force_rms_n"] = one.force_rms;
     json["subjects"].push_back(std::move(entry));
   }
   json["points"] = Json::array();
-  for (const FittedPoint& point : fit.points) {
+  for (const contact::FittedPoint& point : fit.points) {
     Json entry = {
         {"line", point.measured.line},      {"subject", point.measured.subject},
         {"depth_mm", point.measured.depth}, {"force_n", point.measured.force},
@@ -95,4 +96,4 @@ std::string tissue_fit_json(const TissueFit& fit, const std::string& test, doubl
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -9,13 +9,13 @@
 #include "palmar/core/version.h"
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 /// JSON knows no NaN.
-Json row_object(const ValidationRow& row) {
+Json row_object(const validation::ValidationRow& row) {
   return {{"quantity", row.quantity},
           {"unit", row.unit},
           {"ours", finite_or_null(row.ours)},
@@ -32,24 +32,24 @@ Json row_object(const ValidationRow& row) {
 
 }  // namespace
 
-std::string validation_json(const ValidationReport& report) {
+std::string validation_json(const validation::ValidationReport& report) {
   Json cases = Json::array();
-  for (const ValidationCase& one : report.cases) {
+  for (const validation::ValidationCase& one : report.cases) {
     Json rows = Json::array();
-    for (const ValidationRow& row : one.rows) rows.push_back(row_object(row));
+    for (const validation::ValidationRow& row : one.rows) rows.push_back(row_object(row));
     cases.push_back({{"case", one.id},
                      {"title", one.title},
                      {"rows", std::move(rows)},
                      {"seconds", one.seconds}});
   }
   const Json json = {{"hand", report.hand_name},
-                     {"met", report.count(Verdict::kMet)},
-                     {"missed", report.count(Verdict::kMissed)},
-                     {"information", report.count(Verdict::kInformation)},
-                     {"not_built", report.count(Verdict::kNotBuilt)},
+                     {"met", report.count(validation::Verdict::kMet)},
+                     {"missed", report.count(validation::Verdict::kMissed)},
+                     {"information", report.count(validation::Verdict::kInformation)},
+                     {"not_built", report.count(validation::Verdict::kNotBuilt)},
                      {"cases", std::move(cases)},
                      {"versions", {{"palmar", version()}, {"build", build_description()}}}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

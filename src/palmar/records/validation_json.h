@@ -6,10 +6,10 @@
 
 #include "palmar/validation/validation.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// The report of `palmar validate`: one object with cases, their rows, and counts of verdicts.
 /// `seconds` are the only values that change from run to run.
-std::string validation_json(const ValidationReport& report);
+std::string validation_json(const validation::ValidationReport& report);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -14,7 +14,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/formats/zip_write.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 struct UnitEnd {
@@ -244,7 +244,7 @@ std::string format_workbook(const std::string& title, const std::vector<std::str
       "xmlns:r=\"" +
       office + "\"><sheets>";
   std::string links = head + "<Relationships xmlns=\"" + package + "relationships\">";
-  std::vector<ZipMember> parts;
+  std::vector<formats::ZipMember> parts;
   for (std::size_t i = 0; i <= sheets.size(); ++i) {
     const std::string number = std::to_string(i + 1);
     const std::string file = "worksheets/sheet" + number + ".xml";
@@ -259,7 +259,7 @@ std::string format_workbook(const std::string& title, const std::vector<std::str
   }
   links += "<Relationship Id=\"rId" + std::to_string(sheets.size() + 2) + "\" Type=\"" + office +
            "/styles\" Target=\"styles.xml\"/></Relationships>\n";
-  std::vector<ZipMember> members = {
+  std::vector<formats::ZipMember> members = {
       {"[Content_Types].xml", types + "</Types>\n"},
       {"_rels/.rels", head + "<Relationships xmlns=\"" + package +
                           "relationships\"><Relationship Id=\"rId1\" Type=\"" + office +
@@ -268,7 +268,7 @@ std::string format_workbook(const std::string& title, const std::vector<std::str
       {"xl/_rels/workbook.xml.rels", links},
       {"xl/styles.xml", kStyles}};
   members.insert(members.end(), parts.begin(), parts.end());
-  return format_zip(members);
+  return formats::format_zip(members);
 }
 
 CsvTable rounded_table(CsvTable table, int significant) {
@@ -290,4 +290,4 @@ CsvTable rounded_table(CsvTable table, int significant) {
   return table;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

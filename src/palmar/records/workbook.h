@@ -7,7 +7,7 @@
 
 #include "palmar/records/csv.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// One sheet of a workbook: a table as in a CSV file, its columns named with units at their end
 /// ("force_n", "contact_area_mm2").
@@ -37,4 +37,4 @@ std::string format_workbook(const std::string& title, const std::vector<std::str
 /// for reading: 12.3456 -> 12.3. Whole numbers and other text stay.
 CsvTable rounded_table(CsvTable table, int significant = 3);
 
-}  // namespace palmar
+}  // namespace palmar::records

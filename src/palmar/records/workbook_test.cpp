@@ -15,14 +15,14 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/formats/zip.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 std::string part(const std::string& workbook, const std::string& name) {
-  return ZipArchive(workbook, "made.xlsx").read(name).value_or("missing " + name);
+  return formats::ZipArchive(workbook, "made.xlsx").read(name).value_or("missing " + name);
 }
 
 WorkbookSheet regions() {
@@ -72,8 +72,8 @@ TEST(Workbook, AnotherProgramReadsIt) {
   if (std::system("python3 -c 'import openpyxl' > /dev/null 2>&1") != 0) {
     GTEST_SKIP() << "Python's openpyxl (Debian: python3-openpyxl) isn't installed";
   }
-  const TestFolder folder;
-  write_file(folder / "made.xlsx", format_workbook("T", {}, {regions()}));
+  const formats::TestFolder folder;
+  formats::write_file(folder / "made.xlsx", format_workbook("T", {}, {regions()}));
   std::ofstream(folder / "read.py")
       << "import openpyxl, sys\n"
          "b = openpyxl.load_workbook(sys.argv[1])\n"
@@ -85,8 +85,8 @@ TEST(Workbook, AnotherProgramReadsIt) {
                          (folder / "made.xlsx").string() + "' > '" + out + "' 2>&1")
                             .c_str()),
             0)
-      << read_file(out);
-  EXPECT_EQ(read_file(out),
+      << formats::read_file(out);
+  EXPECT_EQ(formats::read_file(out),
             "['About', 'regions'] <A & \"B\"> 12.3456789012345 0.0 None 1000.0 A2 A1:D3 True\n");
 }
 
@@ -119,4 +119,4 @@ TEST(RoundedTable, ShortensWhatIsNotWhole) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

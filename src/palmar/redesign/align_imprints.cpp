@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kBin = 0.25;  // mm; bin of a profile and step of a shift
@@ -119,4 +119,4 @@ std::vector<double> align_imprints(std::span<const Imprint> imprints, std::span<
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -7,7 +7,7 @@
 
 #include "palmar/redesign/imprint.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// How far each hand would have to move along `axis` (unit, product frame) for its imprint to lie
 /// best on those of all: hands of different size touch at different places, so that the concaves of
@@ -23,4 +23,4 @@ namespace palmar {
 std::vector<double> align_imprints(std::span<const Imprint> imprints, std::span<const Vec3> points,
                                    std::span<const double> areas, const Vec3& axis, double limit);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

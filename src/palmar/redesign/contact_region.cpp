@@ -15,7 +15,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/redesign/surface_diffusion.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 void check_number(const char* name, double value, double low, double high, const char* unit) {
@@ -83,7 +83,8 @@ void relax(std::vector<Vec3>& points, double step) {
 }
 
 /// Takes waves shorter than about the smoothing out of a closed line on a surface.
-RegionOutline smooth_outline(const std::vector<Vec3>& raw, const ClosestPointQuery& surface,
+RegionOutline smooth_outline(const std::vector<Vec3>& raw,
+                             const geometry::ClosestPointQuery& surface,
                              const RegionOptions& options) {
   // Taubin's pass band and steps as in smooth.h; the number of rounds goes with the square of the
   // smoothing in steps between points.
@@ -116,7 +117,7 @@ RegionOutline smooth_outline(const std::vector<Vec3>& raw, const ClosestPointQue
 }
 
 /// Inside from 0 on; specks and holes dropped.
-void find_field(const TriangleMesh& map, const std::vector<int>& touching, int hands,
+void find_field(const geometry::TriangleMesh& map, const std::vector<int>& touching, int hands,
                 const RegionOptions& options, ContactRegion& region) {
   // Hands that touch more or less than asked, up to a tenth of all either way: as far above as
   // below, or smoothing would move the border.
@@ -128,7 +129,7 @@ void find_field(const TriangleMesh& map, const std::vector<int>& touching, int h
   }
   region.field = SurfaceDiffusion(map, options.smoothing).smooth(region.field);
   for (const bool holes : {false, true}) {
-    const IsoParts parts = iso_parts(map, region.field, 0.0);
+    const geometry::IsoParts parts = geometry::iso_parts(map, region.field, 0.0);
     if (std::count(parts.is_inside.begin(), parts.is_inside.end(), holes ? 0 : 1) == 0) return;
     std::vector<char> is_dropped(parts.area.size(), 0);
     for (std::size_t p = 0; p < parts.area.size(); ++p) {
@@ -159,10 +160,11 @@ std::string name_of(HandPart part) {
   return "";
 }
 
-std::optional<HandPart> part_of(Region region) {
-  if (region == Region::kDorsum) return {};
-  if (region == Region::kThumbProximal || region == Region::kThumbDistal) return HandPart::kThumb;
-  return region >= Region::kThenar ? HandPart::kPalm : HandPart::kFingers;
+std::optional<HandPart> part_of(hand::Region region) {
+  if (region == hand::Region::kDorsum) return {};
+  if (region == hand::Region::kThumbProximal || region == hand::Region::kThumbDistal)
+    return HandPart::kThumb;
+  return region >= hand::Region::kThenar ? HandPart::kPalm : HandPart::kFingers;
 }
 
 void RegionOptions::check() const {
@@ -172,7 +174,7 @@ void RegionOptions::check() const {
   check_number("spacing of the outlines' points", spacing, 0.1, 20.0, " mm");
 }
 
-ContactCount start_count(const TriangleMesh& map, double threshold) {
+ContactCount start_count(const geometry::TriangleMesh& map, double threshold) {
   check_number("pressure threshold", threshold, 0.0, 100.0, " MPa");
   ContactCount count;
   count.threshold = threshold;
@@ -181,7 +183,7 @@ ContactCount start_count(const TriangleMesh& map, double threshold) {
   return count;
 }
 
-void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held,
+void add_hand(ContactCount& count, const geometry::TriangleMesh& map, const HeldHand& held,
               const Imprint& reach) {
   struct Pressed {
     Vec3 at;
@@ -230,7 +232,7 @@ void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held
   }
 }
 
-ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
+ContactRegion contact_region(const geometry::TriangleMesh& map, const ContactCount& count,
                              std::optional<HandPart> part, const RegionOptions& options) {
   options.check();
   const std::vector<int>& touching = part ? count.of_part[index_of(*part)] : count.any;
@@ -244,8 +246,8 @@ ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
   region.part = part;
   region.least_hands = least_hands(count.hands, options.share);
   find_field(map, touching, count.hands, options, region);
-  region.area_of = areas_above(map, region.field, 0.0);
-  const IsoParts parts = iso_parts(map, region.field, 0.0);
+  region.area_of = geometry::areas_above(map, region.field, 0.0);
+  const geometry::IsoParts parts = geometry::iso_parts(map, region.field, 0.0);
   std::vector<int> patch_of(parts.area.size(), -1);
   for (std::size_t p = 0; p < parts.area.size(); ++p) {
     if (parts.is_inside[p] == 0) continue;
@@ -257,12 +259,12 @@ ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
     const int p = patch_of[parts.of_vertex[v]];
     if (p >= 0) region.patches[p].vertices.push_back(v);
   }
-  const ClosestPointQuery surface(map);
-  for (const IsoLoop& loop : iso_loops(map, region.field, 0.0)) {
+  const geometry::ClosestPointQuery surface(map);
+  for (const geometry::IsoLoop& loop : geometry::iso_loops(map, region.field, 0.0)) {
     const int p = patch_of[parts.of_vertex[loop.inside_vertex]];
     region.patches[p].outline.push_back(smooth_outline(loop.points, surface, options));
   }
-  const std::vector<double> areas = vertex_areas(map);
+  const std::vector<double> areas = geometry::vertex_areas(map);
   for (RegionPatch& patch : region.patches) {
     double weight = 0.0;
     for (const int v : patch.vertices) {
@@ -276,7 +278,7 @@ ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
   return region;
 }
 
-std::vector<FaceShare> face_shares(const TriangleMesh& map,
+std::vector<FaceShare> face_shares(const geometry::TriangleMesh& map,
                                    const std::vector<int>& face_of_triangle, int faces,
                                    const ContactCount& count, const ContactRegion& region) {
   if (face_of_triangle.size() != map.triangles.size() ||
@@ -291,7 +293,7 @@ std::vector<FaceShare> face_shares(const TriangleMesh& map,
     const int face = face_of_triangle[t];
     const auto& [a, b, c] = map.triangles[t];
     all[face].area += region.area_of[t];
-    whole[face] += triangle_area(map.vertices[a], map.vertices[b], map.vertices[c]);
+    whole[face] += geometry::triangle_area(map.vertices[a], map.vertices[b], map.vertices[c]);
     for (const int v : map.triangles[t]) {
       all[face].peak_hands =
           std::max(all[face].peak_hands, static_cast<double>(touching[v]) / count.hands);
@@ -307,4 +309,4 @@ std::vector<FaceShare> face_shares(const TriangleMesh& map,
   return all;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

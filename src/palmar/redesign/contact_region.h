@@ -12,14 +12,14 @@
 #include "palmar/redesign/held_hand.h"
 #include "palmar/redesign/imprint.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// Parts of the hand that a product's designer distinguishes (Xie 2014, fig. 5-16: red and blue).
 enum class HandPart { kFingers, kThumb, kPalm };
 inline constexpr int kHandParts = 3;
 std::string name_of(HandPart part);  ///< "fingers", "thumb", "palm"
 /// Nothing of the dorsum.
-std::optional<HandPart> part_of(Region region);
+std::optional<HandPart> part_of(hand::Region region);
 
 /// How many hands touch each vertex of a product's map.
 struct ContactCount {
@@ -29,12 +29,12 @@ struct ContactCount {
   std::array<std::vector<int>, kHandParts> of_part;  ///< per vertex, with that part of the hand
 };
 /// Nobody yet. Throws UsageError unless the threshold is at least 0.
-ContactCount start_count(const TriangleMesh& map, double threshold = 0.0);
+ContactCount start_count(const geometry::TriangleMesh& map, double threshold = 0.0);
 /// One hand more. Touched is where the product's pressure says so, and, because the skin's facets
 /// cut sharp edges short there, wherever the skin as it was before it gave way reaches in (`reach`,
 /// per vertex of the map) and the nearest pressed skin presses enough. A vertex belongs to the part
 /// of the hand whose pressed skin, before it gave way, is nearest.
-void add_hand(ContactCount& count, const TriangleMesh& map, const HeldHand& held,
+void add_hand(ContactCount& count, const geometry::TriangleMesh& map, const HeldHand& held,
               const Imprint& reach = {});
 
 struct RegionOptions {
@@ -80,7 +80,7 @@ struct ContactRegion {
 /// spaced evenly, smoothed without shrinking (Taubin 1995) and projected back onto the surface.
 /// Empty, without patches, if too few hands touch anywhere. Throws UsageError if count and map
 /// don't belong together.
-ContactRegion contact_region(const TriangleMesh& map, const ContactCount& count,
+ContactRegion contact_region(const geometry::TriangleMesh& map, const ContactCount& count,
                              std::optional<HandPart> part = {}, const RegionOptions& options = {});
 
 /// How much of one CAD face lies in a region.
@@ -91,8 +91,8 @@ struct FaceShare {
   double peak_hands = 0.0;  ///< largest share of hands that touch one place of it
 };
 /// Faces with any area inside, the largest first. `face_of_triangle` is that of the map.
-std::vector<FaceShare> face_shares(const TriangleMesh& map,
+std::vector<FaceShare> face_shares(const geometry::TriangleMesh& map,
                                    const std::vector<int>& face_of_triangle, int faces,
                                    const ContactCount& count, const ContactRegion& region);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

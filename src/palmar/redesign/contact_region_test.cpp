@@ -14,17 +14,17 @@
 #include "palmar/product/primitives.h"
 #include "palmar/study/study_record.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 /// Slab of 3 mm edges; `hands` of ten touch where `is_touched` says so.
 struct Touched {
-  TriangleMesh map;
+  geometry::TriangleMesh map;
   ContactCount count;
 };
 template <typename Where>
-Touched touched(const Product& product, int hands, const Where& is_touched) {
-  Touched result{product_map(product.mesh), {}};
+Touched touched(const product::Product& product, int hands, const Where& is_touched) {
+  Touched result{study::product_map(product.mesh), {}};
   result.count = start_count(result.map);
   result.count.hands = 10;
   for (std::size_t v = 0; v < result.map.vertices.size(); ++v) {
@@ -35,7 +35,9 @@ Touched touched(const Product& product, int hands, const Where& is_touched) {
   return result;
 }
 
-Product slab() { return make_plane_product({.width = 120.0, .depth = 120.0, .fineness = {}}); }
+product::Product slab() {
+  return product::make_plane_product({.width = 120.0, .depth = 120.0, .fineness = {}});
+}
 
 bool is_on_top(const Vec3& x) { return x.z() > -1e-9; }
 
@@ -104,7 +106,7 @@ TEST(ContactRegion, DropsSpecksAndFillsHolesAndReportsThem) {
 }
 
 TEST(ContactRegion, RoundAHandleHasTwoOutlines) {
-  const Touched t = touched(make_cylinder_product({.diameter = 40.0, .length = 120.0}), 10,
+  const Touched t = touched(product::make_cylinder_product({.diameter = 40.0, .length = 120.0}), 10,
                             [](const Vec3& x) { return std::abs(x.z()) < 30.0; });
   const ContactRegion region = contact_region(t.map, t.count, {});
   ASSERT_EQ(region.patches.size(), 1U);
@@ -115,12 +117,13 @@ TEST(ContactRegion, RoundAHandleHasTwoOutlines) {
 }
 
 TEST(ContactRegion, CountsWhoTouchesWithWhichPart) {
-  const Product product = slab();
-  const TriangleMesh map = product_map(product.mesh);
-  Hand hand;
-  hand.region = {Region::kIndexDistal, Region::kThumbDistal, Region::kDorsum, Region::kThenar};
+  const product::Product product = slab();
+  const geometry::TriangleMesh map = study::product_map(product.mesh);
+  hand::Hand hand;
+  hand.region = {hand::Region::kIndexDistal, hand::Region::kThumbDistal, hand::Region::kDorsum,
+                 hand::Region::kThenar};
   HeldHand held;
-  held.who = std::make_shared<const Hand>(hand);
+  held.who = std::make_shared<const hand::Hand>(hand);
   held.skin.vertices = {{-30, 0, -1}, {0, 0, -1}, {0, 1, -1}, {30, 0, -1}};
   held.pressure = {0.1, 0.02, 0.5, 0.0};
   Imprint reach;
@@ -153,9 +156,9 @@ TEST(ContactRegion, CountsWhoTouchesWithWhichPart) {
 }
 
 TEST(FaceShares, SumToTheRegion) {
-  const Product prism = make_prism_product({});
+  const product::Product prism = product::make_prism_product({});
   ASSERT_TRUE(prism.faces);
-  const ProductMap map = product_map(prism);
+  const study::ProductMap map = study::product_map(prism);
   ContactCount count = start_count(map.mesh);
   count.hands = 4;
   for (std::size_t v = 0; v < count.any.size(); ++v) {
@@ -175,7 +178,7 @@ TEST(FaceShares, SumToTheRegion) {
 }
 
 TEST(ContactRegion, SaysWhatItNeeds) {
-  const TriangleMesh map = product_map(slab().mesh);
+  const geometry::TriangleMesh map = study::product_map(slab().mesh);
   EXPECT_THAT([&] { start_count(map, -1.0); },
               ::testing::ThrowsMessage<UsageError>(
                   "contact region: pressure threshold is -1 MPa; 0 to 100 MPa is allowed"));
@@ -190,4 +193,4 @@ TEST(ContactRegion, SaysWhatItNeeds) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -6,17 +6,18 @@
 #include "palmar/product/intake/make_product.h"
 #include "palmar/redesign/imprint.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
-ContactStudy study_contact(const StudyPlan& plan, const StudyInputs& inputs,
-                           const RecordSource& records, const StudyCondition& condition,
-                           int product, double threshold, const Progress& progress) {
-  const Product& held_product = inputs.products[product];
+ContactStudy study_contact(const study::StudyPlan& plan, const study::StudyInputs& inputs,
+                           const study::RecordSource& records,
+                           const study::StudyCondition& condition, int product, double threshold,
+                           const Progress& progress) {
+  const product::Product& held_product = inputs.products[product];
   ContactStudy study;
-  study.map = product_map(held_product);
-  const TriangleMesh& map = study.map.mesh;
+  study.map = study::product_map(held_product);
+  const geometry::TriangleMesh& map = study.map.mesh;
   study.count = start_count(map, threshold);
-  const ImprintGauge gauge(held_product.mesh, map.vertices, vertex_normals(map));
+  const ImprintGauge gauge(held_product.mesh, map.vertices, geometry::vertex_normals(map));
   std::vector<Imprint> imprints;
   for_each_held_hand(
       plan, inputs, records, condition, product,
@@ -29,11 +30,13 @@ ContactStudy study_contact(const StudyPlan& plan, const StudyInputs& inputs,
   return study;
 }
 
-Product relieved_product(const Product& original, const ReliefPlan& plan, const std::string& name) {
-  UnitDecision unit;
-  unit.unit = LengthUnit::kMillimetre;
-  unit.source = UnitSource::kMade;
-  return make_product(name, relieved_mesh(original.mesh, plan.reliefs), unit, "made: " + name);
+product::Product relieved_product(const product::Product& original, const ReliefPlan& plan,
+                                  const std::string& name) {
+  product::UnitDecision unit;
+  unit.unit = geometry::LengthUnit::kMillimetre;
+  unit.source = product::UnitSource::kMade;
+  return product::make_product(name, relieved_mesh(original.mesh, plan.reliefs), unit,
+                               "made: " + name);
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/remesh.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kCrease = 0.766;  // cosine of 40 degrees: facets of a small fillet turn by 26
@@ -26,8 +26,8 @@ struct Patches {
   std::vector<std::vector<int>> triangles;
   std::vector<int> corner_of;
 };
-Patches patches_of(const TriangleMesh& mesh, const std::vector<int>& group) {
-  const std::vector<Vec3> normal = triangle_normals(mesh);
+Patches patches_of(const geometry::TriangleMesh& mesh, const std::vector<int>& group) {
+  const std::vector<Vec3> normal = geometry::triangle_normals(mesh);
   struct Side {
     std::pair<int, int> edge;
     int triangle, from;  ///< its first corner
@@ -43,7 +43,7 @@ Patches patches_of(const TriangleMesh& mesh, const std::vector<int>& group) {
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return std::pair(a.edge, a.triangle) < std::pair(b.edge, b.triangle);
   });
-  DisjointSets patches(mesh.triangle_count()), corners(3 * mesh.triangle_count());
+  geometry::DisjointSets patches(mesh.triangle_count()), corners(3 * mesh.triangle_count());
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
@@ -77,12 +77,13 @@ Patches patches_of(const TriangleMesh& mesh, const std::vector<int>& group) {
 
 /// A patch made anew, and for each of its vertices the one of the whole mesh that it is; -1: new.
 struct EvenPatch {
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   std::vector<int> known;
 };
-std::optional<EvenPatch> even_patch(const TriangleMesh& whole, const std::vector<int>& triangles,
+std::optional<EvenPatch> even_patch(const geometry::TriangleMesh& whole,
+                                    const std::vector<int>& triangles,
                                     const std::vector<int>& corner_of, double edge_length) {
-  TriangleMesh part;
+  geometry::TriangleMesh part;
   std::map<int, int> place;  // corner -> vertex of the part
   std::vector<int> of_whole;
   for (const int t : triangles) {
@@ -100,11 +101,11 @@ std::optional<EvenPatch> even_patch(const TriangleMesh& whole, const std::vector
   EvenPatch even;
   try {
     // Edges come out up to 4/3 of what is wanted.
-    even.mesh = remesh(part, {.edge_length = 0.75 * edge_length, .rounds = kRounds}).mesh;
+    even.mesh = geometry::remesh(part, {.edge_length = 0.75 * edge_length, .rounds = kRounds}).mesh;
   } catch (const InputError&) {
     return std::nullopt;  // not 2-manifold
   }
-  const auto border_of = [](const TriangleMesh& mesh) {
+  const auto border_of = [](const geometry::TriangleMesh& mesh) {
     std::map<std::pair<int, int>, int> uses;
     for (const Triangle& corner : mesh.triangles) {
       for (int k = 0; k < 3; ++k) ++uses[std::minmax(corner[k], corner[(k + 1) % 3])];
@@ -135,9 +136,9 @@ std::optional<EvenPatch> even_patch(const TriangleMesh& whole, const std::vector
 
 }  // namespace
 
-TriangleMesh with_even_patches(const TriangleMesh& mesh, const std::vector<int>& group,
-                               double edge_length) {
-  TriangleMesh result;
+geometry::TriangleMesh with_even_patches(const geometry::TriangleMesh& mesh,
+                                         const std::vector<int>& group, double edge_length) {
+  geometry::TriangleMesh result;
   std::vector<int> place(mesh.vertices.size(), -1);
   const auto kept = [&](int v) {
     if (place[v] < 0) {
@@ -176,4 +177,4 @@ TriangleMesh with_even_patches(const TriangleMesh& mesh, const std::vector<int>&
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

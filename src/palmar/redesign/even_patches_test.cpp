@@ -13,11 +13,11 @@
 #include "palmar/geometry/remesh/split_edges.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 /// Longest edge over the height on it.
-double aspect(const TriangleMesh& mesh, const Triangle& t) {
+double aspect(const geometry::TriangleMesh& mesh, const Triangle& t) {
   const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
   const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
   return longest * longest / (b - a).cross(c - a).norm();
@@ -25,19 +25,20 @@ double aspect(const TriangleMesh& mesh, const Triangle& t) {
 
 TEST(EvenPatches, StripsBecomeEvenTrianglesOnTheSameSurface) {
   // A brick of long triangles with a fillet round its edges, split to 2 mm: slivers.
-  PrismProductOptions options;
+  product::PrismProductOptions options;
   options.width = 40.0;
   options.depth = 30.0;
   options.length = 100.0;
   options.fillet_radius = 3.0;
   constexpr double kEdge = 2.0;
-  const TriangleMesh brick =
-      split_long_edges(make_prism_product(options).mesh, kEdge,
-                       [](const Vec3&, const Vec3&, const Vec3&) { return true; });
+  const geometry::TriangleMesh brick =
+      geometry::split_long_edges(product::make_prism_product(options).mesh, kEdge,
+                                 [](const Vec3&, const Vec3&, const Vec3&) { return true; });
   const std::vector<int> all(brick.triangles.size(), 0);
-  const TriangleMesh even = with_even_patches(brick, all, kEdge);
-  EXPECT_TRUE(examine_topology(even).is_closed);
-  EXPECT_NEAR(signed_volume(even), signed_volume(brick), 1e-3 * signed_volume(brick));
+  const geometry::TriangleMesh even = with_even_patches(brick, all, kEdge);
+  EXPECT_TRUE(geometry::examine_topology(even).is_closed);
+  EXPECT_NEAR(geometry::signed_volume(even), geometry::signed_volume(brick),
+              1e-3 * geometry::signed_volume(brick));
   int slim = 0;
   double longest = 0.0;
   for (const Triangle& t : even.triangles) {
@@ -65,17 +66,17 @@ TEST(EvenPatches, StripsBecomeEvenTrianglesOnTheSameSurface) {
 }
 
 TEST(EvenPatches, WhatIsNotChosenKeepsItsTriangles) {
-  CylinderProductOptions options;
+  product::CylinderProductOptions options;
   options.diameter = 40.0;
-  const TriangleMesh bar =
-      split_long_edges(make_cylinder_product(options).mesh, 2.0,
-                       [](const Vec3&, const Vec3&, const Vec3&) { return true; });
+  const geometry::TriangleMesh bar =
+      geometry::split_long_edges(product::make_cylinder_product(options).mesh, 2.0,
+                                 [](const Vec3&, const Vec3&, const Vec3&) { return true; });
   std::vector<int> upper;
   for (const Triangle& t : bar.triangles) upper.push_back(bar.vertices[t[0]].z() > 0.0 ? 0 : -1);
-  const TriangleMesh even = with_even_patches(bar, upper, 2.0);
-  EXPECT_TRUE(examine_topology(even).is_closed);
+  const geometry::TriangleMesh even = with_even_patches(bar, upper, 2.0);
+  EXPECT_TRUE(geometry::examine_topology(even).is_closed);
   using Corners = std::array<std::array<double, 3>, 3>;
-  const auto corners = [](const TriangleMesh& mesh, const Triangle& t) {
+  const auto corners = [](const geometry::TriangleMesh& mesh, const Triangle& t) {
     Corners c;
     for (int k = 0; k < 3; ++k) {
       const Vec3& x = mesh.vertices[t[k]];
@@ -92,4 +93,4 @@ TEST(EvenPatches, WhatIsNotChosenKeepsItsTriangles) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

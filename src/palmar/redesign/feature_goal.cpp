@@ -19,7 +19,7 @@
 #include "palmar/statistics/summary.h"
 #include "palmar/study/assessment/held_torque.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kPercentile = 0.95;
@@ -28,22 +28,22 @@ const std::map<std::string, std::string>& short_names() {
   static const std::map<std::string, std::string> names = {
       {"peak", "peak_pressure_cells_mpa"},  {"mean", "mean_pressure_mpa"},
       {"stability", "epsilon_l1"},          {"discomfort", "discomfort_onset_percent"},
-      {"torque", kHeldTorqueKey},           {"strength", "grip_strength_needed_n"},
+      {"torque", study::kHeldTorqueKey},    {"strength", "grip_strength_needed_n"},
       {"effort", "flexion_strength_in_use"}};
   return names;
 }
 
 struct Known {
   std::string key, name, unit;
-  Better better = Better::kNeither;
+  grasp::Better better = grasp::Better::kNeither;
 };
 
 std::vector<Known> known_quantities() {
   std::vector<Known> all;
-  for (const StudyQuantity& one : hand_quantities()) {
+  for (const study::StudyQuantity& one : study::hand_quantities()) {
     all.push_back({one.key, one.name, one.unit, one.better});
   }
-  for (const GraspIndex& one : index_catalogue()) {
+  for (const grasp::GraspIndex& one : study::index_catalogue()) {
     all.push_back({one.key, one.name, one.unit, one.better});
   }
   return all;
@@ -55,18 +55,18 @@ struct Pair {
   std::optional<double> product;
 };
 
-std::vector<Pair> pairs_of(const StudyResults& results, const std::string& key, int product,
+std::vector<Pair> pairs_of(const study::StudyResults& results, const std::string& key, int product,
                            int original) {
   std::vector<Pair> pairs;
-  for (const StudyCondition& condition : conditions_of(results.plan)) {
+  for (const study::StudyCondition& condition : study::conditions_of(results.plan)) {
     if (condition.population) continue;  // the first ones cover all populations
-    for (const int hand : hands_of(results.plan, condition)) {
-      const StudyRecord* const first = record_of(results, condition, original, hand);
-      const StudyRecord* const second = record_of(results, condition, product, hand);
+    for (const int hand : study::hands_of(results.plan, condition)) {
+      const study::StudyRecord* const first = study::record_of(results, condition, original, hand);
+      const study::StudyRecord* const second = study::record_of(results, condition, product, hand);
       if (first == nullptr) continue;
-      const std::optional<double> was = quantity_of(*first, key);
+      const std::optional<double> was = study::quantity_of(*first, key);
       if (!was || !std::isfinite(*was)) continue;
-      pairs.push_back({*was, second == nullptr ? std::nullopt : quantity_of(*second, key)});
+      pairs.push_back({*was, second == nullptr ? std::nullopt : study::quantity_of(*second, key)});
     }
   }
   return pairs;
@@ -94,11 +94,11 @@ FeatureGoal feature_goal(const std::string& words) {
                     "effort, stability or the key of a quantity",
                     what, nearest.empty() ? "" : "; did you mean " + nearest + "?"));
   }
-  if (quantity->better == Better::kNeither) {
+  if (quantity->better == grasp::Better::kNeither) {
     throw UsageError(
         fmt::format("goal \"{}\": {} is neither better higher nor lower", what, quantity->name));
   }
-  goal.is_lower_better = quantity->better == Better::kDown;
+  goal.is_lower_better = quantity->better == grasp::Better::kDown;
   goal.unit = quantity->unit;
   goal.name = "mean of " + quantity->name;
   if (colon == std::string::npos) return goal;
@@ -126,13 +126,13 @@ FeatureGoal feature_goal(const std::string& words) {
 }
 
 bool is_index(const std::string& key) {
-  return std::none_of(hand_quantities().begin(), hand_quantities().end(),
-                      [&](const StudyQuantity& one) { return one.key == key; });
+  return std::none_of(study::hand_quantities().begin(), study::hand_quantities().end(),
+                      [&](const study::StudyQuantity& one) { return one.key == key; });
 }
 
 bool needs_indices(const FeatureGoal& goal) { return is_index(goal.key); }
 
-GoalFigure goal_of(const StudyResults& results, const FeatureGoal& goal, int product,
+GoalFigure goal_of(const study::StudyResults& results, const FeatureGoal& goal, int product,
                    int original) {
   const std::vector<Pair> pairs = pairs_of(results, goal.key, product, original);
   if (pairs.empty()) {
@@ -156,10 +156,10 @@ GoalFigure goal_of(const StudyResults& results, const FeatureGoal& goal, int pro
   figure.values = values;
   if (goal.statistic == FeatureGoal::Statistic::kP95) {
     std::sort(values.begin(), values.end());
-    figure.value = quantile(values, kPercentile);
+    figure.value = statistics::quantile(values, kPercentile);
     return figure;
   }
-  const Summary summary = summarise(values);
+  const statistics::Summary summary = statistics::summarise(values);
   figure.value = summary.mean;
   figure.error = summary.standard_error;
   return figure;
@@ -176,7 +176,7 @@ GoalChange goal_change(const GoalFigure& from, const GoalFigure& to) {
     differences.push_back(to.values[i] - from.values[i]);
   }
   return {(to.value - from.value) / from.value,
-          summarise(differences).standard_error / std::abs(from.value)};
+          statistics::summarise(differences).standard_error / std::abs(from.value)};
 }
 
 bool is_worse(const FeatureGoal& goal, const GoalFigure& than, const GoalFigure& figure,
@@ -185,7 +185,8 @@ bool is_worse(const FeatureGoal& goal, const GoalFigure& than, const GoalFigure&
   if (figure.values.size() < 2) return false;
   const double worse = goal.is_lower_better ? change.share : -change.share;
   return worse >
-         student_quantile(level, static_cast<double>(figure.values.size()) - 1.0) * change.error;
+         statistics::student_quantile(level, static_cast<double>(figure.values.size()) - 1.0) *
+             change.error;
 }
 
 GoalFigure first_of(const GoalFigure& figure, std::size_t count) {
@@ -193,13 +194,14 @@ GoalFigure first_of(const GoalFigure& figure, std::size_t count) {
   first.values.resize(std::min(count, figure.values.size()));
   first.hands = static_cast<int>(first.values.size());
   if (first.values.empty()) return first;
-  const Summary summary = summarise(first.values);
+  const statistics::Summary summary = statistics::summarise(first.values);
   first.value = summary.mean;
   first.error = summary.standard_error;
   return first;
 }
 
-double mean_ratio(const StudyResults& results, const std::string& key, int product, int original) {
+double mean_ratio(const study::StudyResults& results, const std::string& key, int product,
+                  int original) {
   double first = 0.0, second = 0.0;
   for (const Pair& pair : pairs_of(results, key, product, original)) {
     if (!pair.product) continue;
@@ -209,4 +211,4 @@ double mean_ratio(const StudyResults& results, const std::string& key, int produ
   return first > 0.0 ? second / first : 0.0;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

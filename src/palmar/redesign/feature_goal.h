@@ -8,7 +8,7 @@
 
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// One figure of a product over all hands that a search makes better.
 struct FeatureGoal {
@@ -43,7 +43,7 @@ struct GoalFigure {
 /// The goal of product `product` over the hands that hold the original (product `original`). A hand
 /// that loses hold counts as the worst hand does with the original: no shape gets better by
 /// falling out of hands. Throws UsageError if no hand has a value with the original.
-GoalFigure goal_of(const StudyResults& results, const FeatureGoal& goal, int product,
+GoalFigure goal_of(const study::StudyResults& results, const FeatureGoal& goal, int product,
                    int original = 0);
 
 /// From one product to another in the same hands, both against the same original: the difference of
@@ -66,7 +66,7 @@ GoalFigure first_of(const GoalFigure& figure, std::size_t count);
 
 /// Mean of a quantity over the hands that have it with both products: of `product` divided by that
 /// of `original`. 0 if there is no such hand.
-double mean_ratio(const StudyResults& results, const std::string& key, int product,
+double mean_ratio(const study::StudyResults& results, const std::string& key, int product,
                   int original = 0);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/study/statistics/study_test_results.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using ::testing::HasSubstr;
@@ -19,22 +19,22 @@ using testing::held;
 using testing::not_held;
 
 /// Peaks of the same hands on the original and on a candidate, MPa; 0: not held.
-StudyResults results_of(const std::vector<std::pair<double, double>>& peaks) {
-  StudyResults results =
+study::StudyResults results_of(const std::vector<std::pair<double, double>>& peaks) {
+  study::StudyResults results =
       testing::study_of(static_cast<int>(peaks.size()), {"original", "candidate"});
-  for (std::int64_t number = 0; number < task_count(results.plan); ++number) {
-    const StudyTask task = task_at(results.plan, number);
+  for (std::int64_t number = 0; number < study::task_count(results.plan); ++number) {
+    const study::StudyTask task = study::task_at(results.plan, number);
     const auto& [first, second] = peaks[task.hand];
     const double peak = task.product == 0 ? first : second;
     results.records.push_back(peak > 0.0 ? held(number, peak)
-                                         : not_held(number, StudyOutcome::kSlipsOut));
+                                         : not_held(number, study::StudyOutcome::kSlipsOut));
     results.records.back().grip_force = task.product == 0 ? 40.0 : 30.0;
   }
   return results;
 }
 
 TEST(FeatureGoal, MeanAndItsErrorAreThoseOfTheHands) {
-  const StudyResults results = results_of({{0.2, 0.1}, {0.3, 0.2}, {0.4, 0.3}});
+  const study::StudyResults results = results_of({{0.2, 0.1}, {0.3, 0.2}, {0.4, 0.3}});
   const GoalFigure figure = goal_of(results, feature_goal("peak"), 1);
   EXPECT_NEAR(figure.value, 0.2, 1e-12);
   EXPECT_NEAR(figure.error, 0.1 / std::sqrt(3.0), 1e-12);  // sd 0.1 of three
@@ -58,7 +58,8 @@ TEST(FeatureGoal, HandsThatNeverHeldTheOriginalDoNotCount) {
 }
 
 TEST(FeatureGoal, SharesAndPercentilesAreOverHands) {
-  const StudyResults results = results_of({{0.2, 0.1}, {0.2, 0.25}, {0.2, 0.35}, {0.2, 0.0}});
+  const study::StudyResults results =
+      results_of({{0.2, 0.1}, {0.2, 0.25}, {0.2, 0.35}, {0.2, 0.0}});
   // 0.25 and 0.35 are above 0.2, and the hand that lost hold counts as above, too.
   const GoalFigure share = goal_of(results, feature_goal("peak:above=0.2"), 1);
   EXPECT_NEAR(share.value, 0.75, 1e-12);
@@ -107,4 +108,4 @@ TEST(FeatureGoal, WorseIsWhatIsWorseBeyondChanceInTheSameHands) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -14,7 +14,7 @@
 #include "palmar/core/error.h"
 #include "palmar/redesign/surface_search.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 /// Not feasible by less than this share of a limit is feasible: values of constraints are measured.
@@ -375,4 +375,4 @@ SearchResult search_features(const SearchProblem& problem, const SearchOptions& 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -10,7 +10,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/redesign/search_variable.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// Something of a candidate that must stay on one side of a limit: value <= limit, or >= it.
 struct SearchConstraint {
@@ -101,4 +101,4 @@ SearchResult as_given(const SearchProblem& problem);
 /// How far a candidate is beyond a constraint, as a share of its limit; 0 or below within it.
 double excess(const SearchConstraint& constraint, double value);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using ::testing::HasSubstr;
@@ -257,4 +257,4 @@ TEST(SearchFeatures, ProblemsThatMakeNoSenseAreReportedByName) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

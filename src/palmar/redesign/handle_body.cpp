@@ -16,7 +16,7 @@
 #include "palmar/product/parts/part_outline.h"
 #include "palmar/redesign/handle_ends.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using Point2 = Eigen::Vector2d;
@@ -34,8 +34,8 @@ struct FlatEnd {
   Vec3 normal = Vec3::Zero();
   double offset = 0.0;  ///< along the normal
 };
-std::optional<FlatEnd> flat_end(const TriangleMesh& mesh, const Vec3& axis) {
-  const std::vector<Vec3> normals = triangle_normals(mesh);
+std::optional<FlatEnd> flat_end(const geometry::TriangleMesh& mesh, const Vec3& axis) {
+  const std::vector<Vec3> normals = geometry::triangle_normals(mesh);
   struct Plane {
     FlatEnd end;
     double area = 0.0;
@@ -45,8 +45,9 @@ std::optional<FlatEnd> flat_end(const TriangleMesh& mesh, const Vec3& axis) {
     if (normals[t].dot(axis) < kLeanest) continue;
     const Triangle& corner = mesh.triangles[t];
     const Vec3& at = mesh.vertices[static_cast<std::size_t>(corner[0])];
-    const double area = triangle_area(at, mesh.vertices[static_cast<std::size_t>(corner[1])],
-                                      mesh.vertices[static_cast<std::size_t>(corner[2])]);
+    const double area =
+        geometry::triangle_area(at, mesh.vertices[static_cast<std::size_t>(corner[1])],
+                                mesh.vertices[static_cast<std::size_t>(corner[2])]);
     const auto same = std::find_if(planes.begin(), planes.end(), [&](const Plane& one) {
       return one.end.normal.dot(normals[t]) > kParallel &&
              std::abs(one.end.normal.dot(at) - one.end.offset) < kFlatWithin;
@@ -86,21 +87,22 @@ struct HandleCut {
   std::vector<Point2> outline;
   std::vector<std::vector<Point2>> hollows;
 };
-HandleCut cut_at(const TriangleMesh& mesh, const Rigid3& product_from_handle, double z,
-                 const Point2& near) {
-  const Rigid3 handle_from_product = product_from_handle.inverse();
+HandleCut cut_at(const geometry::TriangleMesh& mesh, const geometry::Rigid3& product_from_handle,
+                 double z, const Point2& near) {
+  const geometry::Rigid3 handle_from_product = product_from_handle.inverse();
   std::vector<std::vector<Point2>> polygons;
   std::size_t best = 0;
   double largest = 0.0;
   bool has_held = false;
-  for (const SectionCurve& curve : plane_section(mesh, product_from_handle * Vec3(0, 0, z),
-                                                 product_from_handle.rotation * Vec3::UnitZ())) {
+  for (const geometry::SectionCurve& curve :
+       geometry::plane_section(mesh, product_from_handle * Vec3(0, 0, z),
+                               product_from_handle.rotation * Vec3::UnitZ())) {
     if (!curve.is_closed || curve.point.size() < 3) continue;
     std::vector<Point2> polygon;
     for (const Vec3& point : curve.point)
       polygon.push_back((handle_from_product * point).head<2>());
-    const double area = std::abs(twice_area(polygon));
-    const bool is_held = holds(polygon, near);
+    const double area = std::abs(product::twice_area(polygon));
+    const bool is_held = product::holds(polygon, near);
     polygons.push_back(std::move(polygon));
     if (is_held < has_held || (is_held == has_held && area <= largest)) continue;
     has_held = is_held;
@@ -111,7 +113,7 @@ HandleCut cut_at(const TriangleMesh& mesh, const Rigid3& product_from_handle, do
   if (largest == 0.0) return cut;
   cut.outline = std::move(polygons[best]);
   for (std::size_t k = 0; k < polygons.size(); ++k) {
-    if (k != best && holds(cut.outline, polygons[k].front())) {
+    if (k != best && product::holds(cut.outline, polygons[k].front())) {
       cut.hollows.push_back(std::move(polygons[k]));
     }
   }
@@ -150,7 +152,7 @@ std::vector<double> radii_of(const std::vector<Point2>& polygon, const Point2& c
   return radius;
 }
 
-Rigid3 frame_along(const Vec3& origin, const Vec3& axis, const Vec3& palm) {
+geometry::Rigid3 frame_along(const Vec3& origin, const Vec3& axis, const Vec3& palm) {
   const Vec3 across = palm - palm.dot(axis) * axis;
   Eigen::Matrix3d axes;
   axes.col(2) = axis;
@@ -160,12 +162,13 @@ Rigid3 frame_along(const Vec3& origin, const Vec3& axis, const Vec3& palm) {
 }
 
 /// Sections, their centres and radii. Throws UsageError if there are none, or hidden parts.
-void take_sections(const Product& product, const ProductPart& part, HandleBody& body) {
+void take_sections(const product::Product& product, const product::ProductPart& part,
+                   HandleBody& body) {
   const double inside = body.is_whole ? kInside : 0.0;
   const double bottom = body.bottom + inside, top = body.top - inside;
   const int steps = std::max(8, static_cast<int>(std::ceil((top - bottom) / kSectionDistance)));
   std::vector<HandleCut> cuts;
-  const Rigid3 handle_from_product = body.product_from_handle.inverse();
+  const geometry::Rigid3 handle_from_product = body.product_from_handle.inverse();
   Eigen::MatrixXd powers(steps + 1, 3);
   Eigen::MatrixXd centres(steps + 1, 2);
   body.outlines.z.clear();
@@ -176,7 +179,7 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
     // The part's own centre line where this plane meets it.
     Point2 near = Point2::Zero();
     double least = std::numeric_limits<double>::infinity();
-    for (const PartStation& station : part.line) {
+    for (const product::PartStation& station : part.line) {
       const Vec3 at = handle_from_product * station.centre;
       if (std::abs(at.z() - z) >= least) continue;
       least = std::abs(at.z() - z);
@@ -226,7 +229,8 @@ void take_sections(const Product& product, const ProductPart& part, HandleBody& 
 }
 
 /// Takes what isn't the handle from a part's body.
-void leave_other_ends(const Product& product, const ProductPart& part, HandleBody& body) {
+void leave_other_ends(const product::Product& product, const product::ProductPart& part,
+                      HandleBody& body) {
   const std::array<double, 2> other = other_ends(body), kept = kept_lengths(body);
   body.bottom += kept[0];
   body.top -= kept[1];
@@ -278,11 +282,11 @@ double HandleOutlines::at(double height, double phi) const {
 
 Point2 HandleBody::centre_at(double z) const { return centre[0] + z * (centre[1] + z * centre[2]); }
 
-HandleBody measure_handle(const Product& product, const ProductPart& part,
+HandleBody measure_handle(const product::Product& product, const product::ProductPart& part,
                           const HandsOnHandle& hands, const MeasureHandleOptions& options) {
   if (part.is_ring || part.line.size() < 2 ||
-      (part.kind != PartKind::kBar && part.kind != PartKind::kPen &&
-       part.kind != PartKind::kBody)) {
+      (part.kind != product::PartKind::kBar && part.kind != product::PartKind::kPen &&
+       part.kind != product::PartKind::kBody)) {
     throw UsageError(fmt::format("{}: is held by its {}; a bar or a body can be shaped anew",
                                  product.name, part.name));
   }
@@ -308,8 +312,8 @@ HandleBody measure_handle(const Product& product, const ProductPart& part,
   body.product_from_handle = frame_along(hands.place, axis, hands.palm);
   if (!body.is_whole) {
     body.run_out = kShapeBlend;
-    const PartEnd& low = part.ends[is_forward ? 0 : 1];
-    const PartEnd& high = part.ends[is_forward ? 1 : 0];
+    const product::PartEnd& low = part.ends[is_forward ? 0 : 1];
+    const product::PartEnd& high = part.ends[is_forward ? 1 : 0];
     body.is_free = {!low.joined, !high.joined};
     // Free ends are round: they keep their form, as wide as the section before them.
     constexpr double kRound = 0.35, kJoint = 2.0;  // of the thickness; mm
@@ -338,4 +342,4 @@ HandleBody measure_handle(const Product& product, const ProductPart& part,
   return body;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

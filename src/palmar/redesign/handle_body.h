@@ -10,7 +10,7 @@
 #include "palmar/product/parts/product_parts.h"
 #include "palmar/redesign/handle_features.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// Over which the features begin beside what is kept, mm; our choice.
 inline constexpr double kShapeBlend = 14.0;
@@ -32,9 +32,9 @@ struct HandleOutlines {
 /// Everywhere else they are across the part's centre line, and the shape runs into the product
 /// over `run_out` at both ends.
 struct HandleBody {
-  Rigid3 product_from_handle;      ///< z towards the thumb's side, y towards the palm
-  double bottom = 0.0, top = 0.0;  ///< z of the ends of what is shaped anew, mm
-  bool is_whole = false;           ///< it is all of the product, with flat ends
+  geometry::Rigid3 product_from_handle;  ///< z towards the thumb's side, y towards the palm
+  double bottom = 0.0, top = 0.0;        ///< z of the ends of what is shaped anew, mm
+  bool is_whole = false;                 ///< it is all of the product, with flat ends
   double end_radius = 0.0;  ///< of the edges round flat ends, the larger; about, mm; 0: sharp
   double run_out = 0.0;     ///< mm; 0 at flat ends
   std::array<bool, 2> is_free = {true, true};  ///< nothing goes on beyond the bottom, the top
@@ -75,7 +75,7 @@ struct MeasureHandleOptions {
 };
 /// Throws UsageError naming the product if the part can't be shaped: no bar, a ring, bent by more
 /// than its own thickness, or with sections that aren't seen whole from the centre line.
-HandleBody measure_handle(const Product& product, const ProductPart& part,
+HandleBody measure_handle(const product::Product& product, const product::ProductPart& part,
                           const HandsOnHandle& hands, const MeasureHandleOptions& options = {});
 
 /// The features that come nearest to what the handle is now, where they are wholly there: outside
@@ -89,4 +89,4 @@ struct FittedFeatures {
 FittedFeatures fit_features(const HandleBody& body,
                             const std::array<double, 2>& kept_ends = {0.0, 0.0});
 
-}  // namespace palmar
+}  // namespace palmar::redesign

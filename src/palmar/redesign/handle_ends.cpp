@@ -13,7 +13,7 @@
 #include "palmar/core/error.h"
 #include "palmar/redesign/press_limits.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kOnceRound = 2.0 * std::numbers::pi;
@@ -122,7 +122,7 @@ double neck_length(const HandleBody& body, bool at_top) {
 }  // namespace
 
 std::array<double, 2> gripped_length(const HandleBody& body, const HandsOnHandle& hands) {
-  const Rigid3 to_handle = body.product_from_handle.inverse();
+  const geometry::Rigid3 to_handle = body.product_from_handle.inverse();
   double low = 0.0, high = 0.0, count = 0.0;
   for (const std::vector<HandPressure>& hand : hands.pressures) {
     if (hand.empty()) continue;
@@ -167,11 +167,11 @@ std::array<double, 2> kept_lengths(const HandleBody& body) {
   return kept;
 }
 
-HandleOutlines distances_to_faces(const HandleBody& body, const Product& product,
+HandleOutlines distances_to_faces(const HandleBody& body, const product::Product& product,
                                   const KeepOut& keep_out) {
   const std::vector<unsigned char> is_kept = kept_face_triangles(product, keep_out);
   if (is_kept.empty()) return {};
-  TriangleMesh faces;
+  geometry::TriangleMesh faces;
   faces.vertices = product.mesh.vertices;
   for (std::size_t t = 0; t < is_kept.size(); ++t) {
     if (is_kept[t] != 0) faces.triangles.push_back(product.mesh.triangles[t]);
@@ -240,4 +240,4 @@ HandleOutlines smoothed(const HandleOutlines& outlines) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -7,7 +7,7 @@
 #include "palmar/redesign/handle_body.h"
 #include "palmar/redesign/pressed_shape.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// Between which z [mm] hands press on the handle: where 2 and 98 % of a hand's pressures lie, mean
 /// over hands, and `hands.spread` more at both ends; within the body. Its bottom and top if nothing
@@ -28,11 +28,11 @@ std::array<double, 2> kept_lengths(const HandleBody& body);
 
 /// Distance from every place of the body's outlines to the faces of `keep_out`, in place of radii,
 /// mm, up to 30. Throws UsageError on a face that doesn't exist or doesn't lie on the handle.
-HandleOutlines distances_to_faces(const HandleBody& body, const Product& product,
+HandleOutlines distances_to_faces(const HandleBody& body, const product::Product& product,
                                   const KeepOut& keep_out);
 
 /// Outlines without what is finer than an outline of three or four lobes and 4 mm along it: those
 /// of a scan, whose roughness makes no surface that a CAD system goes on with.
 HandleOutlines smoothed(const HandleOutlines& outlines);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

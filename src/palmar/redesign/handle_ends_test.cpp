@@ -12,7 +12,7 @@
 #include "palmar/product/primitives.h"
 #include "palmar/redesign/handle_shape.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using ::testing::HasSubstr;
@@ -131,7 +131,8 @@ TEST(KeptEnds, KeepTheOutlinesThatTheyHave) {
 }
 
 TEST(KeptFaces, KeepTheirOutlineAndAreNamedIfTheyAreNotThere) {
-  const Product prism = make_prism_product({.width = 30, .depth = 40, .length = 120});
+  const product::Product prism =
+      product::make_prism_product({.width = 30, .depth = 40, .length = 120});
   ASSERT_NE(prism.faces, nullptr);
   // The flat side that looks to +x.
   int number = 0;
@@ -176,4 +177,4 @@ TEST(SmoothedOutlines, LoseRoughnessAndKeepTheirOval) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

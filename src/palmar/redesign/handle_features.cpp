@@ -13,7 +13,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 // Shares of the hand's breadth; choices, by where fingers lie: the index finger's middle is 0.36 of
@@ -117,4 +117,4 @@ Eigen::Vector2d section_point(const HandleFeatures& f, const HandleHands& hands,
   return point * (1.0 + out / point.norm());
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::redesign {
 
 inline constexpr double kFullTurn = 2.0 * std::numbers::pi;  ///< rad
 
@@ -75,4 +75,4 @@ void check(const HandleFeatures& features);
 Eigen::Vector2d section_point(const HandleFeatures& features, const HandleHands& hands, double z,
                               double t);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

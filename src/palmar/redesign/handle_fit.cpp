@@ -9,7 +9,7 @@
 
 #include "palmar/redesign/handle_body.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr int kFitColumns = 144;  // 2.5 degrees apart
@@ -132,4 +132,4 @@ FittedFeatures fit_features(const HandleBody& body, const std::array<double, 2>&
   return fitted;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/section.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kSpacing = 0.4;  // mm between samples of the outline
@@ -28,10 +28,10 @@ double area_of(const std::vector<Eigen::Vector2d>& p) {
 
 }  // namespace
 
-HandleSection::HandleSection(const TriangleMesh& mesh, const Vec3& point, const Vec3& axis,
-                             const Vec3& first, const Vec3& second) {
+HandleSection::HandleSection(const geometry::TriangleMesh& mesh, const Vec3& point,
+                             const Vec3& axis, const Vec3& first, const Vec3& second) {
   double largest = 0.0;
-  for (const SectionCurve& curve : plane_section(mesh, point, axis)) {
+  for (const geometry::SectionCurve& curve : geometry::plane_section(mesh, point, axis)) {
     if (!curve.is_closed) continue;
     std::vector<Eigen::Vector2d> flat;
     for (const Vec3& x : curve.point) {
@@ -266,4 +266,4 @@ std::optional<TouchingDisc> HandleSection::disc_under(const SectionRidge& ridge,
   return disc;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

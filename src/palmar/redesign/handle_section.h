@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// Where an outline is narrower than a disc.
 struct SectionRidge {
@@ -27,8 +27,8 @@ class HandleSection {
  public:
   /// `first` and `second` are unit vectors of the plane; the outline's coordinates are along them.
   /// Throws UsageError if the plane cuts no closed curve.
-  HandleSection(const TriangleMesh& mesh, const Vec3& point, const Vec3& axis, const Vec3& first,
-                const Vec3& second);
+  HandleSection(const geometry::TriangleMesh& mesh, const Vec3& point, const Vec3& axis,
+                const Vec3& first, const Vec3& second);
 
   /// Radius of the largest disc inside, mm; to 0.1 %.
   double largest_disc() const { return largest_disc_; }
@@ -58,4 +58,4 @@ class HandleSection {
   double largest_disc_ = 0.0;
 };
 
-}  // namespace palmar
+}  // namespace palmar::redesign

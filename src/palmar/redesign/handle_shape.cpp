@@ -12,7 +12,7 @@
 #include "palmar/geometry/smooth_step.h"
 #include "palmar/product/intake/make_product.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using Point2 = Eigen::Vector2d;
@@ -66,12 +66,12 @@ double share_of_plane(const HandleShape& shape, double z) {
     for (const std::size_t end : {0, 1}) {
       if (shape.kept_ends[end] <= 0.0) continue;
       const double inwards = end == 0 ? z - body.bottom : body.top - z;
-      share *= smooth_step((inwards - shape.kept_ends[end]) / kShapeBlend);
+      share *= geometry::smooth_step((inwards - shape.kept_ends[end]) / kShapeBlend);
     }
     return share;
   }
-  if (!body.is_free[0]) share *= smooth_step((z - body.bottom) / body.run_out);
-  if (!body.is_free[1]) share *= smooth_step((body.top - z) / body.run_out);
+  if (!body.is_free[0]) share *= geometry::smooth_step((z - body.bottom) / body.run_out);
+  if (!body.is_free[1]) share *= geometry::smooth_step((body.top - z) / body.run_out);
   return share;
 }
 
@@ -156,14 +156,14 @@ double HandleShape::share_at(double z, double phi) const {
   if (follows) return 0.0;
   double share = share_of_plane(*this, z);
   if (share > 0.0 && !to_kept_faces.z.empty()) {
-    share *= smooth_step(to_kept_faces.at(z, phi) / kShapeBlend);
+    share *= geometry::smooth_step(to_kept_faces.at(z, phi) / kShapeBlend);
   }
   if (share == 0.0 || kept_boxes.empty()) return share;
   const Point2 at =
       body.centre_at(z) + radius_before(z, phi) * Point2(std::cos(phi), std::sin(phi));
   const Vec3 point = body.product_from_handle * Vec3(at.x(), at.y(), z);
   for (const Box3& box : kept_boxes) {
-    share *= smooth_step(box.exteriorDistance(point) / kShapeBlend);
+    share *= geometry::smooth_step(box.exteriorDistance(point) / kShapeBlend);
   }
   return share;
 }
@@ -241,12 +241,12 @@ ShapeChange shape_change(const HandleShape& shape) {
   return change;
 }
 
-TriangleMesh handle_mesh(const HandleShape& shape, double edge_length) {
+geometry::TriangleMesh handle_mesh(const HandleShape& shape, double edge_length) {
   const std::vector<Row> rows = rows_of(shape, edge_length);
   const double girth = std::numbers::pi * 0.5 * (shape.features.width + shape.features.depth);
   const int columns = std::max(24, static_cast<int>(std::ceil(girth / edge_length)));
-  TriangleMesh mesh;
-  const Rigid3& from_handle = shape.body.product_from_handle;
+  geometry::TriangleMesh mesh;
+  const geometry::Rigid3& from_handle = shape.body.product_from_handle;
   for (const Row& row : rows) {
     for (int i = 0; i < columns; ++i) {
       const double t = static_cast<double>(i) / columns;
@@ -281,9 +281,10 @@ TriangleMesh handle_mesh(const HandleShape& shape, double edge_length) {
   return mesh;
 }
 
-TriangleMesh moved_mesh(const TriangleMesh& mesh, const HandleShape& shape, double edge_length) {
+geometry::TriangleMesh moved_mesh(const geometry::TriangleMesh& mesh, const HandleShape& shape,
+                                  double edge_length) {
   const HandleBody& body = shape.body;
-  const Rigid3 to_handle = body.product_from_handle.inverse();
+  const geometry::Rigid3 to_handle = body.product_from_handle.inverse();
   // Height on the centre line, radius and direction of a point beside the handle; nothing if it
   // isn't of it.
   struct Place {
@@ -311,8 +312,8 @@ TriangleMesh moved_mesh(const TriangleMesh& mesh, const HandleShape& shape, doub
     const Point2 from_centre = p.head<2>() - body.centre_at(z);
     return from_centre.norm() < kBeside * body.outlines.at(z, angle_of(from_centre));
   };
-  TriangleMesh moved =
-      split_long_edges(mesh, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+  geometry::TriangleMesh moved = geometry::split_long_edges(
+      mesh, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
         const double za = (to_handle * a).z(), zb = (to_handle * b).z(), zc = (to_handle * c).z();
         const bool is_below = std::max({za, zb, zc}) < body.bottom && !body.is_free[0];
         const bool is_above = std::min({za, zb, zc}) > body.top && !body.is_free[1];
@@ -337,13 +338,14 @@ TriangleMesh moved_mesh(const TriangleMesh& mesh, const HandleShape& shape, doub
   return moved;
 }
 
-Product shaped_product(const Product& original, const HandleShape& shape, const std::string& name) {
-  const TriangleMesh mesh =
+product::Product shaped_product(const product::Product& original, const HandleShape& shape,
+                                const std::string& name) {
+  const geometry::TriangleMesh mesh =
       shape.body.is_whole ? handle_mesh(shape) : moved_mesh(original.mesh, shape);
-  UnitDecision unit;
-  unit.unit = LengthUnit::kMillimetre;
-  unit.source = UnitSource::kMade;
-  return make_product(name, mesh, unit, original.source);
+  product::UnitDecision unit;
+  unit.unit = geometry::LengthUnit::kMillimetre;
+  unit.source = product::UnitSource::kMade;
+  return product::make_product(name, mesh, unit, original.source);
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -12,7 +12,7 @@
 #include "palmar/product/product.h"
 #include "palmar/redesign/handle_body.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// Roundings of flat ends turn by 75 degrees and meet the ends at the remaining 15: where a
 /// rounding meets a flat end without an edge, OpenCASCADE opens shells there wrongly.
@@ -84,15 +84,16 @@ ShapeChange shape_change(const HandleShape& shape);
 
 /// A whole handle (HandleBody::is_whole) as a closed mesh, product frame: quadrilaterals of about
 /// `edge_length` mm, halved, rounded edges and flat ends.
-TriangleMesh handle_mesh(const HandleShape& shape, double edge_length = 1.5);
+geometry::TriangleMesh handle_mesh(const HandleShape& shape, double edge_length = 1.5);
 
 /// The product's mesh, its vertices on the handle moved across the centre line onto the shape;
 /// edges there are split to `edge_length` [mm] before. Round free ends keep their form and become
 /// as wide as the section before them. A closed mesh stays closed.
-TriangleMesh moved_mesh(const TriangleMesh& mesh, const HandleShape& shape,
-                        double edge_length = 2.0);
+geometry::TriangleMesh moved_mesh(const geometry::TriangleMesh& mesh, const HandleShape& shape,
+                                  double edge_length = 2.0);
 
 /// Either of the two, whichever suits the body, as a product.
-Product shaped_product(const Product& original, const HandleShape& shape, const std::string& name);
+product::Product shaped_product(const product::Product& original, const HandleShape& shape,
+                                const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -14,7 +14,7 @@
 #include "palmar/product/intake/make_product.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using std::numbers::pi;
@@ -41,15 +41,15 @@ HandsOnHandle hands_at(const Vec3& place) {
   return hands;
 }
 
-HandleBody body_of(const Product& product, const Vec3& place = Vec3::Zero()) {
-  return measure_handle(product, find_parts(product).parts.at(0), hands_at(place));
+HandleBody body_of(const product::Product& product, const Vec3& place = Vec3::Zero()) {
+  return measure_handle(product, product::find_parts(product).parts.at(0), hands_at(place));
 }
 
-Product bar(const TriangleMesh& mesh, const std::string& name) {
-  UnitDecision unit;
-  unit.unit = LengthUnit::kMillimetre;
-  unit.source = UnitSource::kMade;
-  return make_product(name, mesh, unit, name);
+product::Product bar(const geometry::TriangleMesh& mesh, const std::string& name) {
+  product::UnitDecision unit;
+  unit.unit = geometry::LengthUnit::kMillimetre;
+  unit.source = product::UnitSource::kMade;
+  return product::make_product(name, mesh, unit, name);
 }
 
 TEST(HandleFeatures, SectionsHaveTheAreasOfSuperellipses) {
@@ -117,9 +117,9 @@ TEST(HandleFeatures, UnknownNamesAndValuesOutOfRangeAreNamed) {
 }
 
 /// A round bar about z whose profile goes through (radius, z), closed by flat ends.
-Product turned(const std::vector<Eigen::Vector2d>& profile) {
+product::Product turned(const std::vector<Eigen::Vector2d>& profile) {
   constexpr int kRound = 180;
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (const Eigen::Vector2d& at : profile) {
     for (int i = 0; i < kRound; ++i) {
       const double phi = 2.0 * pi * i / kRound;
@@ -162,10 +162,10 @@ TEST(HandleBody, TheRoundingOfOneEndOfAFlaredFootIsSeen) {
 }
 
 TEST(HandleBody, ACylinderIsFoundAsWhatItIs) {
-  CylinderProductOptions options;
+  product::CylinderProductOptions options;
   options.diameter = 45.0;
   options.length = 130.0;
-  const HandleBody body = body_of(make_cylinder_product(options), Vec3(0, 0, 10.0));
+  const HandleBody body = body_of(product::make_cylinder_product(options), Vec3(0, 0, 10.0));
   EXPECT_TRUE(body.is_whole);
   EXPECT_NEAR(body.bottom, -75.0, 0.01);
   EXPECT_NEAR(body.top, 55.0, 0.01);
@@ -179,17 +179,17 @@ TEST(HandleBody, ACylinderIsFoundAsWhatItIs) {
 }
 
 TEST(HandleBody, APrismIsMeasuredAlongItsSidesHoweverTheHandIsTurned) {
-  PrismProductOptions options;
+  product::PrismProductOptions options;
   options.width = 30.0;
   options.depth = 40.0;
   options.length = 130.0;
   options.fillet_radius = 3.0;
-  const Product product = make_prism_product(options);
+  const product::Product product = product::make_prism_product(options);
   HandsOnHandle hands = hands_at(Vec3::Zero());
   for (const double turned : {0.0, 0.3, -0.3}) {
     hands.palm = Vec3(-std::sin(turned), std::cos(turned), 0.0);
     const FittedFeatures fitted =
-        fit_features(measure_handle(product, find_parts(product).parts.at(0), hands));
+        fit_features(measure_handle(product, product::find_parts(product).parts.at(0), hands));
     EXPECT_NEAR(fitted.features.width, 30.0, 0.15) << turned;
     EXPECT_NEAR(fitted.features.depth, 40.0, 0.15) << turned;
     EXPECT_NEAR(fitted.features.turn, -turned, 0.02) << turned;
@@ -198,10 +198,10 @@ TEST(HandleBody, APrismIsMeasuredAlongItsSidesHoweverTheHandIsTurned) {
 }
 
 TEST(HandleBody, SectionsOfALeaningHandleAreParallelToItsEnds) {
-  CylinderProductOptions options;
+  product::CylinderProductOptions options;
   options.diameter = 36.0;
   options.length = 110.0;
-  TriangleMesh mesh = make_cylinder_product(options).mesh;
+  geometry::TriangleMesh mesh = product::make_cylinder_product(options).mesh;
   for (Vec3& x : mesh.vertices) x.y() += 0.3 * x.z();
   const HandleBody body = body_of(bar(mesh, "leaning"));
   ASSERT_TRUE(body.is_whole);
@@ -213,32 +213,32 @@ TEST(HandleBody, SectionsOfALeaningHandleAreParallelToItsEnds) {
 }
 
 TEST(HandleBody, WhatIsNoBarIsRefusedByName) {
-  PlaneProductOptions options;
+  product::PlaneProductOptions options;
   options.width = 120.0;
   options.depth = 80.0;
   options.thickness = 6.0;
-  const Product product = make_plane_product(options);
+  const product::Product product = product::make_plane_product(options);
   EXPECT_THAT([&] { body_of(product); },
               ThrowsMessage<UsageError>(HasSubstr("is held by its plate; a bar")));
 }
 
 TEST(HandleShape, AnEllipticBarIsClosedAndHasItsVolume) {
-  CylinderProductOptions options;
+  product::CylinderProductOptions options;
   options.diameter = 40.0;
   options.length = 120.0;
-  HandleShape shape{.body = body_of(make_cylinder_product(options))};
+  HandleShape shape{.body = body_of(product::make_cylinder_product(options))};
   shape.features = {.width = 30.0, .depth = 44.0};
-  const TriangleMesh sharp = handle_mesh(shape);
-  EXPECT_TRUE(examine_topology(sharp).is_closed);
+  const geometry::TriangleMesh sharp = handle_mesh(shape);
+  EXPECT_TRUE(geometry::examine_topology(sharp).is_closed);
   const double volume = pi * 15.0 * 22.0 * 120.0;
-  EXPECT_NEAR(signed_volume(sharp), volume, 2e-3 * volume);
+  EXPECT_NEAR(geometry::signed_volume(sharp), volume, 2e-3 * volume);
   // Rounded with r over an angle w: the sections near both ends shrink (Steiner), to first order by
   // perimeter r^2 (2 sin w - w - sin(2 w) / 2); the perimeter by Ramanujan.
   shape.end_radius = 3.0;
   const double h = std::pow((22.0 - 15.0) / 37.0, 2);
   const double perimeter = pi * 37.0 * (1.0 + 3.0 * h / (10.0 + std::sqrt(4.0 - 3.0 * h)));
   EXPECT_NEAR(
-      signed_volume(sharp) - signed_volume(handle_mesh(shape)),
+      geometry::signed_volume(sharp) - geometry::signed_volume(handle_mesh(shape)),
       perimeter * 9.0 * (2.0 * std::sin(kEndAngle) - kEndAngle - 0.5 * std::sin(2.0 * kEndAngle)),
       30.0);
   const ShapeChange change = shape_change(shape);
@@ -248,10 +248,10 @@ TEST(HandleShape, AnEllipticBarIsClosedAndHasItsVolume) {
 }
 
 TEST(HandleShape, APartRunsIntoItsProductWhereItEnds) {
-  CylinderProductOptions options;
+  product::CylinderProductOptions options;
   options.diameter = 40.0;
   options.length = 160.0;
-  const Product product = make_cylinder_product(options);
+  const product::Product product = product::make_cylinder_product(options);
   HandleShape shape{.body = body_of(product)};
   shape.body.is_whole = false;
   shape.body.run_out = 14.0;
@@ -259,8 +259,8 @@ TEST(HandleShape, APartRunsIntoItsProductWhereItEnds) {
   shape.body.bottom = -60.0;
   shape.body.top = 60.0;
   shape.features = {.width = 34.0, .depth = 34.0};
-  const TriangleMesh moved = moved_mesh(product.mesh, shape);
-  EXPECT_TRUE(examine_topology(moved).is_closed);
+  const geometry::TriangleMesh moved = moved_mesh(product.mesh, shape);
+  EXPECT_TRUE(geometry::examine_topology(moved).is_closed);
   for (const Vec3& x : moved.vertices) {
     const double r = x.head<2>().norm();
     if (std::abs(x.z()) > 79.9) continue;  // the flat ends
@@ -276,7 +276,7 @@ TEST(HandleShape, APartRunsIntoItsProductWhereItEnds) {
 TEST(HandleShape, APartOfLongTrianglesMovesAsWell) {
   // A bar of 24 walls from end to end, two triangles each.
   constexpr int kWalls = 24;
-  TriangleMesh bar;
+  geometry::TriangleMesh bar;
   for (const double z : {-80.0, 80.0}) {
     for (int k = 0; k < kWalls; ++k) {
       const double phi = 2.0 * pi * k / kWalls;
@@ -291,19 +291,19 @@ TEST(HandleShape, APartOfLongTrianglesMovesAsWell) {
     bar.triangles.push_back({kWalls, next, k});
     bar.triangles.push_back({kWalls + above, k + above, next + above});
   }
-  CylinderProductOptions options;
+  product::CylinderProductOptions options;
   options.diameter = 30.0;
   options.length = 160.0;
-  HandleShape shape{.body = body_of(make_cylinder_product(options))};
+  HandleShape shape{.body = body_of(product::make_cylinder_product(options))};
   shape.body.is_whole = false;
   shape.body.run_out = 14.0;
   shape.body.is_free = {false, false};
   shape.body.bottom = -60.0;
   shape.body.top = 60.0;
   shape.features = {.width = 40.0, .depth = 40.0};
-  ASSERT_TRUE(examine_topology(bar).is_closed);
-  const TriangleMesh moved = moved_mesh(bar, shape);
-  EXPECT_TRUE(examine_topology(moved).is_closed);
+  ASSERT_TRUE(geometry::examine_topology(bar).is_closed);
+  const geometry::TriangleMesh moved = moved_mesh(bar, shape);
+  EXPECT_TRUE(geometry::examine_topology(moved).is_closed);
   int middle = 0;
   for (const Vec3& x : moved.vertices) {
     if (std::abs(x.z()) > 45.0) continue;
@@ -314,11 +314,12 @@ TEST(HandleShape, APartOfLongTrianglesMovesAsWell) {
 }
 
 TEST(HandleShape, WhatLiesInABoxStaysAsItIs) {
-  const Product prism = make_prism_product({.width = 30, .depth = 40, .length = 130});
+  const product::Product prism =
+      product::make_prism_product({.width = 30, .depth = 40, .length = 130});
   HandleShape shape{.body = body_of(prism), .features = {.width = 38.0, .depth = 48.0}};
   // The side that looks to +x, from 10 mm below the top.
   shape.kept_boxes = {Box3(Vec3(10.0, -30.0, 55.0), Vec3(30.0, 30.0, 66.0))};
-  const Rigid3 to_handle = shape.body.product_from_handle.inverse();
+  const geometry::Rigid3 to_handle = shape.body.product_from_handle.inverse();
   const auto radius_towards = [&](const Vec3& way, double z) {
     const Vec3 p = to_handle * Vec3(0.0, 0.0, z);
     const Vec3 d = to_handle.rotation * way;
@@ -384,4 +385,4 @@ TEST(OutlineGrid, IsFollowedInPlaceOfFeatures) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using Point2 = Eigen::Vector2d;
@@ -73,4 +73,4 @@ std::optional<double> thinnest_wall(const HandleBody& body) {
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

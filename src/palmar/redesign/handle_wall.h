@@ -6,7 +6,7 @@
 
 #include "palmar/redesign/handle_shape.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// Least distance between a shape's sides and the hollow within the original handle, in the planes
 /// of its sections, mm: the wall that would be left if the hollow stayed as it is. Negative where
@@ -16,4 +16,4 @@ std::optional<double> thinnest_wall(const HandleShape& shape);
 /// The same of the original.
 std::optional<double> thinnest_wall(const HandleBody& body);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

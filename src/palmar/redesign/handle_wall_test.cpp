@@ -9,16 +9,16 @@
 
 #include "palmar/product/intake/make_product.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using std::numbers::pi;
 
 /// A pipe about z from z = -60 to 60 mm: elliptic outside, round inside from -40 to 40 mm about (x,
 /// 0), closed there.
-Product pipe(double width, double depth, double inner_radius, double x) {
+product::Product pipe(double width, double depth, double inner_radius, double x) {
   constexpr int kRound = 240;
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   const auto add_drum = [&](double half, double a, double b, double at, bool is_inward) {
     constexpr int kRings = 60;
     const int first = mesh.vertex_count();
@@ -48,17 +48,17 @@ Product pipe(double width, double depth, double inner_radius, double x) {
   };
   add_drum(60.0, 0.5 * width, 0.5 * depth, 0.0, false);
   add_drum(40.0, inner_radius, inner_radius, x, true);
-  UnitDecision unit;
-  unit.unit = LengthUnit::kMillimetre;
-  unit.source = UnitSource::kMade;
-  return make_product("pipe", mesh, unit, "pipe");
+  product::UnitDecision unit;
+  unit.unit = geometry::LengthUnit::kMillimetre;
+  unit.source = product::UnitSource::kMade;
+  return product::make_product("pipe", mesh, unit, "pipe");
 }
 
-HandleShape shape_on(const Product& product, const HandleFeatures& features) {
+HandleShape shape_on(const product::Product& product, const HandleFeatures& features) {
   HandsOnHandle hands;
   hands.palm = Vec3::UnitY();
   hands.thumb = Vec3(20.0, 0.0, 30.0);
-  return {.body = measure_handle(product, find_parts(product).parts.at(0), hands),
+  return {.body = measure_handle(product, product::find_parts(product).parts.at(0), hands),
           .features = features};
 }
 
@@ -70,7 +70,7 @@ TEST(HandleWall, OfAPipeIsTheGapBetweenItsRadii) {
 }
 
 TEST(HandleWall, IsMeasuredAcrossTheSurfaceAndNegativeInsideTheHollow) {
-  const Product product = pipe(40.0, 40.0, 12.0, 0.0);
+  const product::Product product = pipe(40.0, 40.0, 12.0, 0.0);
   // An ellipse of half axes 20 and 15 round a circle of 12: nearest at the ends of the short axis.
   EXPECT_NEAR(thinnest_wall(shape_on(product, {.width = 40.0, .depth = 30.0})).value(), 3.0, 0.05);
   // One of 20 and 11 cuts 1 mm into it.
@@ -87,19 +87,19 @@ TEST(HandleWall, IsMeasuredAcrossTheSurfaceAndNegativeInsideTheHollow) {
 }
 
 TEST(HandleWall, ASolidHandleHasNone) {
-  UnitDecision unit;
-  unit.unit = LengthUnit::kMillimetre;
-  unit.source = UnitSource::kMade;
-  TriangleMesh solid = pipe(36.0, 36.0, 10.0, 0.0).mesh;
+  product::UnitDecision unit;
+  unit.unit = geometry::LengthUnit::kMillimetre;
+  unit.source = product::UnitSource::kMade;
+  geometry::TriangleMesh solid = pipe(36.0, 36.0, 10.0, 0.0).mesh;
   // Without the inner drum, whose vertices come second.
   const auto half = static_cast<int>(solid.vertices.size() / 2);
   std::erase_if(solid.triangles, [&](const Triangle& t) { return t[0] >= half; });
   solid.vertices.resize(static_cast<std::size_t>(half));
   const HandleShape shape =
-      shape_on(make_product("bar", solid, unit, "bar"), {.width = 36.0, .depth = 36.0});
+      shape_on(product::make_product("bar", solid, unit, "bar"), {.width = 36.0, .depth = 36.0});
   EXPECT_TRUE(shape.body.hollow.z.empty());
   EXPECT_FALSE(thinnest_wall(shape).has_value());
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

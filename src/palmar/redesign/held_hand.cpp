@@ -12,38 +12,38 @@
 #include "palmar/study/study_hand_maker.h"
 #include "palmar/study/study_task.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
-HeldHand make_held(const StudyRecord& record, const StudyTask& task,
-                   const StudyHandMaker& hand_of) {
+HeldHand make_held(const study::StudyRecord& record, const study::StudyTask& task,
+                   const study::StudyHandMaker& hand_of) {
   HeldHand held;
   held.hand = task.hand;
-  held.who = std::make_shared<const Hand>(hand_of(task));
+  held.who = std::make_shared<const hand::Hand>(hand_of(task));
   held.product_from_hand = record.product_from_hand;
-  held.skin.vertices = pose_skin(*held.who, record.posture);
+  held.skin.vertices = hand::pose_skin(*held.who, record.posture);
   for (Vec3& x : held.skin.vertices) x = record.product_from_hand * x;
   held.skin.triangles = held.who->skin.triangles;
-  held.pressure = dense(record.skin_pressure, held.skin.vertices.size());
+  held.pressure = study::dense(record.skin_pressure, held.skin.vertices.size());
   held.product_pressure = record.product_pressure;
   return held;
 }
 
 }  // namespace
 
-void for_each_held_hand(const StudyPlan& plan, const StudyInputs& inputs,
-                        const RecordSource& records, const StudyCondition& condition, int product,
-                        const std::function<void(const HeldHand&)>& visit,
+void for_each_held_hand(const study::StudyPlan& plan, const study::StudyInputs& inputs,
+                        const study::RecordSource& records, const study::StudyCondition& condition,
+                        int product, const std::function<void(const HeldHand&)>& visit,
                         const Progress& progress) {
-  const StudyHandMaker hand_of = study_hand_maker(plan, inputs.base);
+  const study::StudyHandMaker hand_of = study::study_hand_maker(plan, inputs.base);
   const auto batch = static_cast<std::size_t>(thread_count());
-  std::vector<StudyRecord> waiting;
+  std::vector<study::StudyRecord> waiting;
   int held_hands = 0;
   const auto flush = [&] {
     std::vector<HeldHand> made(waiting.size());
     parallel_for(static_cast<int>(waiting.size()), [&](int i) {
-      const StudyRecord& record = waiting[i];
-      made[i] = make_held(record, task_at(plan, record.number), hand_of);
+      const study::StudyRecord& record = waiting[i];
+      made[i] = make_held(record, study::task_at(plan, record.number), hand_of);
     });
     for (const HeldHand& one : made) {
       progress.update(static_cast<double>(++held_hands) / static_cast<double>(plan.hands.size()),
@@ -52,11 +52,12 @@ void for_each_held_hand(const StudyPlan& plan, const StudyInputs& inputs,
     }
     waiting.clear();
   };
-  records([&](const StudyRecord& record) {
-    const StudyTask task = task_at(plan, record.number);
-    const StudyHand& hand = plan.hands[task.hand];
+  records([&](const study::StudyRecord& record) {
+    const study::StudyTask task = study::task_at(plan, record.number);
+    const study::StudyHand& hand = plan.hands[task.hand];
     if (task.product != product || task.profile != condition.profile ||
-        task.setting != condition.setting || task.grip != condition.grip || !is_in_hand(record) ||
+        task.setting != condition.setting || task.grip != condition.grip ||
+        !study::is_in_hand(record) ||
         (condition.population && hand.population != *condition.population)) {
       return;
     }
@@ -70,4 +71,4 @@ void for_each_held_hand(const StudyPlan& plan, const StudyInputs& inputs,
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -17,7 +17,7 @@
 #include "palmar/geometry/distance/winding_number.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 // A ray through an edge may meet both triangles there; rays are single precision.
@@ -29,18 +29,19 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// Rays in a mesh that know the side of what they meet.
 class SidedRays {
  public:
-  explicit SidedRays(const TriangleMesh& mesh) : rays_(mesh), normal_(triangle_normals(mesh)) {}
+  explicit SidedRays(const geometry::TriangleMesh& mesh)
+      : rays_(mesh), normal_(geometry::triangle_normals(mesh)) {}
 
-  bool is_exit(const RayHit& hit, const Vec3& direction) const {
+  bool is_exit(const geometry::RayHit& hit, const Vec3& direction) const {
     return normal_[hit.triangle].dot(direction) > 0.0;
   }
-  std::optional<RayHit> first(const Vec3& origin, const Vec3& direction) const {
+  std::optional<geometry::RayHit> first(const Vec3& origin, const Vec3& direction) const {
     return rays_.first_hit(origin, direction);
   }
   /// Way until a ray that begins `inside` times within the solid has left it; infinity if never.
   double way_out(const Vec3& origin, const Vec3& direction, int inside, double from = 0.0) const {
     double last_exit = -1.0, last_entry = -1.0;
-    for (const RayHit& hit : rays_.all_hits(origin, direction, from)) {
+    for (const geometry::RayHit& hit : rays_.all_hits(origin, direction, from)) {
       double& last = is_exit(hit, direction) ? last_exit : last_entry;
       const bool is_again = last >= 0.0 && hit.distance - last < kSamePlace;
       last = hit.distance;
@@ -52,7 +53,7 @@ class SidedRays {
   }
 
  private:
-  RayQuery rays_;
+  geometry::RayQuery rays_;
   std::vector<Vec3> normal_;
 };
 
@@ -87,11 +88,12 @@ struct ImprintGauge::Impl {
   std::vector<Vec3> points, outward;
   std::vector<double> wall, most;
 
-  double depth_at(std::size_t i, const SidedRays& skin, const WindingNumber& winding) const {
+  double depth_at(std::size_t i, const SidedRays& skin,
+                  const geometry::WindingNumber& winding) const {
     const Vec3& x = points[i];
     const Vec3 inward = -outward[i];
     // Most points aren't covered: then the ray meets no skin, or its front.
-    const std::optional<RayHit> first = skin.first(x, inward);
+    const std::optional<geometry::RayHit> first = skin.first(x, inward);
     if (!first) return 0.0;
     if (!skin.is_exit(*first, inward) && first->distance > most[i]) return 0.0;
     const int inside = static_cast<int>(std::lround(winding.at(x)));
@@ -102,7 +104,7 @@ struct ImprintGauge::Impl {
   }
 };
 
-ImprintGauge::ImprintGauge(const TriangleMesh& product, std::vector<Vec3> points,
+ImprintGauge::ImprintGauge(const geometry::TriangleMesh& product, std::vector<Vec3> points,
                            std::vector<Vec3> outward, const ImprintOptions& options) {
   options.check();
   if (points.size() != outward.size()) {
@@ -126,12 +128,12 @@ ImprintGauge::~ImprintGauge() = default;
 
 const std::vector<double>& ImprintGauge::wall() const { return impl_->wall; }
 
-Imprint ImprintGauge::measure(const TriangleMesh& skin) const {
+Imprint ImprintGauge::measure(const geometry::TriangleMesh& skin) const {
   Imprint imprint;
   if (skin.triangles.empty() || impl_->points.empty()) return imprint;
   const SidedRays rays(skin);
-  const WindingNumber winding(skin);
-  const Box3 box = bounding_box(skin);
+  const geometry::WindingNumber winding(skin);
+  const Box3 box = geometry::bounding_box(skin);
   std::vector<double> depth(impl_->points.size(), 0.0);
   parallel_for(static_cast<int>(depth.size()), [&](int k) {
     const auto i = static_cast<std::size_t>(k);
@@ -175,4 +177,4 @@ std::vector<double> combine_imprints(std::span<const Imprint> imprints, int poin
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// How deep one hand's skin, posed but not deformed, reaches into a product: per point of the
 /// product's surface that the skin covers. Sparse, ascending by point.
@@ -35,12 +35,12 @@ struct ImprintOptions {
 class ImprintGauge {
  public:
   /// `outward` is per point. Throws UsageError if sizes differ, InputError as RayQuery does.
-  ImprintGauge(const TriangleMesh& product, std::vector<Vec3> points, std::vector<Vec3> outward,
-               const ImprintOptions& options = {});
+  ImprintGauge(const geometry::TriangleMesh& product, std::vector<Vec3> points,
+               std::vector<Vec3> outward, const ImprintOptions& options = {});
   ~ImprintGauge();
 
   /// `skin` in the product frame, mm.
-  Imprint measure(const TriangleMesh& skin) const;
+  Imprint measure(const geometry::TriangleMesh& skin) const;
 
   /// Per point: thickness of the product along -m, mm; infinity where the ray never leaves it.
   const std::vector<double>& wall() const;
@@ -67,4 +67,4 @@ struct CombineOptions {
 std::vector<double> combine_imprints(std::span<const Imprint> imprints, int points,
                                      const CombineOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -13,15 +13,15 @@
 #include "palmar/redesign/align_imprints.h"
 #include "palmar/redesign/surface_diffusion.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
-TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
+geometry::TriangleMesh moved(geometry::TriangleMesh mesh, const Vec3& by) {
   for (Vec3& x : mesh.vertices) x += by;
   return mesh;
 }
 
-TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
+geometry::TriangleMesh joined(geometry::TriangleMesh a, const geometry::TriangleMesh& b) {
   const int offset = a.vertex_count();
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
   for (const Triangle& t : b.triangles) {
@@ -42,45 +42,47 @@ const std::vector<Vec3> kPoints = {{1.3, 0.7, 10.0}, {8.1, 0.4, 10.0}, {15.2, 3.
 const std::vector<Vec3> kUp(3, Vec3::UnitZ());
 
 TEST(ImprintGauge, MeasuresAlongTheRayUntilItLeavesTheSkin) {
-  const ImprintGauge gauge(make_box({40, 40, 20}), kPoints, kUp);
+  const ImprintGauge gauge(geometry::make_box({40, 40, 20}), kPoints, kUp);
   // A box of skin whose underside lies at z = 7.
-  const Imprint imprint = gauge.measure(moved(make_box({20, 20, 10}), {0, 0, 12}));
+  const Imprint imprint = gauge.measure(moved(geometry::make_box({20, 20, 10}), {0, 0, 12}));
   EXPECT_EQ(imprint.point, (std::vector<int>{0, 1}));
   EXPECT_NEAR(imprint.depth[0], 3.0, 1e-4);
   EXPECT_NEAR(gauge.wall()[0], 20.0, 1e-4);
 }
 
 TEST(ImprintGauge, GoesThroughOverlappingFingersAsThroughOne) {
-  const ImprintGauge gauge(make_box({40, 40, 20}), kPoints, kUp);
-  const TriangleMesh fingers = joined(moved(make_box({20, 20, 10}), {0, 0, 13}),   // 8 to 18
-                                      moved(make_box({22, 22, 4}), {0, 0, 7.5}));  // 5.5 to 9.5
+  const ImprintGauge gauge(geometry::make_box({40, 40, 20}), kPoints, kUp);
+  const geometry::TriangleMesh fingers =
+      joined(moved(geometry::make_box({20, 20, 10}), {0, 0, 13}),   // 8 to 18
+             moved(geometry::make_box({22, 22, 4}), {0, 0, 7.5}));  // 5.5 to 9.5
   EXPECT_NEAR(depth_at(gauge.measure(fingers), 0), 4.5, 1e-4);
 }
 
 TEST(ImprintGauge, FingerBelowTheSurfaceThatDoesntCoverItIsNoImprint) {
-  const ImprintGauge gauge(make_box({40, 40, 20}), kPoints, kUp);
-  EXPECT_TRUE(gauge.measure(moved(make_box({20, 20, 4}), {0, 0, 5})).point.empty());
+  const ImprintGauge gauge(geometry::make_box({40, 40, 20}), kPoints, kUp);
+  EXPECT_TRUE(gauge.measure(moved(geometry::make_box({20, 20, 4}), {0, 0, 5})).point.empty());
 }
 
 TEST(ImprintGauge, IsNotDeeperThanHalfTheWall) {
-  const ImprintGauge gauge(moved(make_box({40, 40, 4}), {0, 0, 8}), kPoints, kUp);
-  const TriangleMesh skin = moved(make_box({20, 20, 10}), {0, 0, 12});  // 3 mm deep
+  const ImprintGauge gauge(moved(geometry::make_box({40, 40, 4}), {0, 0, 8}), kPoints, kUp);
+  const geometry::TriangleMesh skin =
+      moved(geometry::make_box({20, 20, 10}), {0, 0, 12});  // 3 mm deep
   EXPECT_NEAR(depth_at(gauge.measure(skin), 0), 2.0, 1e-4);
-  const ImprintGauge wall_gauge(moved(make_box({40, 40, 4}), {0, 0, 8}), kPoints, kUp,
+  const ImprintGauge wall_gauge(moved(geometry::make_box({40, 40, 4}), {0, 0, 8}), kPoints, kUp,
                                 {.largest = 15.0, .wall_share = 1.0});
   EXPECT_NEAR(depth_at(wall_gauge.measure(skin), 0), 3.0, 1e-4);
 }
 
 TEST(ImprintGauge, SkinThatCameThroughTheWallFromBehindDoesntPressTheFarSide) {
   // The wall from z = 8 to 10; the finger comes from below and stands out by 1 mm.
-  const ImprintGauge gauge(moved(make_box({40, 40, 2}), {0, 0, 9}), kPoints, kUp);
-  EXPECT_TRUE(gauge.measure(moved(make_box({20, 20, 14}), {0, 0, 4})).point.empty());
+  const ImprintGauge gauge(moved(geometry::make_box({40, 40, 2}), {0, 0, 9}), kPoints, kUp);
+  EXPECT_TRUE(gauge.measure(moved(geometry::make_box({20, 20, 14}), {0, 0, 4})).point.empty());
 }
 
 TEST(ImprintGauge, RefusesPointsWithoutDirections) {
   EXPECT_THAT(
       [] {
-        ImprintGauge(make_box({1, 1, 1}), kPoints, {});
+        ImprintGauge(geometry::make_box({1, 1, 1}), kPoints, {});
       },
       ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("3 points, 0 directions")));
 }
@@ -131,7 +133,7 @@ TEST(AlignImprints, BringsShiftedHandsOntoEachOther) {
 }
 
 TEST(SurfaceDiffusion, SpreadsASpotLikeAGaussian) {
-  const TriangleMesh patch = make_lattice_patch(20.0, 0.5);
+  const geometry::TriangleMesh patch = geometry::make_lattice_patch(20.0, 0.5);
   std::vector<double> spot(patch.vertices.size(), 0.0);
   spot[0] = 1.0;
   const std::vector<double> result = SurfaceDiffusion(patch, 2.0).smooth(spot);
@@ -146,7 +148,7 @@ TEST(SurfaceDiffusion, SpreadsASpotLikeAGaussian) {
 }
 
 TEST(SurfaceDiffusion, KeepsConstantsAndNothingAtLengthZero) {
-  const TriangleMesh ball = make_icosphere(10.0, 2);
+  const geometry::TriangleMesh ball = geometry::make_icosphere(10.0, 2);
   const std::vector<double> ones(ball.vertices.size(), 1.0);
   for (const double value : SurfaceDiffusion(ball, 5.0).smooth(ones)) EXPECT_NEAR(value, 1.0, 1e-9);
   std::vector<double> spot(ball.vertices.size(), 0.0);
@@ -155,4 +157,4 @@ TEST(SurfaceDiffusion, KeepsConstantsAndNothingAtLengthZero) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

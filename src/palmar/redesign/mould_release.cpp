@@ -13,7 +13,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr int kPlaces = 360;           // round a section
@@ -108,4 +108,4 @@ MouldRelease mould_release(const HandleShape& shape, const Vec3& pull, double dr
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -4,7 +4,7 @@
 
 #include "palmar/redesign/handle_shape.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// How a handle leaves a mould of two halves that open along +pull and -pull and part where the
 /// handle is widest across it. Of the sections in which the features are all there; what is kept of
@@ -23,4 +23,4 @@ struct MouldRelease {
 /// degrees off the planes of the sections: a mould parts along a handle, not across it.
 MouldRelease mould_release(const HandleShape& shape, const Vec3& pull, double draft);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

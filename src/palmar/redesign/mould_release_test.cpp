@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using ::testing::HasSubstr;
@@ -77,4 +77,4 @@ TEST(MouldRelease, APullAlongTheHandleIsRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -18,7 +18,7 @@
 #include "palmar/geometry/smooth_step.h"
 #include "palmar/redesign/surface_diffusion.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kLess = 0.75;     // share of the depth that is left after a step back
@@ -29,11 +29,12 @@ constexpr double kLeastFacing = 0.1;    // cosine between a moved triangle and i
 constexpr double kFree = 1.0;           // mm deep; from there a vertex follows the smooth surface
 constexpr double kWallRounding = 1e-3;  // mm; rays are single precision
 
-std::vector<std::array<int, 2>> new_crossings(const TriangleMesh& before, const TriangleMesh& after,
+std::vector<std::array<int, 2>> new_crossings(const geometry::TriangleMesh& before,
+                                              const geometry::TriangleMesh& after,
                                               std::optional<std::vector<std::array<int, 2>>>& old) {
-  std::vector<std::array<int, 2>> pairs = find_self_crossings(after);
+  std::vector<std::array<int, 2>> pairs = geometry::find_self_crossings(after);
   if (pairs.empty()) return pairs;
-  if (!old) old = find_self_crossings(before);
+  if (!old) old = geometry::find_self_crossings(before);
   std::erase_if(
       pairs, [&](const auto& pair) { return std::binary_search(old->begin(), old->end(), pair); });
   return pairs;
@@ -49,24 +50,25 @@ double held_below(double depth, double limit) {
   return limit * (1.0 - (1.0 - kStraight) * std::exp(-(x - kStraight) / (1.0 - kStraight)));
 }
 
-std::vector<double> distance_to(const TriangleMesh& mesh, const std::vector<Vec3>& points,
+std::vector<double> distance_to(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& points,
                                 double range) {
   std::vector<double> distance(points.size(), range);
   if (mesh.triangles.empty()) return distance;
-  const ClosestPointQuery query(mesh);
+  const geometry::ClosestPointQuery query(mesh);
   parallel_for(static_cast<int>(points.size()), [&](int k) {
     if (const auto found = query.closest(points[k], range)) distance[k] = found->distance;
   });
   return distance;
 }
 
-std::vector<unsigned char> kept_face_triangles(const Product& product, const KeepOut& keep_out) {
+std::vector<unsigned char> kept_face_triangles(const product::Product& product,
+                                               const KeepOut& keep_out) {
   if (keep_out.faces.empty() && keep_out.names.empty()) return {};
   if (!product.faces) {
     throw UsageError("keep-out: \"" + product.name +
                      "\" is a mesh without faces of CAD; a STEP file has them, or give a box");
   }
-  const ProductFaces& faces = *product.faces;
+  const product::ProductFaces& faces = *product.faces;
   std::vector<unsigned char> kept(faces.face.size(), 0);
   const auto mark = [&](const auto& is_meant, const std::string& what) {
     bool is_found = false;
@@ -81,10 +83,11 @@ std::vector<unsigned char> kept_face_triangles(const Product& product, const Kee
     }
   };
   for (const int number : keep_out.faces) {
-    mark([&](const ProductFace& face) { return face.number == number; }, std::to_string(number));
+    mark([&](const product::ProductFace& face) { return face.number == number; },
+         std::to_string(number));
   }
   for (const std::string& name : keep_out.names) {
-    mark([&](const ProductFace& face) { return face.name == name; }, "\"" + name + "\"");
+    mark([&](const product::ProductFace& face) { return face.name == name; }, "\"" + name + "\"");
   }
   std::vector<unsigned char> result(product.mesh.triangles.size(), 0);
   for (std::size_t t = 0; t < result.size(); ++t) {
@@ -94,9 +97,10 @@ std::vector<unsigned char> kept_face_triangles(const Product& product, const Kee
   return result;
 }
 
-TriangleMesh kept_part(const PressRegion& region, const std::vector<unsigned char>& kept_faces,
-                       const KeepOut& keep_out) {
-  TriangleMesh kept{region.mesh.vertices, {}};
+geometry::TriangleMesh kept_part(const PressRegion& region,
+                                 const std::vector<unsigned char>& kept_faces,
+                                 const KeepOut& keep_out) {
+  geometry::TriangleMesh kept{region.mesh.vertices, {}};
   for (int t = 0; t < region.mesh.triangle_count(); ++t) {
     const Triangle& corner = region.mesh.triangles[t];
     bool is_kept = !kept_faces.empty() && kept_faces[region.triangle_of[t]] != 0;
@@ -119,12 +123,12 @@ std::vector<Vec3> PressedSurface::moved(const std::vector<double>& depth) const 
 std::vector<double> PressedSurface::without_creases(const std::vector<double>& depth,
                                                     double length) const {
   if (!(length > 0.0)) return depth;
-  const TriangleMesh pressed{moved(depth), region_.part.triangles};
+  const geometry::TriangleMesh pressed{moved(depth), region_.part.triangles};
   const std::vector<Vec3> smooth = SurfaceDiffusion(pressed, length).smooth(pressed.vertices);
   std::vector<double> result = depth;
   for (std::size_t i = 0; i < result.size(); ++i) {
     const double change = (pressed.vertices[i] - smooth[i]).dot(outward_[i]);
-    result[i] += smooth_step(depth[i] / kFree) * std::max(0.0, change);
+    result[i] += geometry::smooth_step(depth[i] / kFree) * std::max(0.0, change);
   }
   return result;
 }
@@ -149,7 +153,7 @@ std::vector<unsigned char> PressedSurface::folded(const std::vector<Vec3>& moved
 
 std::vector<double> PressedSurface::walls(const std::vector<double>& depth, double pressed) const {
   std::vector<double> result(depth.size(), std::numeric_limits<double>::infinity());
-  TriangleMesh mesh = region_.mesh;
+  geometry::TriangleMesh mesh = region_.mesh;
   const std::vector<Vec3> place = moved(depth);
   std::vector<Vec3> points, directions;
   std::vector<std::size_t> of;
@@ -179,7 +183,7 @@ std::vector<double> PressedSurface::sound_share(const std::vector<double>& depth
     progress.throw_if_cancelled();
     const std::vector<Vec3> place = moved(tried);
     std::vector<unsigned char> wrong = folded(place);
-    TriangleMesh mesh = region_.mesh;
+    geometry::TriangleMesh mesh = region_.mesh;
     for (std::size_t i = 0; i < place.size(); ++i) {
       mesh.vertices[region_.part_vertex[i]] = place[i];
     }
@@ -197,7 +201,7 @@ std::vector<double> PressedSurface::sound_share(const std::vector<double>& depth
         if (left[i] < std::min(wall, wall_before[i]) - kWallRounding) wrong[i] = 1;
       }
     }
-    TriangleMesh marks{region_.part.vertices, {}};
+    geometry::TriangleMesh marks{region_.part.vertices, {}};
     for (std::size_t i = 0; i < wrong.size(); ++i) {
       if (wrong[i] == 0) continue;
       const int v = static_cast<int>(i);
@@ -207,7 +211,7 @@ std::vector<double> PressedSurface::sound_share(const std::vector<double>& depth
     const std::vector<double> distance = distance_to(marks, region_.part.vertices, kBlend);
     const double least = round + 1 >= kMaxStepsBack ? 0.0 : kLess;
     for (std::size_t i = 0; i < share.size(); ++i) {
-      share[i] *= least + (1.0 - least) * smooth_step(distance[i] / kBlend);
+      share[i] *= least + (1.0 - least) * geometry::smooth_step(distance[i] / kBlend);
       tried[i] = share[i] * depth[i];
     }
   }
@@ -220,4 +224,4 @@ double PressedSurface::thinnest_wall(const std::vector<double>& depth, double pr
                       : *std::min_element(left.begin(), left.end());
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

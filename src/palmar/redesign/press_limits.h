@@ -8,7 +8,7 @@
 #include "palmar/redesign/press_region.h"
 #include "palmar/redesign/pressed_shape.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 // What holds a pressed shape within its limits; parts of press_shape().
 
@@ -17,16 +17,18 @@ namespace palmar {
 double held_below(double depth, double limit);
 
 /// Distance of each point to a mesh, mm; `range` where it is farther.
-std::vector<double> distance_to(const TriangleMesh& mesh, const std::vector<Vec3>& points,
+std::vector<double> distance_to(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& points,
                                 double range);
 
 /// Per triangle of the product: 1 if it lies on a face that is kept out; empty if no face is named.
 /// Throws UsageError naming a face that doesn't exist, or that the product has none.
-std::vector<unsigned char> kept_face_triangles(const Product& product, const KeepOut& keep_out);
+std::vector<unsigned char> kept_face_triangles(const product::Product& product,
+                                               const KeepOut& keep_out);
 
 /// All triangles of the region's mesh that must not be pressed: by face, or by a box of `keep_out`.
-TriangleMesh kept_part(const PressRegion& region, const std::vector<unsigned char>& kept_faces,
-                       const KeepOut& keep_out);
+geometry::TriangleMesh kept_part(const PressRegion& region,
+                                 const std::vector<unsigned char>& kept_faces,
+                                 const KeepOut& keep_out);
 
 /// The surface as it becomes when every vertex of the region goes `depth` [mm] against its outward
 /// direction.
@@ -62,4 +64,4 @@ class PressedSurface {
   const std::vector<Vec3>& outward_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -15,7 +15,7 @@
 #include "palmar/geometry/remesh/split_edges.h"
 #include "palmar/redesign/even_patches.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kCell = 2.0;  // mm; marks nearer than that to each other serve as one
@@ -28,7 +28,7 @@ using Cell = std::array<int, 3>;
 
 // Rounding, not floor: a mirrored hand marks mirrored cells.
 /// Cells of the product's surface above vertices of one skin that are in or at the product.
-std::vector<Cell> cells_under(const Product& product, const TriangleMesh& skin) {
+std::vector<Cell> cells_under(const product::Product& product, const geometry::TriangleMesh& skin) {
   Box3 box = product.distance->bounding_box();
   box.min().array() -= kNear;
   box.max().array() += kNear;
@@ -36,10 +36,10 @@ std::vector<Cell> cells_under(const Product& product, const TriangleMesh& skin) 
   for (const Vec3& x : skin.vertices) {
     if (box.contains(x)) points.push_back(x);
   }
-  std::vector<DistanceSample> samples(points.size());
+  std::vector<geometry::DistanceSample> samples(points.size());
   product.distance->sample(points, kDeep, samples);
   std::vector<Cell> cells;
-  for (const DistanceSample& s : samples) {
+  for (const geometry::DistanceSample& s : samples) {
     if (s.distance > kNear || s.distance <= -kDeep) continue;
     cells.push_back({static_cast<int>(std::lround(s.closest.x() / kCell)),
                      static_cast<int>(std::lround(s.closest.y() / kCell)),
@@ -51,7 +51,8 @@ std::vector<Cell> cells_under(const Product& product, const TriangleMesh& skin) 
 }
 
 /// Centres of the cells under any skin, as a mesh of triangles without extent.
-TriangleMesh marks_under(const Product& product, std::span<const TriangleMesh> skins) {
+geometry::TriangleMesh marks_under(const product::Product& product,
+                                   std::span<const geometry::TriangleMesh> skins) {
   std::vector<std::vector<Cell>> cells(skins.size());
   parallel_for(static_cast<int>(skins.size()),
                [&](int k) { cells[k] = cells_under(product, skins[k]); });
@@ -59,7 +60,7 @@ TriangleMesh marks_under(const Product& product, std::span<const TriangleMesh> s
   for (const auto& some : cells) all.insert(all.end(), some.begin(), some.end());
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
-  TriangleMesh marks;
+  geometry::TriangleMesh marks;
   for (const Cell& c : all) {
     const int v = marks.vertex_count();
     marks.vertices.emplace_back(c[0] * kCell, c[1] * kCell, c[2] * kCell);
@@ -70,7 +71,7 @@ TriangleMesh marks_under(const Product& product, std::span<const TriangleMesh> s
 
 /// Whether the edge of two triangles in one plane is the wrong diagonal: the angles that face it
 /// sum to more than 180 degrees (Delaunay), and the other one lies within them, too.
-bool is_wrong_diagonal(const EditableMesh& mesh, int h, double edge_length) {
+bool is_wrong_diagonal(const geometry::EditableMesh& mesh, int h, double edge_length) {
   const int twin = mesh.twin(h);
   if (twin < 0 || h > twin) return false;
   const Vec3& a = mesh.position(mesh.start(h));
@@ -94,10 +95,10 @@ bool is_wrong_diagonal(const EditableMesh& mesh, int h, double edge_length) {
 
 /// Turns wrong diagonals; the surface and its vertices stay. Smoothing needs triangles that aren't
 /// needles for no reason. A mesh that isn't 2-manifold stays as it is.
-TriangleMesh with_turned_diagonals(TriangleMesh mesh, double edge_length) {
+geometry::TriangleMesh with_turned_diagonals(geometry::TriangleMesh mesh, double edge_length) {
   constexpr int kMaxRounds = 50;
   try {
-    EditableMesh editable(mesh);
+    geometry::EditableMesh editable(mesh);
     for (int round = 0; round < kMaxRounds; ++round) {
       bool has_turned = false;
       for (int h = 0; h < editable.half_edge_capacity(); ++h) {
@@ -106,7 +107,7 @@ TriangleMesh with_turned_diagonals(TriangleMesh mesh, double edge_length) {
       }
       if (!has_turned) break;
     }
-    EditableMesh::Compacted result = editable.compacted();
+    geometry::EditableMesh::Compacted result = editable.compacted();
     if (result.mesh.vertices.size() == mesh.vertices.size()) return std::move(result.mesh);
   } catch (const InputError&) {
     // Not 2-manifold.
@@ -114,9 +115,10 @@ TriangleMesh with_turned_diagonals(TriangleMesh mesh, double edge_length) {
   return mesh;
 }
 
-std::vector<int> triangles_below(const TriangleMesh& original, const TriangleMesh& fine) {
+std::vector<int> triangles_below(const geometry::TriangleMesh& original,
+                                 const geometry::TriangleMesh& fine) {
   std::vector<int> below(fine.triangles.size());
-  const ClosestPointQuery query(original);
+  const geometry::ClosestPointQuery query(original);
   parallel_for(fine.triangle_count(), [&](int t) {
     const Triangle& corner = fine.triangles[t];
     const Vec3 centre =
@@ -128,20 +130,21 @@ std::vector<int> triangles_below(const TriangleMesh& original, const TriangleMes
 
 }  // namespace
 
-PressRegion refine_under(const Product& product, std::span<const TriangleMesh> skins,
-                         double edge_length, double margin) {
+PressRegion refine_under(const product::Product& product,
+                         std::span<const geometry::TriangleMesh> skins, double edge_length,
+                         double margin) {
   PressRegion region;
-  const TriangleMesh marks = marks_under(product, skins);
+  const geometry::TriangleMesh marks = marks_under(product, skins);
   if (marks.triangles.empty()) {
     region.mesh = product.mesh;
     region.triangle_of.resize(region.mesh.triangles.size());
     std::iota(region.triangle_of.begin(), region.triangle_of.end(), 0);
     return region;
   }
-  const ClosestPointQuery query(marks);
+  const geometry::ClosestPointQuery query(marks);
   const double reach = margin + std::sqrt(3.0) / 2.0 * kCell;
   // Within the circle round the centroid: careful for large triangles, which get smaller.
-  const TriangleChoice is_near = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+  const geometry::TriangleChoice is_near = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 centre = (a + b + c) / 3.0;
     const double radius = std::sqrt(std::max(
         {(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
@@ -150,12 +153,13 @@ PressRegion refine_under(const Product& product, std::span<const TriangleMesh> s
   // What CAD programs mesh for itself are long slivers: all of it is made anew. Of a scan the rest
   // stays.
   const bool is_cad = product.faces != nullptr;
-  const TriangleChoice is_made = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+  const geometry::TriangleChoice is_made = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
     return is_cad || is_near(a, b, c);
   };
   // Borders of patches stay as they are split here: clearly shorter than what is made between them.
   const double split = kBorderShare * edge_length;
-  region.mesh = with_turned_diagonals(split_long_edges(product.mesh, split, is_made), split);
+  region.mesh =
+      with_turned_diagonals(geometry::split_long_edges(product.mesh, split, is_made), split);
   // A triangle lies in one CAD face.
   const std::vector<int> below = triangles_below(product.mesh, region.mesh);
   std::vector<int> group(region.mesh.triangles.size(), -1);
@@ -190,4 +194,4 @@ PressRegion refine_under(const Product& product, std::span<const TriangleMesh> s
   return region;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

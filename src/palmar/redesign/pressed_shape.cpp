@@ -20,7 +20,7 @@
 #include "palmar/redesign/press_region.h"
 #include "palmar/redesign/surface_diffusion.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 void KeepOut::add_face(const std::string& word) {
   constexpr std::size_t kMostDigits = 8;
@@ -53,8 +53,8 @@ void require(bool holds, const char* field, double value, const std::string& all
 
 /// Outward directions of pressing, per vertex of the region. Zero where no direction goes inwards
 /// for all triangles at the vertex: it doesn't move.
-std::vector<Vec3> press_directions(const TriangleMesh& part) {
-  const std::vector<Vec3> plain = vertex_normals(part);
+std::vector<Vec3> press_directions(const geometry::TriangleMesh& part) {
+  const std::vector<Vec3> plain = geometry::vertex_normals(part);
   std::vector<Vec3> smooth = SurfaceDiffusion(part, kTurnLength).smooth(plain);
   for (Vec3& m : smooth) m = m.norm() > 1e-6 ? m.normalized() : Vec3::Zero();
   std::vector<double> least(part.vertices.size(), 1.0), least_plain(part.vertices.size(), 1.0);
@@ -68,7 +68,8 @@ std::vector<Vec3> press_directions(const TriangleMesh& part) {
     }
   }
   for (std::size_t v = 0; v < smooth.size(); ++v) {
-    const double own = smooth_step((kEnoughInward - least[v]) / (kEnoughInward - kLeastInward));
+    const double own =
+        geometry::smooth_step((kEnoughInward - least[v]) / (kEnoughInward - kLeastInward));
     if (own <= 0.0) continue;
     const Vec3 between = (1.0 - own) * smooth[v] + own * plain[v];
     smooth[v] = least_plain[v] >= kLeastInward && between.norm() > 1e-6 ? between.normalized()
@@ -77,7 +78,8 @@ std::vector<Vec3> press_directions(const TriangleMesh& part) {
   return smooth;
 }
 
-std::vector<Imprint> measure_all(const ImprintGauge& gauge, std::span<const TriangleMesh> skins,
+std::vector<Imprint> measure_all(const ImprintGauge& gauge,
+                                 std::span<const geometry::TriangleMesh> skins,
                                  const std::vector<double>& shift, const Vec3& axis,
                                  const Progress& progress) {
   std::vector<Imprint> imprints;
@@ -87,7 +89,7 @@ std::vector<Imprint> measure_all(const ImprintGauge& gauge, std::span<const Tria
       imprints.push_back(gauge.measure(skins[h]));
       continue;
     }
-    TriangleMesh moved = skins[h];
+    geometry::TriangleMesh moved = skins[h];
     for (Vec3& x : moved.vertices) x += shift[h] * axis;
     imprints.push_back(gauge.measure(moved));
   }
@@ -95,8 +97,9 @@ std::vector<Imprint> measure_all(const ImprintGauge& gauge, std::span<const Tria
 }
 
 /// Triangles any of whose corners `chosen` says yes to.
-TriangleMesh triangles_where(const TriangleMesh& mesh, const std::vector<unsigned char>& chosen) {
-  TriangleMesh result{mesh.vertices, {}};
+geometry::TriangleMesh triangles_where(const geometry::TriangleMesh& mesh,
+                                       const std::vector<unsigned char>& chosen) {
+  geometry::TriangleMesh result{mesh.vertices, {}};
   for (const Triangle& t : mesh.triangles) {
     if (chosen[t[0]] || chosen[t[1]] || chosen[t[2]]) {
       result.triangles.push_back(t);
@@ -130,7 +133,7 @@ class Depths {
 };
 
 /// The volume between two states of a part whose border stays: difference of the cones over it.
-double volume_between(const TriangleMesh& part, const std::vector<Vec3>& moved) {
+double volume_between(const geometry::TriangleMesh& part, const std::vector<Vec3>& moved) {
   const Vec3 origin = part.vertices.empty() ? Vec3::Zero() : part.vertices.front();
   double volume = 0.0;
   for (const Triangle& t : part.triangles) {
@@ -175,7 +178,8 @@ void PressedShapeOptions::check() const {
   }
 }
 
-PressedShape press_shape(const Product& product, std::span<const TriangleMesh> skins,
+PressedShape press_shape(const product::Product& product,
+                         std::span<const geometry::TriangleMesh> skins,
                          const PressedShapeOptions& options, const Progress& progress) {
   options.check();
   if (skins.empty()) throw UsageError("pressed shape: no hands; at least one is needed");
@@ -196,7 +200,7 @@ PressedShape press_shape(const Product& product, std::span<const TriangleMesh> s
   const int points = region.part.vertex_count();
   if (points == 0) return shape;
 
-  const std::vector<double> areas = vertex_areas(region.part);
+  const std::vector<double> areas = geometry::vertex_areas(region.part);
   const std::vector<Vec3> outward = press_directions(region.part);
   const ImprintGauge gauge(product.mesh, region.part.vertices, outward);
   std::vector<Imprint> imprints = measure_all(gauge, skins, {}, Vec3::Zero(), progress);
@@ -219,17 +223,19 @@ PressedShape press_shape(const Product& product, std::span<const TriangleMesh> s
   const std::vector<double> from_imprint =
       distance_to(triangles_where(region.part, touched), region.part.vertices, options.rim_width);
   depth.apply([&](std::size_t i, double d) {
-    return outward[i].isZero() ? 0.0 : d * (1.0 - smooth_step(from_imprint[i] / options.rim_width));
+    return outward[i].isZero()
+               ? 0.0
+               : d * (1.0 - geometry::smooth_step(from_imprint[i] / options.rim_width));
   });
   const PressedSurface surface(region, outward);
   const std::vector<double> even = surface.without_creases(depth.value(), options.smoothing);
   depth.apply([&](std::size_t i, double) { return even[i]; });
-  const TriangleMesh kept = kept_part(region, kept_faces, options.keep_out);
+  const geometry::TriangleMesh kept = kept_part(region, kept_faces, options.keep_out);
   if (!kept.triangles.empty()) {
     const double blend = std::max(options.keep_out.blend, 1e-6);
     const std::vector<double> from_kept = distance_to(kept, region.part.vertices, blend);
-    shape.limited_by_keep_out =
-        depth.apply([&](std::size_t i, double d) { return d * smooth_step(from_kept[i] / blend); });
+    shape.limited_by_keep_out = depth.apply(
+        [&](std::size_t i, double d) { return d * geometry::smooth_step(from_kept[i] / blend); });
   }
   shape.limited_by_depth =
       depth.apply([&](std::size_t, double d) { return held_below(d, options.depth_limit); });
@@ -253,30 +259,30 @@ PressedShape press_shape(const Product& product, std::span<const TriangleMesh> s
   return shape;
 }
 
-Product pressed_product(const Product& original, const PressedShape& shape,
-                        const std::string& name) {
-  Product product;
+product::Product pressed_product(const product::Product& original, const PressedShape& shape,
+                                 const std::string& name) {
+  product::Product product;
   product.name = name;
   product.mesh = shape.mesh;
-  product.unit_source = UnitSource::kMade;
+  product.unit_source = product::UnitSource::kMade;
   product.source = original.source + ", pressed";
-  product.distance = std::make_shared<const MeshDistance>(product.mesh);
+  product.distance = std::make_shared<const geometry::MeshDistance>(product.mesh);
   if (original.faces) {
-    auto faces = std::make_shared<ProductFaces>(*original.faces);
+    auto faces = std::make_shared<product::ProductFaces>(*original.faces);
     faces->face_of_triangle.clear();
-    for (ProductFace& face : faces->face) face.area = 0.0;
+    for (product::ProductFace& face : faces->face) face.area = 0.0;
     for (int t = 0; t < shape.mesh.triangle_count(); ++t) {
       const Triangle& c = shape.mesh.triangles[t];
       const int below = shape.triangle_of[t];
       const int face = original.faces->face_of_triangle[below];
       faces->face_of_triangle.push_back(face);
       if (face < 0) continue;
-      faces->face[face].area += triangle_area(shape.mesh.vertices[c[0]], shape.mesh.vertices[c[1]],
-                                              shape.mesh.vertices[c[2]]);
+      faces->face[face].area += geometry::triangle_area(
+          shape.mesh.vertices[c[0]], shape.mesh.vertices[c[1]], shape.mesh.vertices[c[2]]);
     }
     product.faces = std::move(faces);
   }
   return product;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -12,7 +12,7 @@
 #include "palmar/product/product.h"
 #include "palmar/redesign/imprint.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// What must not be pressed.
 struct KeepOut {
@@ -43,7 +43,7 @@ struct PressedShapeOptions {
 
 /// A product's surface pressed in where hands reach into it.
 struct PressedShape {
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   std::vector<Vec3> before;      ///< where each vertex was: on the original's surface, mm
   std::vector<double> overlap;   ///< combined depth over hands per vertex, mm
   std::vector<double> depth;     ///< way of each vertex, mm
@@ -81,12 +81,13 @@ struct PressedShape {
 /// Elsewhere the surface stays, of a scan with its triangles; the mesh stays closed if it was;
 /// volume never grows. The same result for any order of hands and any number of threads. Throws
 /// UsageError on bad options, no skins, or a keep-out face that doesn't exist; Cancelled.
-PressedShape press_shape(const Product& product, std::span<const TriangleMesh> skins,
+PressedShape press_shape(const product::Product& product,
+                         std::span<const geometry::TriangleMesh> skins,
                          const PressedShapeOptions& options = {}, const Progress& progress = {});
 
 /// The pressed shape as a product to be held: faces are those of the original, with their triangles
 /// and areas as they are now.
-Product pressed_product(const Product& original, const PressedShape& shape,
-                        const std::string& name);
+product::Product pressed_product(const product::Product& original, const PressedShape& shape,
+                                 const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

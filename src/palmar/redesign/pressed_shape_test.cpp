@@ -24,28 +24,28 @@
 #include "palmar/product/primitives.h"
 #include "palmar/redesign/press_limits.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kRadius = 12.0;  // of the ball, mm: about a thumb's
 constexpr double kDepth = 3.0;    // mm, to which the ball reaches into the plate
 
 /// Plate of 60 x 60 x `thickness` whose top is z = 0, sharp edges.
-Product plate(double thickness = 20.0) {
-  Product product =
-      make_prism_product({.width = 60, .depth = 60, .length = thickness, .fillet_radius = 0});
+product::Product plate(double thickness = 20.0) {
+  product::Product product = product::make_prism_product(
+      {.width = 60, .depth = 60, .length = thickness, .fillet_radius = 0});
   for (Vec3& x : product.mesh.vertices) x.z() -= 0.5 * thickness;
-  product.distance = std::make_shared<const MeshDistance>(product.mesh);
+  product.distance = std::make_shared<const geometry::MeshDistance>(product.mesh);
   return product;
 }
 
-TriangleMesh ball_at(const Vec3& centre) {
-  TriangleMesh ball = make_icosphere(kRadius, 5);
+geometry::TriangleMesh ball_at(const Vec3& centre) {
+  geometry::TriangleMesh ball = geometry::make_icosphere(kRadius, 5);
   for (Vec3& x : ball.vertices) x += centre;
   return ball;
 }
 /// Reaches kDepth into the plate's top at (x, y).
-TriangleMesh ball_on_top(double x = 0.0, double y = 0.0) {
+geometry::TriangleMesh ball_on_top(double x = 0.0, double y = 0.0) {
   return ball_at({x, y, kRadius - kDepth});
 }
 
@@ -64,29 +64,30 @@ double cap_volume(double depth) {
   return std::numbers::pi * depth * depth * (3.0 * kRadius - depth) / 3.0;
 }
 
-PressedShape press(const Product& product, const std::vector<TriangleMesh>& skins,
+PressedShape press(const product::Product& product,
+                   const std::vector<geometry::TriangleMesh>& skins,
                    const PressedShapeOptions& options) {
   return press_shape(product, skins, options);
 }
 
 TEST(PressShape, ZeroShareLeavesTheProduct) {
-  const Product product = plate();
+  const product::Product product = plate();
   const PressedShape shape = press(product, {ball_on_top()}, plain(0.0));
   EXPECT_EQ(shape.mesh.vertices, shape.before);
   EXPECT_EQ(shape.removed_volume, 0.0);
   EXPECT_EQ(shape.deepest, 0.0);
-  EXPECT_NEAR(signed_volume(shape.mesh), signed_volume(product.mesh), 1e-6);
+  EXPECT_NEAR(geometry::signed_volume(shape.mesh), geometry::signed_volume(product.mesh), 1e-6);
 }
 
 TEST(PressShape, HandThatTouchesNothingLeavesTheProductTriangleByTriangle) {
-  const Product product = plate();
+  const product::Product product = plate();
   const PressedShape shape = press(product, {ball_at({0, 0, 100})}, plain(1.0));
   EXPECT_EQ(shape.mesh.vertices, product.mesh.vertices);
   EXPECT_EQ(shape.mesh.triangles, product.mesh.triangles);
 }
 
 TEST(PressShape, BallLeavesItsCap) {
-  const Product product = plate();
+  const product::Product product = plate();
   const PressedShape shape = press(product, {ball_on_top()}, plain(1.0));
   for (std::size_t v = 0; v < shape.before.size(); ++v) {
     const Vec3& x = shape.before[v];
@@ -99,7 +100,8 @@ TEST(PressShape, BallLeavesItsCap) {
   }
   EXPECT_NEAR(shape.removed_volume / cap_volume(kDepth), 1.0, 0.02);
   EXPECT_NEAR(shape.deepest, kDepth, 0.03);
-  EXPECT_NEAR(signed_volume(product.mesh) - signed_volume(shape.mesh), shape.removed_volume, 1e-6);
+  EXPECT_NEAR(geometry::signed_volume(product.mesh) - geometry::signed_volume(shape.mesh),
+              shape.removed_volume, 1e-6);
   EXPECT_NEAR(shape.thinnest_wall, 20.0 - kDepth, 0.03);
 }
 
@@ -120,8 +122,8 @@ TEST(PressShape, SmoothingRoundsTheRimAndKeepsAboutTheVolume) {
   EXPECT_GT(shape.deepest, 0.8 * kDepth);
   // No kink: neighbouring triangles of the top meet at less than the ball's rim does (41 degrees).
   double steepest = 0.0;
-  const std::vector<Vec3> normals = triangle_normals(shape.mesh);
-  const MeshTopology topology = build_topology(shape.mesh);
+  const std::vector<Vec3> normals = geometry::triangle_normals(shape.mesh);
+  const geometry::MeshTopology topology = geometry::build_topology(shape.mesh);
   for (std::size_t h = 0; h < topology.twin.size(); ++h) {
     if (topology.twin[h] < 0) continue;
     const auto t = h / 3;
@@ -133,7 +135,7 @@ TEST(PressShape, SmoothingRoundsTheRimAndKeepsAboutTheVolume) {
 }
 
 TEST(PressShape, AtASharpEdgeTheSurfaceComesToLieOnTheSkin) {
-  const Product product = plate(40.0);
+  const product::Product product = plate(40.0);
   // Touches the edge x = 30, z = 0 from outside, at 45 degrees.
   const Vec3 centre = Vec3(30, 0, 0) + (kRadius - 3.0) * Vec3(1, 0, 1).normalized();
   const PressedShape shape = press(product, {ball_at(centre)}, plain(1.0));
@@ -144,7 +146,7 @@ TEST(PressShape, AtASharpEdgeTheSurfaceComesToLieOnTheSkin) {
     EXPECT_NEAR((shape.mesh.vertices[v] - centre).norm(), kRadius, 0.03);
   }
   EXPECT_GT(pressed, 50);
-  EXPECT_TRUE(find_self_crossings(shape.mesh).empty());
+  EXPECT_TRUE(geometry::find_self_crossings(shape.mesh).empty());
 }
 
 TEST(PressShape, DepthLimitHolds) {
@@ -188,8 +190,8 @@ TEST(PressShape, KeptBoxStaysAsItIs) {
 }
 
 TEST(PressShape, KeptFaceStaysAsItIsAndFacesFollowTheTriangles) {
-  const Product prism =
-      make_prism_product({.width = 35, .depth = 35, .length = 60, .fillet_radius = 3});
+  const product::Product prism =
+      product::make_prism_product({.width = 35, .depth = 35, .length = 60, .fillet_radius = 3});
   ASSERT_TRUE(prism.faces);
   // On the fillet between right (+x) and back (+y).
   const Vec3 centre = Vec3(17.5, 17.5, 0) + 0.6 * kRadius * Vec3(1, 1, 0).normalized();
@@ -198,7 +200,7 @@ TEST(PressShape, KeptFaceStaysAsItIsAndFacesFollowTheTriangles) {
   options.keep_out.blend = 2.0;
   const PressedShape shape = press(prism, {ball_at(centre)}, options);
   EXPECT_GT(shape.deepest, 0.5);
-  const Product pressed = pressed_product(prism, shape, "pressed");
+  const product::Product pressed = pressed_product(prism, shape, "pressed");
   ASSERT_TRUE(pressed.faces);
   ASSERT_EQ(pressed.faces->face_of_triangle.size(), pressed.mesh.triangles.size());
   for (std::size_t t = 0; t < pressed.mesh.triangles.size(); ++t) {
@@ -213,23 +215,23 @@ TEST(PressShape, KeptFaceStaysAsItIsAndFacesFollowTheTriangles) {
 }
 
 TEST(PressShape, MirroredHandAndProductGiveTheMirroredShape) {
-  const Product product = plate(40.0);
-  const TriangleMesh hand = ball_at({29.0, 3.0, 7.0});
-  const auto mirrored = [](TriangleMesh mesh) {
+  const product::Product product = plate(40.0);
+  const geometry::TriangleMesh hand = ball_at({29.0, 3.0, 7.0});
+  const auto mirrored = [](geometry::TriangleMesh mesh) {
     for (Vec3& x : mesh.vertices) x.x() = -x.x();
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
     return mesh;
   };
-  Product other = product;
+  product::Product other = product;
   other.mesh = mirrored(product.mesh);
-  other.distance = std::make_shared<const MeshDistance>(other.mesh);
+  other.distance = std::make_shared<const geometry::MeshDistance>(other.mesh);
   other.faces = nullptr;
   PressedShapeOptions options = plain(0.7);
   options.smoothing = 2.0;
   const PressedShape a = press(product, {hand}, options);
   const PressedShape b = press(other, {mirrored(hand)}, options);
   // Triangles, 1 mm long, are others there; imprint and smoothing see the surface through them.
-  const MeshDistance surface(b.mesh);
+  const geometry::MeshDistance surface(b.mesh);
   for (const Vec3& x : a.mesh.vertices) {
     EXPECT_LT(std::abs(surface.at({-x.x(), x.y(), x.z()}).distance), 0.05);
   }
@@ -238,17 +240,17 @@ TEST(PressShape, MirroredHandAndProductGiveTheMirroredShape) {
 }
 
 TEST(PressShape, StaysClosedAndWholeAndNeverGrows) {
-  const Product product = plate(30.0);
+  const product::Product product = plate(30.0);
   PressedShapeOptions options;
   options.share = 1.0;
   options.wall = 1.0;
   // Into a corner, where three faces meet.
   const PressedShape shape = press(product, {ball_at({32, 32, 1}), ball_on_top(5, 5)}, options);
   EXPECT_GT(shape.deepest, 2.0);
-  EXPECT_TRUE(examine_topology(shape.mesh).is_closed);
-  EXPECT_TRUE(examine_topology(shape.mesh).is_oriented);
-  EXPECT_TRUE(find_self_crossings(shape.mesh).empty());
-  EXPECT_LT(signed_volume(shape.mesh), signed_volume(product.mesh));
+  EXPECT_TRUE(geometry::examine_topology(shape.mesh).is_closed);
+  EXPECT_TRUE(geometry::examine_topology(shape.mesh).is_oriented);
+  EXPECT_TRUE(geometry::find_self_crossings(shape.mesh).empty());
+  EXPECT_LT(geometry::signed_volume(shape.mesh), geometry::signed_volume(product.mesh));
   for (std::size_t v = 0; v < shape.depth.size(); ++v) {
     EXPECT_GE(shape.depth[v], 0.0);
     EXPECT_LE(product.distance->at(shape.mesh.vertices[v]).distance, 1e-6);
@@ -256,9 +258,10 @@ TEST(PressShape, StaysClosedAndWholeAndNeverGrows) {
 }
 
 TEST(PressShape, OrderOfHandsAndThreadsDontMatter) {
-  const Product product = plate();
-  const std::vector<TriangleMesh> hands = {ball_on_top(), ball_on_top(4, 1), ball_on_top(-3, 7)};
-  const std::vector<TriangleMesh> turned = {hands[2], hands[0], hands[1]};
+  const product::Product product = plate();
+  const std::vector<geometry::TriangleMesh> hands = {ball_on_top(), ball_on_top(4, 1),
+                                                     ball_on_top(-3, 7)};
+  const std::vector<geometry::TriangleMesh> turned = {hands[2], hands[0], hands[1]};
   PressedShapeOptions options;
   options.align_along = Vec3::UnitX();
   set_thread_count(1);
@@ -272,16 +275,17 @@ TEST(PressShape, OrderOfHandsAndThreadsDontMatter) {
 }
 
 TEST(PressShape, ElsewhereTheSurfaceStaysAndOfAScanItsTriangles) {
-  const Product cad = plate();
-  Product scan = cad;
+  const product::Product cad = plate();
+  product::Product scan = cad;
   scan.faces = nullptr;
   // The imprint, what its smoothing and its rim need, and marks 2 mm apart.
   const auto is_elsewhere = [](const Vec3& x) {
     return std::hypot(x.x() - 20, x.y() - 20) > 30.0 || x.z() < -15.0;
   };
-  for (const Product* product : std::initializer_list<const Product*>{&cad, &scan}) {
+  for (const product::Product* product :
+       std::initializer_list<const product::Product*>{&cad, &scan}) {
     const PressedShape shape = press(*product, {ball_on_top(20, 20)}, {});
-    const MeshDistance before(product->mesh), after(shape.mesh);
+    const geometry::MeshDistance before(product->mesh), after(shape.mesh);
     std::set<std::array<double, 3>> there;
     int elsewhere = 0;
     for (const Vec3& x : shape.mesh.vertices) {
@@ -300,7 +304,7 @@ TEST(PressShape, ElsewhereTheSurfaceStaysAndOfAScanItsTriangles) {
 }
 
 TEST(PressShape, RefusesWhatCantBe) {
-  const Product product = plate();
+  const product::Product product = plate();
   PressedShapeOptions options;
   options.share = 1.2;
   EXPECT_THAT([&] { press(product, {ball_on_top()}, options); },
@@ -312,7 +316,7 @@ TEST(PressShape, RefusesWhatCantBe) {
   options.keep_out.faces = {99};
   EXPECT_THAT([&] { press(product, {ball_on_top()}, options); },
               ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("no face 99")));
-  Product bare = product;
+  product::Product bare = product;
   bare.faces = nullptr;
   EXPECT_THAT([&] { press(bare, {ball_on_top()}, options); },
               ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("without faces of CAD")));
@@ -335,4 +339,4 @@ TEST(HeldBelow, HasNoKinkAndNeverReachesTheLimit) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

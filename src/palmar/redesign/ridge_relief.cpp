@@ -16,7 +16,7 @@
 #include "palmar/grasp/power/grip_axis.h"
 #include "palmar/redesign/handle_section.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kShareOfDisc = 0.95;  // of the largest disc inside: flanks must stay to touch
@@ -157,7 +157,7 @@ Vec3 onto_relief(const RidgeRelief& relief, const Vec3& x) {
          (centre + stretch * (at.h - centre)) * relief.outward;
 }
 
-ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
+ReliefPlan plan_reliefs(const geometry::TriangleMesh& map, const ContactRegion& region,
                         const ContactRegion& reach, const std::vector<double>& imprint,
                         const ReliefOptions& options) {
   options.check();
@@ -171,7 +171,7 @@ ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
                      "hands has one");
   }
   ReliefPlan plan;
-  plan.axis = options.axis ? *options.axis : Vec3(principal_frame(map).axes.col(0));
+  plan.axis = options.axis ? *options.axis : Vec3(grasp::principal_frame(map).axes.col(0));
   // The same sign always: the largest component is positive.
   Eigen::Index largest_component = 0;
   plan.axis.cwiseAbs().maxCoeff(&largest_component);
@@ -181,7 +181,7 @@ ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
   const auto solid = [&](const Eigen::Vector2d& p, double s) -> Vec3 {
     return p.x() * e1 + p.y() * e2 + s * plan.axis;
   };
-  const std::vector<double> areas = vertex_areas(map);
+  const std::vector<double> areas = geometry::vertex_areas(map);
   std::vector<Touched> touched;
   double low = std::numeric_limits<double>::infinity(), high = -low, bottom = low, top = -low;
   for (std::size_t v = 0; v < map.vertices.size(); ++v) {
@@ -301,8 +301,8 @@ ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
   return plan;
 }
 
-TriangleMesh relieved_mesh(const TriangleMesh& mesh, std::span<const RidgeRelief> reliefs,
-                           double edge_length) {
+geometry::TriangleMesh relieved_mesh(const geometry::TriangleMesh& mesh,
+                                     std::span<const RidgeRelief> reliefs, double edge_length) {
   const auto is_touched = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
     // A triangle that straddles a relief may have no corner in it: its middles are asked as well.
     const Vec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
@@ -312,7 +312,7 @@ TriangleMesh relieved_mesh(const TriangleMesh& mesh, std::span<const RidgeRelief
              is_cut(relief, bc) || is_cut(relief, ca) || is_cut(relief, middle);
     });
   };
-  TriangleMesh result = split_long_edges(mesh, edge_length, is_touched);
+  geometry::TriangleMesh result = geometry::split_long_edges(mesh, edge_length, is_touched);
   for (Vec3& x : result.vertices) {
     for (const RidgeRelief& relief : reliefs) {
       if (!is_cut(relief, x)) continue;
@@ -325,4 +325,4 @@ TriangleMesh relieved_mesh(const TriangleMesh& mesh, std::span<const RidgeRelief
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

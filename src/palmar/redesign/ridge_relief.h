@@ -10,7 +10,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/redesign/contact_region.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// One ridge of a handle (an edge, a narrow side of an ellipse) rounded over the length where hands
 /// touch it: a shape that can be machined. A round cutter leaves a cylinder that touches the flanks
@@ -67,7 +67,7 @@ struct ReliefPlan {
 ///
 /// `imprint`: mean depth over hands per vertex of the map, mm. Throws UsageError naming what is
 /// missing if nothing can be rounded: the region is empty, no ridge, no closed section.
-ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
+ReliefPlan plan_reliefs(const geometry::TriangleMesh& map, const ContactRegion& region,
                         const ContactRegion& reach, const std::vector<double>& imprint,
                         const ReliefOptions& options = {});
 
@@ -75,7 +75,8 @@ ReliefPlan plan_reliefs(const TriangleMesh& map, const ContactRegion& region,
 /// that are cut away go onto the relief. Faces stay as they are connected. For bodies without a CAD
 /// model, and where no CAD kernel is at hand; the solid itself is made by cut_reliefs() of module
 /// cad.
-TriangleMesh relieved_mesh(const TriangleMesh& mesh, std::span<const RidgeRelief> reliefs,
-                           double edge_length = 1.0);
+geometry::TriangleMesh relieved_mesh(const geometry::TriangleMesh& mesh,
+                                     std::span<const RidgeRelief> reliefs,
+                                     double edge_length = 1.0);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -15,24 +15,25 @@
 #include "palmar/redesign/handle_section.h"
 #include "palmar/study/study_record.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 const double kCorner = std::sqrt(2.0) - 1.0;  // how far a square's corner stands off its circle
 
-Product prism() {
-  return make_prism_product({.width = 35.0, .depth = 35.0, .length = 130.0, .fillet_radius = 3.0});
+product::Product prism() {
+  return product::make_prism_product(
+      {.width = 35.0, .depth = 35.0, .length = 130.0, .fillet_radius = 3.0});
 }
 
 /// Ten of ten hands touch where `where` says so, and their imprint is `depth`.
 struct Situation {
-  TriangleMesh map;
+  geometry::TriangleMesh map;
   ContactRegion region;
   std::vector<double> imprint;
 };
 template <typename Where, typename Depth>
-Situation situation(const Product& product, const Where& where, const Depth& depth) {
-  Situation s{product_map(product.mesh), {}, {}};
+Situation situation(const product::Product& product, const Where& where, const Depth& depth) {
+  Situation s{study::product_map(product.mesh), {}, {}};
   ContactCount count = start_count(s.map);
   count.hands = 10;
   for (std::size_t v = 0; v < s.map.vertices.size(); ++v) {
@@ -60,7 +61,7 @@ TEST(HandleSection, SeatsADiscInTheCornerOfAPrism) {
     EXPECT_NEAR(std::abs(disc->centre.y()), 3.5, 1e-6);
     EXPECT_NEAR(disc->touch_first.dot(disc->touch_second), 0.0, 1e-6);
   }
-  EXPECT_TRUE(HandleSection(make_cylinder_product({.diameter = 35.0}).mesh, Vec3::Zero(),
+  EXPECT_TRUE(HandleSection(product::make_cylinder_product({.diameter = 35.0}).mesh, Vec3::Zero(),
                             Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY())
                   .ridges(16.0)
                   .empty());
@@ -69,7 +70,8 @@ TEST(HandleSection, SeatsADiscInTheCornerOfAPrism) {
 TEST(HandleSection, SeatsADiscInTheNarrowSideOfAnEllipse) {
   // Semi-axes 18 and 12 mm: a disc of radius R < 12 that touches both flanks has its centre at
   // (e, 0) with e^2 = (a^2 - b^2)(1 - R^2 / b^2).
-  TriangleMesh bar = make_cylinder({.radius = 1.0, .length = 100.0, .segments = 240, .rings = 4});
+  geometry::TriangleMesh bar =
+      geometry::make_cylinder({.radius = 1.0, .length = 100.0, .segments = 240, .rings = 4});
   for (Vec3& x : bar.vertices) x = Vec3(18.0 * x.x(), 12.0 * x.y(), x.z());
   const HandleSection section(bar, Vec3::Zero(), Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitY());
   const auto ridges = section.ridges(10.0);
@@ -157,16 +159,17 @@ TEST(RelievedMesh, LosesTheVolumeBetweenTwoRoundings) {
   relief.half_angle = 0.25 * std::numbers::pi;
   relief.run_out = 40.0;
   relief.is_open_start = relief.is_open_end = true;
-  const Product product = prism();
-  const TriangleMesh after = relieved_mesh(product.mesh, std::vector{relief});
+  const product::Product product = prism();
+  const geometry::TriangleMesh after = relieved_mesh(product.mesh, std::vector{relief});
   const double removed = (1.0 - 0.25 * std::numbers::pi) * 135.0 * 130.0;
-  EXPECT_NEAR(signed_volume(product.mesh) - signed_volume(after), removed, 0.01 * removed);
+  EXPECT_NEAR(geometry::signed_volume(product.mesh) - geometry::signed_volume(after), removed,
+              0.01 * removed);
 }
 
 TEST(PlanReliefs, RefusesByNameWhatHasNoRidge) {
   const Situation s = situation(
-      make_cylinder_product({.diameter = 35.0}), [](const Vec3& x) { return std::abs(x.z()) < 30; },
-      [](const Vec3&) { return 2.0; });
+      product::make_cylinder_product({.diameter = 35.0}),
+      [](const Vec3& x) { return std::abs(x.z()) < 30; }, [](const Vec3&) { return 2.0; });
   EXPECT_THAT([&] { plan_reliefs(s.map, s.region, s.region, s.imprint); },
               ::testing::ThrowsMessage<UsageError>(::testing::AllOf(
                   ::testing::HasSubstr("has no ridge that is narrower than a disc"),
@@ -181,4 +184,4 @@ TEST(PlanReliefs, RefusesByNameWhatHasNoRidge) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

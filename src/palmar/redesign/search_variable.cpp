@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::redesign {
 
 SearchSteps steps_at(const std::vector<SearchVariable>& variables, std::span<const double> place) {
   SearchSteps steps;
@@ -50,4 +50,4 @@ std::string words_of(const std::vector<SearchVariable>& variables,
   return words;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// A feature's size that the search may choose, in its own unit.
 struct SearchVariable {
@@ -32,4 +32,4 @@ std::vector<double> place_of(const std::vector<SearchVariable>& variables,
 std::string words_of(const std::vector<SearchVariable>& variables,
                      const std::vector<double>& values);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 // Needles have cotangents without bound; this couples their ends as one all the same.
@@ -50,12 +50,12 @@ struct SurfaceDiffusion::Impl {
   }
 };
 
-SurfaceDiffusion::SurfaceDiffusion(const TriangleMesh& mesh, double length) {
+SurfaceDiffusion::SurfaceDiffusion(const geometry::TriangleMesh& mesh, double length) {
   auto impl = std::make_unique<Impl>();
   const int n = mesh.vertex_count();
   impl->is_identity = !(length > 0.0) || n == 0;
   if (!impl->is_identity) {
-    const std::vector<double> areas = vertex_areas(mesh);
+    const std::vector<double> areas = geometry::vertex_areas(mesh);
     // A vertex without area holds its value; the size of its mass doesn't matter then.
     impl->mass.resize(n);
     for (int v = 0; v < n; ++v) {
@@ -115,4 +115,4 @@ std::vector<Vec3> SurfaceDiffusion::smooth(const std::vector<Vec3>& values) cons
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

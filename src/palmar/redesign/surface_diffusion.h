@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// Smooths values at the vertices of a mesh along its surface: heat diffusion
 ///
@@ -24,7 +24,7 @@ class SurfaceDiffusion {
  public:
   /// `length` in mm; 0 leaves values as they are. Throws NumericalError if the system can't be
   /// factorised (coordinates that aren't finite).
-  SurfaceDiffusion(const TriangleMesh& mesh, double length);
+  SurfaceDiffusion(const geometry::TriangleMesh& mesh, double length);
   ~SurfaceDiffusion();
 
   /// One value per vertex. Vertices without triangles keep theirs.
@@ -36,4 +36,4 @@ class SurfaceDiffusion {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::redesign

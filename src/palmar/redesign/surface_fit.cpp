@@ -15,26 +15,27 @@
 #include "palmar/geometry/least_squares.h"
 #include "palmar/geometry/numeric_jacobian.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
-constexpr std::array<FaceKind, 5> kKinds = {FaceKind::kPlane, FaceKind::kCylinder,
-                                            FaceKind::kSphere, FaceKind::kCone, FaceKind::kTorus};
+constexpr std::array<product::FaceKind, 5> kKinds = {
+    product::FaceKind::kPlane, product::FaceKind::kCylinder, product::FaceKind::kSphere,
+    product::FaceKind::kCone, product::FaceKind::kTorus};
 constexpr std::size_t kPointsOfAStart = 400;  // suffice to distinguish good starts from bad ones
 
-int parameters_of(FaceKind kind) {
+int parameters_of(product::FaceKind kind) {
   switch (kind) {
-    case FaceKind::kPlane:
+    case product::FaceKind::kPlane:
       return 3;
-    case FaceKind::kSphere:
+    case product::FaceKind::kSphere:
       return 4;
-    case FaceKind::kCylinder:
+    case product::FaceKind::kCylinder:
       return 5;
-    case FaceKind::kCone:
+    case product::FaceKind::kCone:
       return 6;
-    case FaceKind::kTorus:
+    case product::FaceKind::kTorus:
       return 7;
-    case FaceKind::kFreeform:
+    case product::FaceKind::kFreeform:
       break;
   }
   throw UsageError("surface fit: freeform; plane, cylinder, cone, sphere, torus are possible");
@@ -50,7 +51,7 @@ std::array<Vec3, 2> across(const Vec3& axis) {
 SimpleSurface moved(const SimpleSurface& start, const Eigen::VectorXd& x) {
   SimpleSurface result = start;
   const auto [e1, e2] = across(start.axis);
-  if (start.kind == FaceKind::kSphere) {
+  if (start.kind == product::FaceKind::kSphere) {
     result.point += x.head<3>();
     result.radius = x[3];
     return result;
@@ -58,8 +59,8 @@ SimpleSurface moved(const SimpleSurface& start, const Eigen::VectorXd& x) {
   result.axis = (start.axis + x[0] * e1 + x[1] * e2).normalized();
   result.point += x[2] * e1 + x[3] * e2;
   result.radius = x[4];
-  if (start.kind == FaceKind::kCone) result.half_angle = x[5];
-  if (start.kind == FaceKind::kTorus) {
+  if (start.kind == product::FaceKind::kCone) result.half_angle = x[5];
+  if (start.kind == product::FaceKind::kTorus) {
     result.point += x[5] * start.axis;
     result.tube_radius = x[6];
   }
@@ -68,9 +69,9 @@ SimpleSurface moved(const SimpleSurface& start, const Eigen::VectorXd& x) {
 
 Eigen::VectorXd parameters(const SimpleSurface& start) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(parameters_of(start.kind));
-  x[start.kind == FaceKind::kSphere ? 3 : 4] = start.radius;
-  if (start.kind == FaceKind::kCone) x[5] = start.half_angle;
-  if (start.kind == FaceKind::kTorus) x[6] = start.tube_radius;
+  x[start.kind == product::FaceKind::kSphere ? 3 : 4] = start.radius;
+  if (start.kind == product::FaceKind::kCone) x[5] = start.half_angle;
+  if (start.kind == product::FaceKind::kTorus) x[6] = start.tube_radius;
   return x;
 }
 
@@ -85,8 +86,8 @@ SurfaceFit refine(const SimpleSurface& start, std::span<const Vec3> points, doub
       r[i] = distance_to(surface, points[i]);
     }
   };
-  LeastSquaresProblem problem;
-  problem.evaluate = with_numeric_jacobian(
+  geometry::LeastSquaresProblem problem;
+  problem.evaluate = geometry::with_numeric_jacobian(
       residual, [](Eigen::Index, double x) { return 1e-6 * std::max(1.0, std::abs(x)); });
   const Eigen::VectorXd x = parameters(start);
   problem.lower = Eigen::VectorXd::Constant(x.size(), -10.0 * largest_radius);
@@ -95,19 +96,19 @@ SurfaceFit refine(const SimpleSurface& start, std::span<const Vec3> points, doub
     if (x[k] != 0.0) problem.lower[k] = 1e-6;  // radii
     if (x[k] != 0.0) problem.upper[k] = largest_radius;
   }
-  if (start.kind == FaceKind::kCone) {
+  if (start.kind == product::FaceKind::kCone) {
     problem.lower[5] = -1.5;  // a cone may turn round while it is sought
     problem.upper[5] = 1.5;
   }
-  const LeastSquaresSolution solution =
-      solve_least_squares(problem, x, {.max_iterations = iterations, .step_tolerance = 1e-10});
+  const geometry::LeastSquaresSolution solution = geometry::solve_least_squares(
+      problem, x, {.max_iterations = iterations, .step_tolerance = 1e-10});
   SurfaceFit fit;
-  if (solution.status == LeastSquaresStatus::kBadStart) {
+  if (solution.status == geometry::LeastSquaresStatus::kBadStart) {
     fit.rms = fit.max = std::numeric_limits<double>::infinity();
     return fit;
   }
   fit.surface = moved(start, solution.x);
-  fit.has_converged = solution.status != LeastSquaresStatus::kIterationLimit &&
+  fit.has_converged = solution.status != geometry::LeastSquaresStatus::kIterationLimit &&
                       std::none_of(solution.at_bound.begin(), solution.at_bound.end(),
                                    [](char at) { return at != 0; });
   fit.rms = std::sqrt(solution.sum_of_squares / static_cast<double>(n));
@@ -194,7 +195,7 @@ std::optional<Paraboloid> paraboloid_through(std::span<const Vec3> points, const
 }
 
 /// Starts from the surface's curvatures: those that bend enough.
-void add_osculating(FaceKind kind, const Paraboloid& p, double largest_radius,
+void add_osculating(product::FaceKind kind, const Paraboloid& p, double largest_radius,
                     std::vector<SimpleSurface>& starts) {
   const double least = 1.0 / largest_radius;
   for (const bool is_swapped : {false, true}) {
@@ -207,14 +208,14 @@ void add_osculating(FaceKind kind, const Paraboloid& p, double largest_radius,
     start.point = p.point + p.normal / bent;
     start.radius = 1.0 / std::abs(bent);
     start.axis = along_direction;
-    if (kind == FaceKind::kCone) {
+    if (kind == product::FaceKind::kCone) {
       for (const double slope : {-0.15, 0.15}) {
         start.half_angle = slope;
         starts.push_back(start);
       }
       continue;
     }
-    if (kind == FaceKind::kTorus) {
+    if (kind == product::FaceKind::kTorus) {
       // A circle of radius 1 / bent turns about an axis through the other centre of curvature.
       const double turn = std::copysign(1.0 / std::max(std::abs(along), 2.0 * least), along);
       start.point = p.point + turn * p.normal;
@@ -228,7 +229,7 @@ void add_osculating(FaceKind kind, const Paraboloid& p, double largest_radius,
 }
 
 /// Starts about a direction: a circle in the projection along it, and what the section says.
-void add_about(FaceKind kind, const Vec3& axis, std::span<const Vec3> points,
+void add_about(product::FaceKind kind, const Vec3& axis, std::span<const Vec3> points,
                std::vector<SimpleSurface>& starts) {
   const auto [e1, e2] = across(axis);
   std::vector<Eigen::Vector2d> flat;
@@ -237,7 +238,7 @@ void add_about(FaceKind kind, const Vec3& axis, std::span<const Vec3> points,
   if (!circle) return;
   SimpleSurface start{.kind = kind, .axis = axis, .radius = circle->radius};
   start.point = circle->centre.x() * e1 + circle->centre.y() * e2;
-  if (kind != FaceKind::kCone && kind != FaceKind::kTorus) {
+  if (kind != product::FaceKind::kCone && kind != product::FaceKind::kTorus) {
     starts.push_back(start);
     return;
   }
@@ -246,7 +247,7 @@ void add_about(FaceKind kind, const Vec3& axis, std::span<const Vec3> points,
     const Vec3 way = x - start.point;
     section.emplace_back(way.dot(axis), (way - way.dot(axis) * axis).norm());
   }
-  if (kind == FaceKind::kTorus) {
+  if (kind == product::FaceKind::kTorus) {
     const auto tube = circle_through(section);
     if (!tube || !(tube->centre.y() > 0.0)) return;
     start.point += tube->centre.x() * axis;
@@ -288,18 +289,19 @@ SurfaceFit plane_through(std::span<const Vec3> points) {
 
 /// A cone is recognised by where it widens; a plane by the side of the material.
 void settle(SimpleSurface& s, std::span<const Vec3> points, std::span<const Vec3> normals) {
-  if (s.kind == FaceKind::kPlane && !normals.empty() && mean_of(normals).dot(s.axis) < 0.0) {
+  if (s.kind == product::FaceKind::kPlane && !normals.empty() &&
+      mean_of(normals).dot(s.axis) < 0.0) {
     s.axis = -s.axis;
   }
-  if (s.kind == FaceKind::kCone && s.half_angle < 0.0) {
+  if (s.kind == product::FaceKind::kCone && s.half_angle < 0.0) {
     s.half_angle = -s.half_angle;
     s.axis = -s.axis;
   }
   // The point of an axis next to the middle of the points.
-  if (s.kind == FaceKind::kCylinder || s.kind == FaceKind::kCone) {
+  if (s.kind == product::FaceKind::kCylinder || s.kind == product::FaceKind::kCone) {
     const double way = (mean_of(points) - s.point).dot(s.axis);
     s.point += way * s.axis;
-    if (s.kind == FaceKind::kCone) s.radius += way * std::tan(s.half_angle);
+    if (s.kind == product::FaceKind::kCone) s.radius += way * std::tan(s.half_angle);
   }
 }
 
@@ -321,13 +323,13 @@ void SurfaceFitOptions::check() const {
 double distance_to(const SimpleSurface& s, const Vec3& x) {
   const Vec3 way = x - s.point;
   const double along = way.dot(s.axis);
-  if (s.kind == FaceKind::kPlane) return along;
-  if (s.kind == FaceKind::kSphere) return way.norm() - s.radius;
+  if (s.kind == product::FaceKind::kPlane) return along;
+  if (s.kind == product::FaceKind::kSphere) return way.norm() - s.radius;
   const double off = (way - along * s.axis).norm();
   switch (s.kind) {
-    case FaceKind::kCone:
+    case product::FaceKind::kCone:
       return (off - s.radius) * std::cos(s.half_angle) - along * std::sin(s.half_angle);
-    case FaceKind::kTorus:
+    case product::FaceKind::kTorus:
       return std::hypot(off - s.radius, along) - s.tube_radius;
     default:
       return off - s.radius;
@@ -336,23 +338,23 @@ double distance_to(const SimpleSurface& s, const Vec3& x) {
 
 std::string title_of(const SimpleSurface& s) {
   switch (s.kind) {
-    case FaceKind::kPlane:
-    case FaceKind::kFreeform:
+    case product::FaceKind::kPlane:
+    case product::FaceKind::kFreeform:
       break;
-    case FaceKind::kSphere:
-    case FaceKind::kCylinder:
+    case product::FaceKind::kSphere:
+    case product::FaceKind::kCylinder:
       return fmt::format("{} r {:.4g} mm", name_of(s.kind), s.radius);
-    case FaceKind::kCone:
+    case product::FaceKind::kCone:
       return fmt::format("cone r {:.4g} mm, half angle {:.3g} deg", s.radius,
-                         s.half_angle * kDegreesPerRadian);
-    case FaceKind::kTorus:
+                         s.half_angle * geometry::kDegreesPerRadian);
+    case product::FaceKind::kTorus:
       return fmt::format("torus r {:.4g} mm, tube {:.4g} mm", s.radius, s.tube_radius);
   }
   return name_of(s.kind);
 }
 
-SurfaceFit fit_surface(FaceKind kind, std::span<const Vec3> points, std::span<const Vec3> normals,
-                       const SurfaceFitOptions& options) {
+SurfaceFit fit_surface(product::FaceKind kind, std::span<const Vec3> points,
+                       std::span<const Vec3> normals, const SurfaceFitOptions& options) {
   options.check();
   const int least = parameters_of(kind);
   if (points.size() < static_cast<std::size_t>(least)) {
@@ -364,7 +366,7 @@ SurfaceFit fit_surface(FaceKind kind, std::span<const Vec3> points, std::span<co
         fmt::format("surface fit: {} normals for {} points", normals.size(), points.size()));
   }
   SurfaceFit fit;
-  if (kind == FaceKind::kPlane) {
+  if (kind == product::FaceKind::kPlane) {
     fit = plane_through(points);
     settle(fit.surface, points, normals);
     return fit;
@@ -417,8 +419,8 @@ SurfaceFit fit_surface(FaceKind kind, std::span<const Vec3> points, std::span<co
   fit.rms *= scale;
   fit.max *= scale;
   settle(s, points, normals);
-  const double bend = kind == FaceKind::kTorus ? s.tube_radius : s.radius;
-  if (kind != FaceKind::kCone && bend < options.smallest_radius) fit.has_converged = false;
+  const double bend = kind == product::FaceKind::kTorus ? s.tube_radius : s.radius;
+  if (kind != product::FaceKind::kCone && bend < options.smallest_radius) fit.has_converged = false;
   return fit;
 }
 
@@ -426,8 +428,9 @@ SurfaceChoice choose_surface(std::span<const Vec3> points, std::span<const Vec3>
                              const SurfaceFitOptions& options) {
   SurfaceChoice choice;
   double least = std::numeric_limits<double>::infinity();
-  for (const FaceKind kind : kKinds) {
-    if (kind != FaceKind::kPlane && points.size() < static_cast<std::size_t>(parameters_of(kind))) {
+  for (const product::FaceKind kind : kKinds) {
+    if (kind != product::FaceKind::kPlane &&
+        points.size() < static_cast<std::size_t>(parameters_of(kind))) {
       continue;
     }
     choice.fits.push_back(fit_surface(kind, points, normals, options));
@@ -490,4 +493,4 @@ std::vector<std::vector<int>> split_patch(std::span<const Vec3> points,
   return pieces;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -9,7 +9,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product_faces.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// A surface of simple geometry, without end: what a mill, a lathe or a ball cutter leaves.
 ///
@@ -19,7 +19,7 @@ namespace palmar {
 ///     cone      point on its axis, axis towards where it widens, radius there, half_angle
 ///     torus     point its centre, axis, radius of the circle in its middle, tube_radius
 struct SimpleSurface {
-  FaceKind kind = FaceKind::kPlane;
+  product::FaceKind kind = product::FaceKind::kPlane;
   Vec3 point = Vec3::Zero();  ///< mm
   Vec3 axis = Vec3::UnitZ();  ///< unit
   double radius = 0.0;        ///< mm
@@ -57,8 +57,8 @@ struct SurfaceFitOptions {
 /// as many points as the surface has parameters (plane 3, sphere 4, cylinder 5, cone 6, torus 7);
 /// throws UsageError on fewer, on normals that don't match, or on FaceKind::kFreeform. A fit that
 /// doesn't exist (a cylinder through points of a line) hasn't converged.
-SurfaceFit fit_surface(FaceKind kind, std::span<const Vec3> points, std::span<const Vec3> normals,
-                       const SurfaceFitOptions& options = {});
+SurfaceFit fit_surface(product::FaceKind kind, std::span<const Vec3> points,
+                       std::span<const Vec3> normals, const SurfaceFitOptions& options = {});
 
 /// All kinds that the points suffice for, from the simplest on: plane, cylinder, sphere, cone,
 /// torus; and which is the first that is good enough, or not much worse than the best.
@@ -83,4 +83,4 @@ std::vector<std::vector<int>> split_patch(std::span<const Vec3> points,
                                           const PatchSplitOptions& split = {},
                                           const SurfaceFitOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::redesign

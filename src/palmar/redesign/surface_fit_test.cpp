@@ -13,7 +13,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 /// Points of a patch with normals, turned and shifted, with noise along the normals.
@@ -78,7 +78,7 @@ void expect_axis(const SimpleSurface& surface, double tolerance) {
 TEST(FitSurface, FindsTheRadiusAndAxisOfACylinderFromASixthOfIt) {
   const Patch patch = cylinder(17.5, std::numbers::pi / 3.0, 40.0);
   for (const bool with_normals : {false, true}) {
-    const SurfaceFit fit = fit_surface(FaceKind::kCylinder, patch.points,
+    const SurfaceFit fit = fit_surface(product::FaceKind::kCylinder, patch.points,
                                        with_normals ? patch.normals : std::vector<Vec3>(), {});
     ASSERT_TRUE(fit.has_converged);
     EXPECT_NEAR(fit.surface.radius, 17.5, 1e-6);  // mm
@@ -88,8 +88,8 @@ TEST(FitSurface, FindsTheRadiusAndAxisOfACylinderFromASixthOfIt) {
 }
 
 TEST(FitSurface, FindsAShortWideCylinderWhoseAxisIsTheShortestExtent) {
-  const SurfaceFit fit =
-      fit_surface(FaceKind::kCylinder, cylinder(50.0, 2.0 * std::numbers::pi, 10.0).points, {});
+  const SurfaceFit fit = fit_surface(product::FaceKind::kCylinder,
+                                     cylinder(50.0, 2.0 * std::numbers::pi, 10.0).points, {});
   EXPECT_NEAR(fit.surface.radius, 50.0, 1e-6);
   EXPECT_LT(fit.rms, 1e-8);
 }
@@ -100,7 +100,7 @@ TEST(FitSurface, FindsASphereFromASmallCap) {
     const Vec3 normal(std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), std::cos(b));
     return std::pair(Vec3(25.0 * normal), normal);
   });
-  const SurfaceFit fit = fit_surface(FaceKind::kSphere, patch.points, patch.normals);
+  const SurfaceFit fit = fit_surface(product::FaceKind::kSphere, patch.points, patch.normals);
   ASSERT_TRUE(fit.has_converged);
   EXPECT_NEAR(fit.surface.radius, 25.0, 1e-6);
   EXPECT_LT((fit.surface.point - Frame().shift).norm(), 1e-6);
@@ -108,14 +108,14 @@ TEST(FitSurface, FindsASphereFromASmallCap) {
 
 TEST(FitSurface, FindsAConesRadiusAndAngle) {
   // Radius 12 mm at the origin, half angle 5 degrees, a half of it.
-  const double slope = 5.0 * kDegree;
+  const double slope = 5.0 * geometry::kDegree;
   const Patch patch = sampled([&](double u, double v) {
     const double t = std::numbers::pi * (u - 0.5), z = 60.0 * (v - 0.5);
     const Vec3 out(std::cos(t), std::sin(t), 0.0);
     return std::pair(Vec3((12.0 + z * std::tan(slope)) * out + z * Vec3::UnitZ()),
                      Vec3(std::cos(slope) * out - std::sin(slope) * Vec3::UnitZ()));
   });
-  const SurfaceFit fit = fit_surface(FaceKind::kCone, patch.points, patch.normals);
+  const SurfaceFit fit = fit_surface(product::FaceKind::kCone, patch.points, patch.normals);
   ASSERT_TRUE(fit.has_converged);
   EXPECT_NEAR(fit.surface.half_angle, slope, 1e-7);
   expect_axis(fit.surface, 1e-6);
@@ -131,7 +131,7 @@ TEST(FitSurface, FindsATorusFromAnOuterAnInnerAndAWholePatch) {
         torus(30.0, 8.0, 2.0 * std::numbers::pi, 2.0 * std::numbers::pi)}) {
     const bool is_whole = patch.points.front().norm() < 100.0 && patch.points.size() == 900 &&
                           (patch.points.front() - patch.points.back()).norm() < 10.0;
-    const SurfaceFit fit = fit_surface(FaceKind::kTorus, patch.points, patch.normals);
+    const SurfaceFit fit = fit_surface(product::FaceKind::kTorus, patch.points, patch.normals);
     ASSERT_TRUE(fit.has_converged);
     EXPECT_NEAR(fit.surface.radius, is_whole ? 30.0 : 120.0, 1e-4);
     EXPECT_NEAR(fit.surface.tube_radius, is_whole ? 8.0 : 14.0, 1e-5);
@@ -143,7 +143,7 @@ TEST(FitSurface, ReportsTheNoiseAsItsResidual) {
   // Least squares of 900 points with 5 parameters: rms 0.1 sqrt(895 / 900) mm, itself known to
   // 0.1 / sqrt(1800) = 2.4 %: four of these.
   const SurfaceFit fit =
-      fit_surface(FaceKind::kCylinder, cylinder(17.5, 2.0, 60.0, 0.1).points, {});
+      fit_surface(product::FaceKind::kCylinder, cylinder(17.5, 2.0, 60.0, 0.1).points, {});
   ASSERT_TRUE(fit.has_converged);
   EXPECT_NEAR(fit.rms, 0.1, 0.01);
   EXPECT_NEAR(fit.surface.radius, 17.5, 0.1);
@@ -158,13 +158,13 @@ TEST(ChooseSurface, TakesTheSimplestThatIsGoodEnough) {
   EXPECT_EQ(kind(sampled([](double u, double v) {
               return std::pair(Vec3(40.0 * u, 30.0 * v, 0.0), Vec3::UnitZ().eval());
             })),
-            FaceKind::kPlane);
-  EXPECT_EQ(kind(cylinder(16.0, 1.5, 50.0)), FaceKind::kCylinder);
-  EXPECT_EQ(kind(cylinder(16.0, 1.5, 50.0, 0.2)), FaceKind::kCylinder);
-  EXPECT_EQ(kind(torus(40.0, 12.0, 1.0, 1.5)), FaceKind::kTorus);
-  EXPECT_EQ(kind(torus(40.0, 12.0, 1.0, 1.5, 0.1)), FaceKind::kTorus);
+            product::FaceKind::kPlane);
+  EXPECT_EQ(kind(cylinder(16.0, 1.5, 50.0)), product::FaceKind::kCylinder);
+  EXPECT_EQ(kind(cylinder(16.0, 1.5, 50.0, 0.2)), product::FaceKind::kCylinder);
+  EXPECT_EQ(kind(torus(40.0, 12.0, 1.0, 1.5)), product::FaceKind::kTorus);
+  EXPECT_EQ(kind(torus(40.0, 12.0, 1.0, 1.5, 0.1)), product::FaceKind::kTorus);
   // So flat that 0.05 mm don't show: sagitta 10^2 / 8 / 5000 mm.
-  EXPECT_EQ(kind(cylinder(5000.0, 10.0 / 5000.0, 10.0)), FaceKind::kPlane);
+  EXPECT_EQ(kind(cylinder(5000.0, 10.0 / 5000.0, 10.0)), product::FaceKind::kPlane);
 }
 
 TEST(ChooseSurface, IsTheSameForAPatchThatWasMovedAndTurned) {
@@ -203,12 +203,12 @@ TEST(SplitPatch, CutsAPatchOverAnEdgeIntoItsTwoPlanes) {
 
 TEST(DistanceTo, IsOrthogonal) {
   // Hand calculation: 3 mm above the middle of a tube of radius 2: 1 mm outside.
-  const SimpleSurface ring{.kind = FaceKind::kTorus, .radius = 10.0, .tube_radius = 2.0};
+  const SimpleSurface ring{.kind = product::FaceKind::kTorus, .radius = 10.0, .tube_radius = 2.0};
   EXPECT_NEAR(distance_to(ring, Vec3(10.0, 0.0, 3.0)), 1.0, 1e-12);
   EXPECT_NEAR(distance_to(ring, Vec3(0.0, 0.0, 0.0)), 8.0, 1e-12);
   // On a cone of half angle 30 degrees, 1 mm off along the normal.
   const SimpleSurface cone{
-      .kind = FaceKind::kCone, .radius = 5.0, .half_angle = std::numbers::pi / 6.0};
+      .kind = product::FaceKind::kCone, .radius = 5.0, .half_angle = std::numbers::pi / 6.0};
   const Vec3 on(5.0 + 4.0 * std::tan(std::numbers::pi / 6.0), 0.0, 4.0);
   const Vec3 normal(std::cos(std::numbers::pi / 6.0), 0.0, -std::sin(std::numbers::pi / 6.0));
   EXPECT_NEAR(distance_to(cone, on), 0.0, 1e-12);
@@ -218,14 +218,14 @@ TEST(DistanceTo, IsOrthogonal) {
 TEST(FitSurface, SaysWhatItNeeds) {
   const std::vector<Vec3> four = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), Vec3::Zero()};
   EXPECT_THAT(
-      [&] { fit_surface(FaceKind::kCylinder, four, {}); },
+      [&] { fit_surface(product::FaceKind::kCylinder, four, {}); },
       ::testing::ThrowsMessage<UsageError>("surface fit: 4 points; a cylinder needs at least 5"));
-  EXPECT_THAT([&] { fit_surface(FaceKind::kSphere, four, std::vector<Vec3>(3)); },
+  EXPECT_THAT([&] { fit_surface(product::FaceKind::kSphere, four, std::vector<Vec3>(3)); },
               ::testing::ThrowsMessage<UsageError>("surface fit: 3 normals for 4 points"));
   const std::vector<Vec3> line = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(3, 0, 0),
                                   Vec3(4, 0, 0)};
-  EXPECT_EQ(choose_surface(line, {}).best().surface.kind, FaceKind::kPlane);
+  EXPECT_EQ(choose_surface(line, {}).best().surface.kind, product::FaceKind::kPlane);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -12,7 +12,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kLengths[] = {0.35, 0.7, 1.4};              // of a variable's range
@@ -59,7 +59,7 @@ struct SurfaceSearch {
   int variables() const { return static_cast<int>(problem.variables.size()); }
 
   Eigen::VectorXd place_of(const std::vector<double>& values) const {
-    const std::vector<double> place = palmar::place_of(problem.variables, values);
+    const std::vector<double> place = redesign::place_of(problem.variables, values);
     return Eigen::Map<const Eigen::VectorXd>(place.data(), variables());
   }
 
@@ -249,4 +249,4 @@ SearchResult search_by_surface(const SearchProblem& problem, int evaluations,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

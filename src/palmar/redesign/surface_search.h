@@ -8,7 +8,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/redesign/feature_search.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// A smooth surface through values that scatter: a Gaussian process over [0, 1]^n whose covariance
 /// is the sum of one of each variable alone and one of all together (squared exponentials, a
@@ -45,4 +45,4 @@ class GoalSurface {
 SearchResult search_by_surface(const SearchProblem& problem, int evaluations,
                                const Progress& progress);
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 using ::testing::HasSubstr;
@@ -141,4 +141,4 @@ TEST(SurfaceSearch, WhatCanNotBeMadeIsNeverTheBest) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -12,7 +12,7 @@
 #include "palmar/grasp/power/grip_axis.h"
 #include "palmar/redesign/handle_section.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 constexpr double kAlike = 0.1;      // mm between sections: milling marks are as large
@@ -144,10 +144,10 @@ void add_pieces(const std::string& name, const std::vector<Eigen::Vector2d>& rou
 
 }  // namespace
 
-UnrolledOutline unroll(const TriangleMesh& product, const std::vector<ContactRegion>& regions,
-                       std::optional<Vec3> axis) {
+UnrolledOutline unroll(const geometry::TriangleMesh& product,
+                       const std::vector<ContactRegion>& regions, std::optional<Vec3> axis) {
   UnrolledOutline sheet;
-  sheet.axis = axis ? *axis : Vec3(principal_frame(product).axes.col(0));
+  sheet.axis = axis ? *axis : Vec3(grasp::principal_frame(product).axes.col(0));
   Eigen::Index largest = 0;
   sheet.axis.cwiseAbs().maxCoeff(&largest);
   if (sheet.axis[largest] < 0.0) sheet.axis = -sheet.axis;
@@ -225,4 +225,4 @@ UnrolledOutline unroll(const TriangleMesh& product, const std::vector<ContactReg
   return sheet;
 }
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -9,7 +9,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/redesign/contact_region.h"
 
-namespace palmar {
+namespace palmar::redesign {
 
 /// A line of an unrolled surface: x round the section, y along the axis, mm.
 struct UnrolledLine {
@@ -36,7 +36,7 @@ struct UnrolledOutline {
 /// Only a surface whose sections are alike over the length of the outlines, to 0.1 mm, can be
 /// unrolled true: UsageError naming the difference otherwise, or if an outline leaves the side
 /// (over an end face), or if there is none.
-UnrolledOutline unroll(const TriangleMesh& product, const std::vector<ContactRegion>& regions,
-                       std::optional<Vec3> axis = {});
+UnrolledOutline unroll(const geometry::TriangleMesh& product,
+                       const std::vector<ContactRegion>& regions, std::optional<Vec3> axis = {});
 
-}  // namespace palmar
+}  // namespace palmar::redesign

@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::redesign {
 namespace {
 
 ContactRegion region_of(const std::vector<std::vector<Vec3>>& outlines) {
@@ -40,7 +40,7 @@ TEST(Unroll, ACircleRoundACylinderBecomesAStraightLineOfItsCircumference) {
   std::vector<Vec3> other = circle;
   for (Vec3& x : other) x.z() = -12.0;
   const UnrolledOutline sheet =
-      unroll(make_cylinder_product({.diameter = 40.0, .length = 100.0}).mesh,
+      unroll(product::make_cylinder_product({.diameter = 40.0, .length = 100.0}).mesh,
              {region_of({circle, other})});
   // Chords of 0.01 mm sagitta are 0.02 % short.
   EXPECT_NEAR(sheet.width, std::numbers::pi * 40.0, 5e-4 * std::numbers::pi * 40.0);
@@ -70,10 +70,11 @@ TEST(Unroll, KeepsLengthsOverTheFilletsOfAPrism) {
   for (int i = 1; i <= 20; ++i) up.emplace_back(14.5 - 0.5 * i, 17.5, 0.0);
   for (const Vec3& x : up) loop.emplace_back(x - Vec3(0, 0, 20));
   for (auto x = up.rbegin(); x != up.rend(); ++x) loop.emplace_back(*x + Vec3(0, 0, 20));
-  const UnrolledOutline sheet = unroll(
-      make_prism_product({.width = 35.0, .depth = 35.0, .length = 130.0, .fillet_radius = 3.0})
-          .mesh,
-      {region_of({loop})});
+  const UnrolledOutline sheet =
+      unroll(product::make_prism_product(
+                 {.width = 35.0, .depth = 35.0, .length = 130.0, .fillet_radius = 3.0})
+                 .mesh,
+             {region_of({loop})});
   const double across = 20.0 + 1.5 * std::numbers::pi;
   ASSERT_EQ(sheet.lines.size(), 1U);
   EXPECT_TRUE(sheet.lines[0].is_closed);  // the cut is on the other side
@@ -95,12 +96,14 @@ TEST(Unroll, RefusesWhatIsNoCylinderOrPrism) {
   }
   EXPECT_THAT(
       [&] {
-        unroll(make_sphere_product({.diameter = 60.0}).mesh, {region_of({belt})}, Vec3::UnitZ());
+        unroll(product::make_sphere_product({.diameter = 60.0}).mesh, {region_of({belt})},
+               Vec3::UnitZ());
       },
       ::testing::ThrowsMessage<UsageError>(::testing::AllOf(
           ::testing::HasSubstr("sections of the product differ by"),
           ::testing::HasSubstr("only a cylinder or a prism (up to 0.1 mm) can be unrolled"))));
-  const TriangleMesh bar = make_cylinder_product({.diameter = 40.0, .length = 100.0}).mesh;
+  const geometry::TriangleMesh bar =
+      product::make_cylinder_product({.diameter = 40.0, .length = 100.0}).mesh;
   EXPECT_THAT([&] { unroll(bar, {ContactRegion()}); },
               ::testing::ThrowsMessage<UsageError>("unrolled outline: the region is empty"));
   // Over the end face.
@@ -111,4 +114,4 @@ TEST(Unroll, RefusesWhatIsNoCylinderOrPrism) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::redesign

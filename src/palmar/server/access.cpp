@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 constexpr std::size_t kTokenBytes = 16;
@@ -137,4 +137,4 @@ bool is_plain_name(std::string_view name) {
                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_'; });
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::server {
 
 // Who may talk to the server of this machine. Every page that a browser shows can send requests to
 // 127.0.0.1; what keeps them out is a secret that they don't know, and two headers that they can't
@@ -52,4 +52,4 @@ std::string safe_file_name(std::string_view name);
 /// Letters, digits, '-' and '_', 1 to 64 of them: what projects may be called.
 bool is_plain_name(std::string_view name);
 
-}  // namespace palmar
+}  // namespace palmar::server

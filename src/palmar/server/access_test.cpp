@@ -6,7 +6,7 @@
 
 #include <set>
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 TEST(Token, Has128RandomBitsInHexadecimal) {
@@ -95,4 +95,4 @@ TEST(ProjectName, IsPlain) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

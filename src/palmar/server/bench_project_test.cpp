@@ -12,7 +12,7 @@
 #include "palmar/server/live_worker_fixture.h"
 #include "palmar/workflow/assess_bench.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using nlohmann::json;
@@ -27,7 +27,7 @@ class BenchProjectFile : public ::testing::Test {
                {"product",
                 {{"file_name", product.file_name},
                  {"unit", "mm"},
-                 {"bytes_base64", base64(read_file(product.path))}}},
+                 {"bytes_base64", formats::base64(formats::read_file(product.path))}}},
                {"hand", {{"person", nullptr}, {"left", false}}},
                {"grip_force_n", nullptr},
                {"hold", 1},
@@ -36,18 +36,18 @@ class BenchProjectFile : public ::testing::Test {
   }
   std::filesystem::path written() const {
     std::filesystem::path path = product.path.parent_path() / "mine.palmar-project";
-    write_file(path, project.dump());
+    formats::write_file(path, project.dump());
     return path;
   }
-  AssessOutcome assessed() const {
-    BenchAssessRequest request;
+  workflow::AssessOutcome assessed() const {
+    workflow::BenchAssessRequest request;
     request.file = written();
-    return assess_bench_project(request);
+    return workflow::assess_bench_project(request);
   }
   /// All figures and words of what the command line says.
   json command_line() const {
-    const AssessOutcome outcome = assessed();
-    return comparable(json::parse(assessment_json(outcome.set, outcome.words)));
+    const workflow::AssessOutcome outcome = assessed();
+    return comparable(json::parse(records::assessment_json(outcome.set, outcome.words)));
   }
   /// Without what differs from run to run.
   static json comparable(json said) {
@@ -70,7 +70,7 @@ TEST_F(BenchProjectFile, GivesTheFiguresOfTheBenchToTheLastDigit) {
   open.verb = LiveVerb::kOpen;
   open.id = 1;
   open.product = shared->add_example("round-handle").key;
-  open.person = PersonOfSize{Sex::kFemale, 5.0};
+  open.person = workflow::PersonOfSize{grasp::Sex::kFemale, 5.0};
   open.is_left = true;
   LiveAnswers answers;
   LiveWorker worker(shared, answers.sink());
@@ -89,9 +89,9 @@ TEST_F(BenchProjectFile, GivesTheFiguresOfTheBenchToTheLastDigit) {
   // From a place beside it: as placed, come to rest with 45 N, closed.
   json angles = json::array();
   const json& posture = held["posture"]["posture"];
-  LivePose pose;
-  for (int d = 0; d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
+  workflow::LivePose pose;
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
     angles.push_back(posture[std::string(name_of(dof)) + "_deg"]);
   }
   json place = held["posture"]["product_from_hand"];
@@ -119,28 +119,28 @@ TEST_F(BenchProjectFile, GivesTheFiguresOfTheBenchToTheLastDigit) {
 
 TEST_F(BenchProjectFile, GripForceOfTheCommandLineWins) {
   project["grip_force_n"] = 80;
-  BenchAssessRequest request;
+  workflow::BenchAssessRequest request;
   request.file = written();
   request.grip_force = 35.0;
-  const AssessOutcome outcome = assess_bench_project(request);
-  const Assessment& assessment = outcome.set.assessments.front().assessment;
+  const workflow::AssessOutcome outcome = workflow::assess_bench_project(request);
+  const study::Assessment& assessment = outcome.set.assessments.front().assessment;
   EXPECT_NEAR(assessment.balance.grip_force, 35.0, 1.0);  // as near as it comes to rest
 }
 
 TEST_F(BenchProjectFile, SaysWhatIsWrongByTheFilesOwnNames) {
   const auto message = [&](std::optional<double> force = {}) -> std::string {
-    BenchAssessRequest request;
+    workflow::BenchAssessRequest request;
     request.file = written();
     request.grip_force = force;
     try {
-      assess_bench_project(request);
+      workflow::assess_bench_project(request);
     } catch (const Error& error) {
       return std::to_string(error.exit_code()) + " " + error.what();
     }
     return "nothing";
   };
   const json whole = project;
-  project["product"]["bytes_base64"] = base64("solid nothing\nthis is no facet\n");
+  project["product"]["bytes_base64"] = formats::base64("solid nothing\nthis is no facet\n");
   std::string said = message();
   EXPECT_THAT(said, testing::StartsWith("3 "));
   EXPECT_THAT(said, HasSubstr("mine.palmar-project: its product round-handle.stl"));
@@ -153,7 +153,7 @@ TEST_F(BenchProjectFile, SaysWhatIsWrongByTheFilesOwnNames) {
   project["hold"] = 900;
   EXPECT_THAT(message(), testing::StartsWith("2 "));
   project = whole;
-  project["pose"] = {{"posture_deg", std::vector<double>(kDofCount, 0.0)},
+  project["pose"] = {{"posture_deg", std::vector<double>(hand::kDofCount, 0.0)},
                      {"quaternion_wxyz", {1, 0, 0, 0}},
                      {"translation_mm", {0, 0, 0}},
                      {"grip", "medium_wrap"}};
@@ -163,4 +163,4 @@ TEST_F(BenchProjectFile, SaysWhatIsWrongByTheFilesOwnNames) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace palmar {
+namespace palmar::server {
 
 // The workbench's page, made from apps/workbench/bench when the program is built (embed.cmake).
 
@@ -14,4 +14,4 @@ std::string_view bench_style();    ///< CSS
 std::string_view bench_icon();     ///< SVG
 std::string_view bench_licence();  ///< of three.js, which goes with it
 
-}  // namespace palmar
+}  // namespace palmar::server

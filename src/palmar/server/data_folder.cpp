@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 std::optional<std::filesystem::path> absolute_path_in(const char* variable) {
@@ -22,4 +22,4 @@ std::optional<std::filesystem::path> user_data_folder() {
   return std::nullopt;
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

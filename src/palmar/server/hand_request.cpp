@@ -13,7 +13,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/server/access.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using HandJson = nlohmann::ordered_json;
@@ -26,9 +26,10 @@ constexpr double kLongestSize = 500.0;          // mm; likewise
 
 [[noreturn]] void refuse_hand(const std::string& member, const HandJson& value,
                               const std::string& allowed) {
-  throw UsageError("hand: \"" + member + "\" is " +
-                   in_quotes(value.dump(-1, ' ', false, HandJson::error_handler_t::replace)) +
-                   "; " + allowed + " is required");
+  throw UsageError(
+      "hand: \"" + member + "\" is " +
+      formats::in_quotes(value.dump(-1, ' ', false, HandJson::error_handler_t::replace)) + "; " +
+      allowed + " is required");
 }
 
 /// A word that is neither a path nor an option; "" if it isn't there.
@@ -71,7 +72,8 @@ std::string colour_in(const HandJson& json, const char* name) {
 double size_of(const std::string& name, const HandJson& value, double low, double high) {
   const double number = value.is_number() ? value.get<double>() : NAN;
   if (!(number >= low && number <= high)) {
-    refuse_hand(name, value, "a number from " + shortest(low) + " to " + shortest(high));
+    refuse_hand(name, value,
+                "a number from " + formats::shortest(low) + " to " + formats::shortest(high));
   }
   return number;
 }
@@ -91,7 +93,7 @@ std::optional<Vec3> point_in(const HandJson& json, const char* name) {
 }
 
 /// Adds what a correction says, the one of that number.
-void add_correction(const HandJson& json, std::size_t number, PersonFile& known) {
+void add_correction(const HandJson& json, std::size_t number, records::PersonFile& known) {
   if (!json.is_object()) refuse_hand("corrections", json, "a list of objects");
   const std::string mark = one_of(json, "mark", {"crease", "dot", "added_crease", "added_dot"});
   const std::string name = word_in(json, "name"), posture = word_in(json, "posture");
@@ -104,13 +106,13 @@ void add_correction(const HandJson& json, std::size_t number, PersonFile& known)
     return;
   }
   if (mark.starts_with("added_") && name == "none") return;
-  const auto label = mark_label_of(
+  const auto label = records::mark_label_of(
       {posture.empty() ? "reference" : posture, mark, name, place, said_in},
       [&](const std::string& why) { throw UsageError("hand: " + said_in + ": " + why); });
   if (label) known.marks.push_back(*label);
 }
 
-HandJson row_of(const MarkText& mark) {
+HandJson row_of(const records::MarkText& mark) {
   return {{"posture", mark.posture},
           {"mark", mark.mark},
           {"name", mark.name},
@@ -155,9 +157,9 @@ HandRequest parse_hand_request(const HandJson& json) {
                                                      names.begin())];
   request.uploads = word_in(json, "uploads");
   request.name = word_in(json, "name");
-  PersonFile& known = request.known;
+  records::PersonFile& known = request.known;
   const std::string side = one_of(json, "side", {"right", "left"});
-  if (!side.empty()) known.side = side == "left" ? Side::kLeft : Side::kRight;
+  if (!side.empty()) known.side = side == "left" ? hand::Side::kLeft : hand::Side::kRight;
   known.pick_crease = point_in(json, "pick_crease");
   known.pick_dot = point_in(json, "pick_dot");
   request.crease_colour = colour_in(json, "crease_colour");
@@ -165,7 +167,7 @@ HandRequest parse_hand_request(const HandJson& json) {
   request.population = word_in(json, "population");
   request.sheet = one_of(json, "sheet", {"a4", "letter", "card"});
   const std::string unit = one_of(json, "unit", {"mm", "cm", "m", "inch"});
-  if (!unit.empty()) request.unit = length_unit(unit);
+  if (!unit.empty()) request.unit = geometry::length_unit(unit);
   if (json.contains("wrist_inside_mm") && !json["wrist_inside_mm"].is_null()) {
     request.wrist_inside = size_of("wrist_inside_mm", json["wrist_inside_mm"], -200.0, 200.0);
   }
@@ -173,7 +175,7 @@ HandRequest parse_hand_request(const HandJson& json) {
   const HandJson sizes = json.contains("sizes_mm") ? json["sizes_mm"] : HandJson();
   if (!sizes.is_null() && !sizes.is_object()) refuse_hand("sizes_mm", sizes, "an object");
   for (const auto& [name, value] : sizes.items()) {
-    const auto dimension = hand_dimension_named(name);
+    const auto dimension = hand::hand_dimension_named(name);
     if (!dimension) refuse_hand("sizes_mm", sizes, "names of dimensions (palmar hand measure)");
     known.sizes.push_back({*dimension, size_of(name, value, 1.0, kLongestSize)});
   }
@@ -195,7 +197,7 @@ void write_hand_request(const HandRequest& request, HandJson& json) {
   json["method"] = name_of(request.method);
   json["uploads"] = request.uploads;
   json["name"] = request.name;
-  const PersonFile& known = request.known;
+  const records::PersonFile& known = request.known;
   json["side"] = known.side ? HandJson(std::string(name_of(*known.side))) : HandJson(nullptr);
   json["unit"] = request.unit ? HandJson(name_of(*request.unit)) : HandJson(nullptr);
   json["crease_colour"] = or_null(request.crease_colour);
@@ -207,12 +209,12 @@ void write_hand_request(const HandRequest& request, HandJson& json) {
   json["pick_crease"] = point_or_null(known.pick_crease);
   json["pick_dot"] = point_or_null(known.pick_dot);
   json["sizes_mm"] = HandJson::object();
-  for (const SizedDimension& one : known.sizes) {
+  for (const hand::SizedDimension& one : known.sizes) {
     json["sizes_mm"][name_of(one.dimension)] = one.value;
   }
   HandJson rows = HandJson::array();
-  for (const MarkLabel& one : known.marks) rows.push_back(row_of(mark_text_of(one)));
-  for (const BoneLabel& one : known.bones) {
+  for (const hand::MarkLabel& one : known.marks) rows.push_back(row_of(records::mark_text_of(one)));
+  for (const hand::BoneLabel& one : known.bones) {
     rows.push_back(
         row_of({.posture = {}, .mark = {}, .name = one.name, .point = one.point, .place = {}}));
   }
@@ -247,7 +249,8 @@ std::vector<std::string> hand_words(const HandRequest& request,
     add("--population", request.population);
     if (!sources.empty()) {
       add("--sheet", request.sheet);
-      if (request.wrist_inside != 0.0) add("--wrist-inside-mm", shortest(request.wrist_inside));
+      if (request.wrist_inside != 0.0)
+        add("--wrist-inside-mm", formats::shortest(request.wrist_inside));
       if (request.is_palm_up) words.emplace_back("--palm-up");
       add("--picture", found + "found.png");
     }
@@ -298,7 +301,7 @@ std::optional<std::string> known_source(const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     if (lower_ending(file) != ".toml") continue;
     if (known) {
-      throw UsageError("hand: " + in_quotes(*known) + " and " + in_quotes(file) +
+      throw UsageError("hand: " + formats::in_quotes(*known) + " and " + formats::in_quotes(file) +
                        " were sent; one file says what is known of a person");
     }
     known = file;
@@ -306,4 +309,4 @@ std::optional<std::string> known_source(const std::vector<std::string>& files) {
   return known;
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -11,7 +11,7 @@
 #include "palmar/geometry/length_unit.h"
 #include "palmar/records/person/person_file.h"
 
-namespace palmar {
+namespace palmar::server {
 
 /// What a person's hand is made from: a hand file that is there already, measures or one
 /// photograph, surface scans, photographs on the board, MR images.
@@ -37,10 +37,10 @@ struct HandRequest {
   std::string uploads;  ///< key of the files that were sent; "" of measures alone
   std::string name;
   std::string crease_colour, dot_colour, population, sheet;  ///< "": as commands have it
-  std::optional<LengthUnit> unit;
+  std::optional<geometry::LengthUnit> unit;
   double wrist_inside = 0.0;  ///< mm
   bool is_palm_up = false;
-  PersonFile known;
+  records::PersonFile known;
 };
 
 /// Reads and writes those members. Throws UsageError naming the member, its value and what is
@@ -67,4 +67,4 @@ std::vector<std::string> hand_sources(HandMethod method, const std::vector<std::
 /// UsageError naming them if there are several.
 std::optional<std::string> known_source(const std::vector<std::string>& files);
 
-}  // namespace palmar
+}  // namespace palmar::server

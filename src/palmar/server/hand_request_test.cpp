@@ -11,7 +11,7 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/server/job_request.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using testing::AllOf;
@@ -69,7 +69,7 @@ TEST(HandRequest, WhatIsKnownOfThePersonIsOneFile) {
         {"posture": "reference", "mark": "added_dot", "name": "none", "place_mm": [4, 5, 6]},
         {"name": "index_middle_phalanx", "place_mm": [7, 8, 9]}])"))
                                   .hand;
-  EXPECT_EQ(format_person(request.known), R"(side = "left"
+  EXPECT_EQ(records::format_person(request.known), R"(side = "left"
 
 [scan]
 pick_dot = [1.0, 2.0, 0.1]
@@ -168,11 +168,11 @@ TEST(HandRequest, SourcesAreWhatTheCommandTakes) {
 TEST(HandRequest, OneFileSaysWhatIsKnown) {
   EXPECT_EQ(known_source({"reference.ply"}), std::nullopt);
   EXPECT_EQ(known_source({"a/1.dcm", "a/Anna.TOML"}), "a/Anna.TOML");
-  EXPECT_THAT(message_of<UsageError>([] {
+  EXPECT_THAT(formats::message_of<UsageError>([] {
                 known_source({"a.toml", "b.toml"});
               }),
               AllOf(HasSubstr("a.toml"), HasSubstr("b.toml"), HasSubstr("one file")));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -24,7 +24,7 @@
 #include "palmar/server/live_request.h"
 #include "palmar/server/live_worker.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 namespace asio = boost::asio;
@@ -399,4 +399,4 @@ void HttpServer::stop() {
   impl_->io.stop();
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

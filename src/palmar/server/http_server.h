@@ -6,7 +6,7 @@
 
 #include "palmar/server/service.h"
 
-namespace palmar {
+namespace palmar::server {
 
 struct HttpServerOptions {
   std::string address = "127.0.0.1";  ///< to listen on
@@ -40,4 +40,4 @@ class HttpServer {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -16,7 +16,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using testing::HasSubstr;
@@ -280,4 +280,4 @@ TEST(HttpServer, StopsAtOnce) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -9,7 +9,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/server/access.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using JobFileJson = nlohmann::ordered_json;
@@ -42,23 +42,23 @@ void write_job(const std::filesystem::path& folder, const Job& job) {
                         {"unit", one.unit ? JobFileJson(name_of(*one.unit)) : JobFileJson(nullptr)},
                         {"made_by", one.made_by}});
   }
-  create_folder(folder);
-  write_file(folder / kJobJson,
-             job_dump({{"palmar_job", kJobFileVersion},
-                       {"title", job.title},
-                       {"request", JobFileJson::parse(job_request_json(job.request))},
-                       {"products", std::move(products)},
-                       {"created_ms", job.created},
-                       {"state", std::string(name_of(job.state))},
-                       {"message", job.message},
-                       {"estimate_seconds", seconds_or_null(job.estimate_seconds)},
-                       {"grasps", job.grasps},
-                       {"commands", job.commands}}));
+  formats::create_folder(folder);
+  formats::write_file(folder / kJobJson,
+                      job_dump({{"palmar_job", kJobFileVersion},
+                                {"title", job.title},
+                                {"request", JobFileJson::parse(job_request_json(job.request))},
+                                {"products", std::move(products)},
+                                {"created_ms", job.created},
+                                {"state", std::string(name_of(job.state))},
+                                {"message", job.message},
+                                {"estimate_seconds", seconds_or_null(job.estimate_seconds)},
+                                {"grasps", job.grasps},
+                                {"commands", job.commands}}));
 }
 
 std::optional<Job> read_job(const std::filesystem::path& folder) {
   try {
-    const JobFileJson json = JobFileJson::parse(read_file(folder / kJobJson));
+    const JobFileJson json = JobFileJson::parse(formats::read_file(folder / kJobJson));
     if (json.at("palmar_job") != kJobFileVersion) return std::nullopt;
     Job job;
     job.title = json.at("title");
@@ -69,7 +69,7 @@ std::optional<Job> read_job(const std::filesystem::path& folder) {
       if (safe_file_name(product.file_name) != product.file_name) return std::nullopt;
       product.argument = one.at("argument");
       product.made_by = one.at("made_by");
-      if (one.at("unit").is_string()) product.unit = length_unit(one.at("unit"));
+      if (one.at("unit").is_string()) product.unit = geometry::length_unit(one.at("unit"));
       product.path =
           folder / "products" / std::to_string(job.products.size() + 1) / product.file_name;
       job.products.push_back(std::move(product));
@@ -94,7 +94,7 @@ std::optional<SaidProgress> progress_in(const std::string& line) {
   constexpr std::string_view kBegin = "progress ";
   if (!line.starts_with(kBegin)) return std::nullopt;
   const std::size_t space = std::min(line.find(' ', kBegin.size()), line.size());
-  const auto share = parse_double(line.substr(kBegin.size(), space - kBegin.size()));
+  const auto share = formats::parse_double(line.substr(kBegin.size(), space - kBegin.size()));
   if (!share || !(*share >= 0.0 && *share <= 1.0)) return std::nullopt;
   return SaidProgress{*share, line.substr(std::min(space + 1, line.size()))};
 }
@@ -106,7 +106,7 @@ StudyEstimateWords study_estimate_in(std::string_view json) {
     if (!line.starts_with(name)) return std::nullopt;
     line.remove_prefix(name.size());
     if (line.ends_with(',')) line.remove_suffix(1);
-    return parse_double(std::string(line));
+    return formats::parse_double(std::string(line));
   };
   while (!json.empty()) {
     const std::size_t end = std::min(json.find('\n'), json.size());
@@ -145,4 +145,4 @@ std::string job_answer(const Job& job, const std::vector<std::string>& files,
                    {"made", made}});
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -10,7 +10,7 @@
 
 #include "palmar/server/job_shelf.h"
 
-namespace palmar {
+namespace palmar::server {
 
 inline constexpr const char* kJobJson = "job.json";
 
@@ -39,4 +39,4 @@ StudyEstimateWords study_estimate_in(std::string_view lines);
 std::string job_answer(const Job& job, const std::vector<std::string>& files,
                        const std::vector<std::string>& made);
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -14,7 +14,7 @@
 #include "palmar/server/access.h"
 #include "palmar/workflow/live/live_person.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using JobJson = nlohmann::ordered_json;
@@ -28,9 +28,10 @@ constexpr double kReportShare = 0.15;         // of a study's time, about
 
 [[noreturn]] void refuse_job(const std::string& member, const JobJson& value,
                              const std::string& allowed) {
-  throw UsageError("job: \"" + member + "\" is " +
-                   in_quotes(value.dump(-1, ' ', false, JobJson::error_handler_t::replace)) + "; " +
-                   allowed + " is required");
+  throw UsageError(
+      "job: \"" + member + "\" is " +
+      formats::in_quotes(value.dump(-1, ' ', false, JobJson::error_handler_t::replace)) + "; " +
+      allowed + " is required");
 }
 
 JobJson member_or_null(const JobJson& json, const char* name) {
@@ -42,7 +43,8 @@ std::optional<double> job_number(const JobJson& json, const char* name, double l
   if (value.is_null()) return std::nullopt;
   const double number = value.is_number() ? value.get<double>() : NAN;
   if (!(number >= low && number <= high)) {
-    refuse_job(name, value, "a number from " + shortest(low) + " to " + shortest(high));
+    refuse_job(name, value,
+               "a number from " + formats::shortest(low) + " to " + formats::shortest(high));
   }
   return number;
 }
@@ -83,17 +85,17 @@ std::vector<std::string> job_texts(const JobJson& json, const char* name, std::s
 
 /// A built-in population or people from one size to another; never a file of this machine.
 void check_population(const std::string& name) {
-  const bool is_range = is_people_range(name);
+  const bool is_range = records::is_people_range(name);
   const bool is_plain =
       !name.empty() && std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&
       std::all_of(name.begin(), name.end(), [is_range](unsigned char c) {
         return std::isalnum(c) != 0 || c == '_' || c == '-' || (is_range && (c == ':' || c == '.'));
       });
   if (!is_plain) {
-    throw UsageError("job: population " + in_quotes(name) +
+    throw UsageError("job: population " + formats::in_quotes(name) +
                      ": the name of a built-in one is required (palmar population list)");
   }
-  population_requests(name);  // throws for unknown ends of a range
+  records::population_requests(name);  // throws for unknown ends of a range
 }
 
 JobKind kind_named(const std::string& name) {
@@ -101,7 +103,7 @@ JobKind kind_named(const std::string& name) {
   if (name == "compare") return JobKind::kCompare;
   if (name == "redesign") return JobKind::kRedesign;
   if (name == "hand") return JobKind::kHand;
-  throw UsageError("job: \"kind\" is " + in_quotes(name) +
+  throw UsageError("job: \"kind\" is " + formats::in_quotes(name) +
                    "; study, compare, redesign or hand is allowed");
 }
 
@@ -124,7 +126,7 @@ void read_people(const JobJson& json, JobRequest& request) {
   bool are_drawn = false;
   for (const std::string& one : request.populations) {
     check_population(one);
-    are_drawn = are_drawn || !is_people_range(one);
+    are_drawn = are_drawn || !records::is_people_range(one);
   }
   request.hands = job_count(json, "hands", 0, kMostJobHands).value_or(0);
   if (are_drawn && request.hands == 0) {
@@ -139,8 +141,8 @@ void add_task(const JobRequest& request, std::vector<std::string>& words) {
     words.insert(words.end(), {option, value});
   };
   if (request.hold) add("--hold", std::to_string(*request.hold));
-  if (request.grip_force) add("--grip-force-n", shortest(*request.grip_force));
-  if (request.mass) add("--mass-kg", shortest(*request.mass));
+  if (request.grip_force) add("--grip-force-n", formats::shortest(*request.grip_force));
+  if (request.mass) add("--mass-kg", formats::shortest(*request.mass));
 }
 
 void add_people(const JobRequest& request, std::vector<std::string>& words) {
@@ -164,11 +166,12 @@ void check_vary(const std::string& words) {
   const bool is_file = words.starts_with("groove:") && !words.starts_with("groove:at=");
   const std::string range = is_plain ? words.substr(equals + 1) : "";
   const std::size_t colon = std::min(range.find(':'), range.size());
-  const bool has_numbers = parse_double(range.substr(0, colon)).has_value() &&
-                           (colon == range.size() || parse_double(range.substr(colon + 1)));
+  const bool has_numbers =
+      formats::parse_double(range.substr(0, colon)).has_value() &&
+      (colon == range.size() || formats::parse_double(range.substr(colon + 1)));
   const bool has_path = words.find("..") != std::string::npos;
   if (is_plain && !is_file && !has_path && has_numbers) return;
-  throw UsageError("job: \"vary\" has " + in_quotes(words) +
+  throw UsageError("job: \"vary\" has " + formats::in_quotes(words) +
                    "; fillet:EDGES=1:15, offset:FACES=-2:2, taper:FACES=0:4, groove:at=40=0:2 or "
                    "a parameter as diameter_mm=25:45 is required");
 }
@@ -177,9 +180,10 @@ void check_vary(const std::string& words) {
 std::string middle_of_range(const std::string& words) {
   const std::size_t equals = words.rfind('='), colon = words.find(':', equals);
   if (colon == std::string::npos) return words;
-  const auto low = parse_double(words.substr(equals + 1, colon - equals - 1));
-  const auto high = parse_double(words.substr(colon + 1));
-  return words.substr(0, equals + 1) + shortest((low.value_or(0.0) + high.value_or(0.0)) / 2.0);
+  const auto low = formats::parse_double(words.substr(equals + 1, colon - equals - 1));
+  const auto high = formats::parse_double(words.substr(colon + 1));
+  return words.substr(0, equals + 1) +
+         formats::shortest((low.value_or(0.0) + high.value_or(0.0)) / 2.0);
 }
 
 void add_unit(const JobPlaces& places, std::vector<std::string>& words) {
@@ -205,15 +209,15 @@ std::vector<std::string> redesign_words(const JobRequest& request, const JobPlac
   add_people(asked, words);
   if (asked.hold) words.insert(words.end(), {"--hold", std::to_string(*asked.hold)});
   if (asked.largest_depth) {
-    words.insert(words.end(), {"--largest-depth-mm", shortest(*asked.largest_depth)});
+    words.insert(words.end(), {"--largest-depth-mm", formats::shortest(*asked.largest_depth)});
   }
   if (asked.verb == "fillet") {
     words.insert(words.end(), {"--edges", "long"});
     const auto [low, high] = asked.radius.value_or(std::pair(1.0, 15.0));
-    words.insert(
-        words.end(),
-        {"--radius-mm", is_preview ? shortest(asked.preview_radius.value_or((low + high) / 2.0))
-                                   : shortest(low) + ":" + shortest(high)});
+    words.insert(words.end(),
+                 {"--radius-mm",
+                  is_preview ? formats::shortest(asked.preview_radius.value_or((low + high) / 2.0))
+                             : formats::shortest(low) + ":" + formats::shortest(high)});
   }
   if (asked.verb == "features") {
     if (asked.vary.empty()) words.emplace_back("--propose");
@@ -237,7 +241,7 @@ void append(std::vector<std::string>& words, const std::vector<std::string>& mor
 JobRequest parse_job_request(std::string_view text) {
   const JobJson json = JobJson::parse(text, nullptr, false);
   if (json.is_discarded() || !json.is_object()) {
-    throw UsageError("job: " + in_quotes(text.substr(0, 100)) + " is no JSON object");
+    throw UsageError("job: " + formats::in_quotes(text.substr(0, 100)) + " is no JSON object");
   }
   JobRequest request;
   request.kind = kind_named(job_text(json, "kind"));
@@ -257,7 +261,7 @@ JobRequest parse_job_request(std::string_view text) {
         request.person.clear();
         if (!is_plain_name(request.own_hand)) refuse_job("person", json["person"], "a hand's key");
       } else if (!request.person.empty()) {
-        request.person = person_argument(parse_person_of_size(request.person));
+        request.person = workflow::person_argument(workflow::parse_person_of_size(request.person));
       }
       const JobJson left = member_or_null(json, "left");
       if (!left.is_null() && !left.is_boolean()) refuse_job("left", left, "true or false");
@@ -404,4 +408,4 @@ std::filesystem::path job_results(JobKind kind) {
   return kind == JobKind::kRedesign ? "redesign" : "report";
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

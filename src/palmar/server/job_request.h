@@ -13,7 +13,7 @@
 #include "palmar/geometry/length_unit.h"
 #include "palmar/server/hand_request.h"
 
-namespace palmar {
+namespace palmar::server {
 
 /// What takes minutes and so runs by itself: many hands, several designs side by side, a redesign,
 /// a person's hand.
@@ -61,8 +61,8 @@ std::string job_request_json(const JobRequest& request);
 
 /// Where the command lines of a job take its products from and put what comes of it.
 struct JobPlaces {
-  std::vector<std::string> products;  ///< files, in the order of the request
-  std::optional<LengthUnit> unit;     ///< of those that carry none
+  std::vector<std::string> products;         ///< files, in the order of the request
+  std::optional<geometry::LengthUnit> unit;  ///< of those that carry none
   std::string folder;  ///< in front of what is written, with '/'; "": the working folder
   std::vector<std::string> sources = {};  ///< files that a person's hand is made from
   std::string hand = {};                  ///< file of JobRequest::own_hand
@@ -87,4 +87,4 @@ std::filesystem::path job_results(JobKind kind);  ///< the folder with files for
 inline constexpr const char* kJobStore = "study.palmar";
 inline constexpr const char* kJobPreview = "preview";  ///< folder of a redesign's
 
-}  // namespace palmar
+}  // namespace palmar::server

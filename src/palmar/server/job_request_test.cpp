@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using testing::AllOf;
@@ -27,7 +27,7 @@ std::string refusal_of(const std::string& json) {
 }
 
 const JobPlaces& two_files() {
-  static const JobPlaces places{{"old.stl", "my new.stl"}, LengthUnit::kCentimetre, ""};
+  static const JobPlaces places{{"old.stl", "my new.stl"}, geometry::LengthUnit::kCentimetre, ""};
   return places;
 }
 
@@ -163,4 +163,4 @@ TEST(JobRequest, RefusesWhatIsWrongByName) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

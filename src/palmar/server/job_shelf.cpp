@@ -18,7 +18,7 @@
 #include "palmar/server/job_file.h"
 #include "palmar/server/upload_drawer.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 constexpr int kJobNiceness = 10;                     // our choice: the live channel comes first
@@ -51,8 +51,8 @@ std::string title_of_hand(const JobRequest& request) {
 }
 
 /// Only one unit can be said on a command line, for the files that carry none.
-std::optional<LengthUnit> one_unit_of(const std::vector<ShelvedProduct>& products) {
-  std::optional<LengthUnit> unit;
+std::optional<geometry::LengthUnit> one_unit_of(const std::vector<ShelvedProduct>& products) {
+  std::optional<geometry::LengthUnit> unit;
   for (const ShelvedProduct& one : products) {
     if (!one.unit) continue;
     if (unit && *unit != *one.unit) {
@@ -68,7 +68,7 @@ std::optional<LengthUnit> one_unit_of(const std::vector<ShelvedProduct>& product
 std::string last_words(const std::filesystem::path& log) {
   constexpr std::string_view kSaid = "palmar: ";
   try {
-    const std::string text = read_file(log);
+    const std::string text = formats::read_file(log);
     const std::size_t begin = text.rfind("\npalmar: ");
     std::string words = begin == std::string::npos ? text : text.substr(begin + 1);
     if (words.starts_with(kSaid)) words.erase(0, kSaid.size());
@@ -170,7 +170,7 @@ std::string JobShelf::own_hand_of(const JobRequest& request) const {
   for (const Job& other : jobs_) {
     if (other.key == request.own_hand && other.has_hand) return hand_place(other).string();
   }
-  throw UsageError("hand " + in_quotes(request.own_hand) + " is not there (any more)");
+  throw UsageError("hand " + formats::in_quotes(request.own_hand) + " is not there (any more)");
 }
 
 JobPlaces JobShelf::locked_places(const Job& job) const {
@@ -199,8 +199,8 @@ Job JobShelf::add(const JobRequest& request, const std::vector<ShelvedProduct>& 
     copy.product = nullptr;
     // Two may have one name: each in a folder of its own.
     copy.path = place(job.key) / "products" / std::to_string(p + 1) / copy.file_name;
-    create_folder(copy.path.parent_path());
-    write_file(copy.path, read_file(products[p].path));
+    formats::create_folder(copy.path.parent_path());
+    formats::write_file(copy.path, formats::read_file(products[p].path));
     job.products.push_back(std::move(copy));
   }
   if (request.kind == JobKind::kHand) {
@@ -224,14 +224,14 @@ Job JobShelf::add(const JobRequest& request, const std::vector<ShelvedProduct>& 
 void JobShelf::take_sources(Job& job, const std::filesystem::path& sources) const {
   const std::filesystem::path own = place(job.key) / kJobSources;
   HandRequest& hand = job.request.hand;
-  create_folder(place(job.key));
+  formats::create_folder(place(job.key));
   std::error_code error;
   std::filesystem::copy(sources, own, std::filesystem::copy_options::recursive, error);
   if (error) throw OutputError(place(job.key).string() + ": " + error.message());
   if (hand.method != HandMethod::kFile) {
     if (const auto known = known_source(files_under(own))) {
-      const std::string text = read_file(own / *known, kMostPersonBytes);
-      hand.known = merged(parse_person(text, *known), hand.known);
+      const std::string text = formats::read_file(own / *known, records::kMostPersonBytes);
+      hand.known = records::merged(records::parse_person(text, *known), hand.known);
       job.request = parse_job_request(job_request_json(job.request));  // as it is read again
       std::filesystem::remove(own / *known, error);
     }
@@ -262,12 +262,12 @@ std::vector<std::string> JobShelf::shown_commands(const Job& job) const {
 
 void JobShelf::write_known(const Job& job) const {
   const std::filesystem::path path = place(job.key) / kHandKnown;
-  const PersonFile& known = job.request.hand.known;
+  const records::PersonFile& known = job.request.hand.known;
   std::error_code ignored;
   if (known.is_empty()) {
     std::filesystem::remove(path, ignored);
   } else {
-    write_file(path, format_person(known));
+    formats::write_file(path, records::format_person(known));
   }
 }
 
@@ -292,7 +292,7 @@ Job* JobShelf::at(const std::string& key) {
   for (Job& one : jobs_) {
     if (one.key == key) return &one;
   }
-  throw UsageError("job " + in_quotes(key) + " is not there (any more)");
+  throw UsageError("job " + formats::in_quotes(key) + " is not there (any more)");
 }
 
 void JobShelf::save(const Job& job) const { write_job(place(job.key), job); }
@@ -320,11 +320,11 @@ void JobShelf::revise(const std::string& key, const JobRequest& request) {
   const HandRequest& before = job->request.hand;
   if (request.kind != JobKind::kHand || job->request.kind != JobKind::kHand ||
       request.hand.method != before.method || request.hand.uploads != before.uploads) {
-    throw UsageError("job " + in_quotes(key) +
+    throw UsageError("job " + formats::in_quotes(key) +
                      ": only a hand's settings and corrections can be new");
   }
   if (running_ == key || job->state == JobState::kWaiting) {
-    throw UsageError("job " + in_quotes(key) + " is running; stop it first");
+    throw UsageError("job " + formats::in_quotes(key) + " is running; stop it first");
   }
   job->request = request;
   job->title = title_of_hand(request);
@@ -352,7 +352,8 @@ void JobShelf::cancel(const std::string& key) {
 void JobShelf::remove(const std::string& key) {
   const std::scoped_lock lock(mutex_);
   const Job* const job = at(key);
-  if (running_ == key) throw UsageError("job " + in_quotes(key) + " is running; stop it first");
+  if (running_ == key)
+    throw UsageError("job " + formats::in_quotes(key) + " is running; stop it first");
   std::erase(queue_, key);
   remove_place(job->key);
   std::erase_if(jobs_, [&](const Job& one) { return one.key == key; });
@@ -469,7 +470,7 @@ void JobShelf::work(const std::string& key) {
   change(key, JobState::kRunning);
   const bool is_hand = job->request.kind == JobKind::kHand;
   if (is_hand) {  // it goes on from what earlier runs made
-    create_folder(place(key) / kHandFound);
+    formats::create_folder(place(key) / kHandFound);
     write_known(*job);
   } else if (job->request.kind !=
              JobKind::kStudy) {  // half of what an earlier run made is of no use
@@ -485,7 +486,7 @@ void JobShelf::work(const std::string& key) {
     from += command.share;
   }
   if (is_hand && job->request.hand.method == HandMethod::kQuick) {
-    write_file(place(key) / kHandFound / kQuickFound, said);
+    formats::write_file(place(key) / kHandFound / kQuickFound, said);
   }
   change(key, JobState::kDone);
 }
@@ -525,16 +526,17 @@ std::string JobShelf::run_command(const std::string& key, const JobCommand& comm
       one.doing = progress->doing;
     }
   };
-  const ChildResult result =
-      run_child(program_, command.words, log,
-                {.seconds = kLongestJob, .memory_mb = kJobMemory, .file_mb = kJobFiles}, take,
-                [this] { return cancel_.load(); });
-  if (result.end == ChildResult::End::kExited && result.code == 0) return {};
-  if (result.end == ChildResult::End::kExited) {
+  const formats::ChildResult result =
+      formats::run_child(program_, command.words, log,
+                         {.seconds = kLongestJob, .memory_mb = kJobMemory, .file_mb = kJobFiles},
+                         take, [this] { return cancel_.load(); });
+  if (result.end == formats::ChildResult::End::kExited && result.code == 0) return {};
+  if (result.end == formats::ChildResult::End::kExited) {
     const std::string words = last_words(log);
     return words.empty() ? "it ended with code " + std::to_string(result.code) : words;
   }
-  return result.end == ChildResult::End::kSignal ? words_of_signal(result.code) : "it was stopped";
+  return result.end == formats::ChildResult::End::kSignal ? formats::words_of_signal(result.code)
+                                                          : "it was stopped";
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

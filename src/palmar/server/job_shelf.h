@@ -17,7 +17,7 @@
 #include "palmar/server/job_request.h"
 #include "palmar/server/product_shelf.h"
 
-namespace palmar {
+namespace palmar::server {
 
 /// kNew: how long it takes is known or not, it wasn't started; kWaiting: for another one to end.
 enum class JobState { kEstimating, kNew, kWaiting, kRunning, kStopped, kFailed, kDone };
@@ -124,4 +124,4 @@ class JobShelf {
   std::thread thread_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::server

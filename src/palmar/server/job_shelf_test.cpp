@@ -17,7 +17,7 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/server/job_file.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -69,9 +69,9 @@ class Jobs : public ::testing::Test {
     ShelvedProduct product;
     product.file_name = "old.stl";
     product.argument = "parts/old.stl";
-    product.unit = LengthUnit::kMillimetre;
+    product.unit = geometry::LengthUnit::kMillimetre;
     product.path = test_folder / "old.stl";
-    write_file(product.path, "a mesh");
+    formats::write_file(product.path, "a mesh");
     products = {product, product};
     products[1].file_name = "new.stl";
     study = parse_job_request(
@@ -122,7 +122,7 @@ TEST_F(Jobs, StudyIsEstimatedThenRunAndItsFilesAreThere) {
   job = wait_for(*jobs, key, JobState::kDone);
   EXPECT_TRUE(job.has_report);
   EXPECT_THAT(jobs->files(job), testing::ElementsAre("hands.csv", "report.html", "study.palmar"));
-  EXPECT_EQ(read_file(*jobs->file(job, "hands.csv")), "1,2\n");
+  EXPECT_EQ(formats::read_file(*jobs->file(job, "hands.csv")), "1,2\n");
   for (const char* name : {"../job.json", "log.txt", "", "/etc/passwd"}) {
     EXPECT_FALSE(jobs->file(job, name)) << name;
   }
@@ -139,11 +139,11 @@ TEST_F(Jobs, CancelledStudyGoesOnWhereItWas) {
   wait_for(*jobs, key, [](const Job& one) { return one.share > 0.0; });
   jobs->cancel(key);
   const Job job = wait_for(*jobs, key, JobState::kStopped);
-  const std::string kept = read_file(jobs->store(job));
+  const std::string kept = formats::read_file(jobs->store(job));
   EXPECT_FALSE(kept.empty());
   jobs->start(key);
   wait_for(*jobs, key, JobState::kDone);
-  EXPECT_EQ(read_file(jobs->store(job)), "grasp\ngrasp\ngrasp\n");
+  EXPECT_EQ(formats::read_file(jobs->store(job)), "grasp\ngrasp\ngrasp\n");
 }
 
 TEST_F(Jobs, AnotherServerFindsWhatOneLeft) {
@@ -165,7 +165,7 @@ TEST_F(Jobs, AnotherServerFindsWhatOneLeft) {
   EXPECT_EQ(again.find(key)->estimate_seconds, 7.5);
   again.start(key);
   const Job job = wait_for(again, key, JobState::kDone);
-  EXPECT_EQ(read_file(again.store(job)), "grasp\ngrasp\ngrasp\n");
+  EXPECT_EQ(formats::read_file(again.store(job)), "grasp\ngrasp\ngrasp\n");
 }
 
 TEST_F(Jobs, OneRunsAtATimeAndFailuresSayWhy) {
@@ -210,7 +210,7 @@ TEST_F(Jobs, RedesignIsLookedAtBeforeItRuns) {
   EXPECT_TRUE(job.has_preview);
   EXPECT_FALSE(job.has_report);
   EXPECT_THAT(jobs->made(job), testing::ElementsAre("preview/pressed.stl"));
-  EXPECT_EQ(read_file(*jobs->made_file(job, "preview/pressed.stl")), "shape\n");
+  EXPECT_EQ(formats::read_file(*jobs->made_file(job, "preview/pressed.stl")), "shape\n");
   for (const char* name : {"job.json", "preview/../job.json", "/etc/passwd", "preview", ""}) {
     EXPECT_FALSE(jobs->made_file(job, name)) << name;
   }
@@ -222,8 +222,8 @@ TEST_F(Jobs, RedesignIsLookedAtBeforeItRuns) {
 
 TEST_F(Jobs, HandIsMadeAgainFromTheSameFiles) {
   const auto jobs = shelf();
-  write_file(test_folder / "reference.ply", "a scan");
-  create_folder(test_folder / "sent");
+  formats::write_file(test_folder / "reference.ply", "a scan");
+  formats::create_folder(test_folder / "sent");
   fs::rename(test_folder / "reference.ply", test_folder / "sent" / "reference.ply");
   const auto asked = [](const std::string& more) {
     return parse_job_request(
@@ -235,19 +235,19 @@ TEST_F(Jobs, HandIsMadeAgainFromTheSameFiles) {
   EXPECT_TRUE(job.has_report);
   EXPECT_EQ(job.title, "anna");
   EXPECT_THAT(job.commands.front(), HasSubstr("from-scan reference.ply"));
-  EXPECT_EQ(read_file(*jobs->hand_file(key)), "glb\n");
+  EXPECT_EQ(formats::read_file(*jobs->hand_file(key)), "glb\n");
   EXPECT_FALSE(jobs->hand_file("nothing"));
   jobs->revise(key, asked(R"(, "corrections": [{"posture": "reference", "mark": "dot",
                               "name": "palm", "place_mm": [1, 2, 3]}])"));
   job = wait_for(*jobs, key, JobState::kDone);
-  const std::string told = read_file(*jobs->made_file(job, "found/told.txt"));
+  const std::string told = formats::read_file(*jobs->made_file(job, "found/told.txt"));
   EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 2) << "what it made is still there";
   EXPECT_THAT(told, HasSubstr("--known " + (test_folder / "jobs" / key / "person.toml").string()));
   EXPECT_THAT(job.commands.front(), HasSubstr("from-scan reference.ply --known person.toml"));
   EXPECT_THAT(jobs->files(job), testing::Contains("person.toml"));
-  const PersonFile known = read_person(jobs->file(job, "person.toml")->string());
+  const records::PersonFile known = records::read_person(jobs->file(job, "person.toml")->string());
   ASSERT_EQ(known.marks.size(), 1U);
-  EXPECT_EQ(known.marks[0].segment, Segment::kPalm);
+  EXPECT_EQ(known.marks[0].segment, hand::Segment::kPalm);
   EXPECT_EQ(known.marks[0].point, Vec3(1, 2, 3));
   // Nothing is known any more.
   jobs->revise(key, asked(""));
@@ -263,8 +263,8 @@ TEST_F(Jobs, HandIsMadeAgainFromTheSameFiles) {
   JobShelf again(test_folder / "jobs", program);
   EXPECT_TRUE(again.hand_file(key).has_value());
   // What isn't a scan makes no hand, and leaves nothing.
-  create_folder(test_folder / "text");
-  write_file(test_folder / "text" / "notes.txt", "x");
+  formats::create_folder(test_folder / "text");
+  formats::write_file(test_folder / "text" / "notes.txt", "x");
   EXPECT_THROW(jobs->add(asked(""), {}, test_folder / "text"), UsageError);
   EXPECT_EQ(jobs->list().size(), 1U);
 }
@@ -276,37 +276,37 @@ TEST_F(Jobs, WhatIsKnownOfAPersonIsSentWithTheRest) {
                              method + '"' + more + "}");
   };
   const fs::path sent = test_folder / "sent";
-  create_folder(sent);
-  write_file(sent / "reference.ply", "a scan");
-  write_file(sent / "anna.toml",
-             "side = \"left\"\n[scan]\npick_dot = [1, 2, 3]\n[[mark]]\nmark = \"dot\"\n"
-             "name = \"none\"\nat_mm = [4, 5, 6]\n[[bone]]\nname = \"capitate\"\n"
-             "at_mm = [7, 8, 9]\n[measured_mm]\nhand_length = 181\n");
+  formats::create_folder(sent);
+  formats::write_file(sent / "reference.ply", "a scan");
+  formats::write_file(sent / "anna.toml",
+                      "side = \"left\"\n[scan]\npick_dot = [1, 2, 3]\n[[mark]]\nmark = \"dot\"\n"
+                      "name = \"none\"\nat_mm = [4, 5, 6]\n[[bone]]\nname = \"capitate\"\n"
+                      "at_mm = [7, 8, 9]\n[measured_mm]\nhand_length = 181\n");
   const std::string key = jobs->add(asked("scan", R"(, "side": "right")"), {}, sent).key;
   Job job = wait_for(*jobs, key, JobState::kDone);
   EXPECT_THAT(job.commands.front(), HasSubstr("from-scan reference.ply --known person.toml"));
   // What is chosen on the page counts more; the rest is kept, also what scans don't need.
-  const std::string written = read_file(*jobs->file(job, "person.toml"));
+  const std::string written = formats::read_file(*jobs->file(job, "person.toml"));
   EXPECT_THAT(written, testing::AllOf(HasSubstr("side = \"right\""), HasSubstr("pick_dot"),
                                       HasSubstr("name = \"none\""), HasSubstr("capitate"),
                                       HasSubstr("hand_length = 181.0")));
   EXPECT_FALSE(fs::exists(test_folder / "jobs" / key / "sources" / "anna.toml"));
   // Another server has it, too.
   JobShelf again(test_folder / "jobs", program);
-  EXPECT_EQ(format_person(again.find(key)->request.hand.known), written);
+  EXPECT_EQ(records::format_person(again.find(key)->request.hand.known), written);
 
   // Measures are enough for a quick hand, and not for a scan.
   fs::remove(sent / "reference.ply");
   EXPECT_THAT(jobs->add(asked("quick", ""), {}, sent).commands.front(),
               testing::StartsWith("palmar hand quick --known person.toml"));
   const auto refusal = [&](const std::string& text) {
-    write_file(sent / "reference.ply", "a scan");
-    write_file(sent / "anna.toml", text);
-    return message_of<Error>([&] { jobs->add(asked("scan", ""), {}, sent); });
+    formats::write_file(sent / "reference.ply", "a scan");
+    formats::write_file(sent / "anna.toml", text);
+    return formats::message_of<Error>([&] { jobs->add(asked("scan", ""), {}, sent); });
   };
   EXPECT_THAT(refusal("side = \"both\"\n"), testing::StartsWith("anna.toml:1: "));
   EXPECT_THAT(refusal("[[bone]]\nname = \"../x\"\nat_mm = [1, 2, 3]\n"), HasSubstr("../x"));
-  write_file(sent / "bob.toml", "");
+  formats::write_file(sent / "bob.toml", "");
   EXPECT_THAT(refusal(""), HasSubstr("bob.toml"));
   EXPECT_EQ(jobs->list().size(), 2U);
   EXPECT_EQ(std::distance(fs::directory_iterator(test_folder / "jobs"), {}), 2);
@@ -314,10 +314,11 @@ TEST_F(Jobs, WhatIsKnownOfAPersonIsSentWithTheRest) {
 
 TEST_F(Jobs, AHandOfAnEarlierVersionOpens) {
   const fs::path place = test_folder / "jobs" / "j1";
-  create_folder(place / "found");
-  write_file(place / "found" / "anna.hand.glb", "glb");
-  write_file(place / "corrections.csv", "posture,mark,name,x_mm,y_mm,z_mm\n");
-  write_file(place / "job.json", R"({"palmar_job": 1, "title": "anna", "request": {"kind": "hand",
+  formats::create_folder(place / "found");
+  formats::write_file(place / "found" / "anna.hand.glb", "glb");
+  formats::write_file(place / "corrections.csv", "posture,mark,name,x_mm,y_mm,z_mm\n");
+  formats::write_file(place / "job.json",
+                      R"({"palmar_job": 1, "title": "anna", "request": {"kind": "hand",
       "products": [], "language": "en", "hold": null, "method": "scan", "uploads": "k1",
       "name": "anna", "side": "left", "unit": null, "crease_colour": "green", "dot_colour": "blue",
       "population": null, "sheet": null, "wrist_inside_mm": 0.0, "palm_up": false,
@@ -330,7 +331,7 @@ TEST_F(Jobs, AHandOfAnEarlierVersionOpens) {
   const auto job = shelf()->find("j1");
   ASSERT_TRUE(job);
   EXPECT_TRUE(job->has_hand);
-  EXPECT_EQ(job->request.hand.known.side, Side::kLeft);
+  EXPECT_EQ(job->request.hand.known.side, hand::Side::kLeft);
   EXPECT_EQ(job->request.hand.known.marks.size(), 1U);
   EXPECT_EQ(job->request.hand.known.bones.size(), 1U);
 }
@@ -340,13 +341,13 @@ TEST_F(Jobs, RefusesWhatCantBe) {
   EXPECT_THROW(jobs->start("nothing"), UsageError);
   EXPECT_THROW(jobs->cancel(".."), UsageError);
   EXPECT_THROW(jobs->remove("../jobs"), UsageError);
-  products[1].unit = LengthUnit::kInch;
+  products[1].unit = geometry::LengthUnit::kInch;
   EXPECT_THROW(jobs->add(study, products), UsageError) << "two units for one --unit";
   JobShelf nowhere(std::nullopt, program);
   EXPECT_THROW(nowhere.add(study, products), OutputError);
   // What is damaged is left out.
-  create_folder(test_folder / "jobs" / "j1");
-  write_file(test_folder / "jobs" / "j1" / "job.json", "{\"palmar_job\": 1");
+  formats::create_folder(test_folder / "jobs" / "j1");
+  formats::write_file(test_folder / "jobs" / "j1" / "job.json", "{\"palmar_job\": 1");
   EXPECT_TRUE(shelf()->list().empty());
 }
 
@@ -370,4 +371,4 @@ TEST(JobFile, EstimateIsTakenFromItsLines) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -21,7 +21,7 @@
 #include "palmar/report/words/verdict_words.h"
 #include "palmar/study/assessment/verdict.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using AnswerJson = nlohmann::ordered_json;
@@ -32,31 +32,32 @@ std::string dumped(const AnswerJson& json) {
   return json.dump(-1, ' ', false, AnswerJson::error_handler_t::replace);
 }
 
-AnswerJson colour(Rgb c) { return AnswerJson::array({c.r, c.g, c.b}); }
+AnswerJson colour(report::Rgb c) { return AnswerJson::array({c.r, c.g, c.b}); }
 
 AnswerJson colours_object() {
   AnswerJson table = AnswerJson::array();
-  for (const Rgb c : colour_table(Colormap::kEmber)) table.push_back(colour(c));
+  for (const report::Rgb c : report::colour_table(report::Colormap::kEmber))
+    table.push_back(colour(c));
   return {{"table", std::move(table)},
-          {"neutral", colour(kNeutralColour)},
-          {"skin", colour(kSkinColour)},
-          {"product", colour(kProductColour)}};
+          {"neutral", colour(report::kNeutralColour)},
+          {"skin", colour(report::kSkinColour)},
+          {"product", colour(report::kProductColour)}};
 }
 
-AnswerJson hand_object(const Hand& hand, Language language) {
+AnswerJson hand_object(const hand::Hand& hand, Language language) {
   AnswerJson angles = AnswerJson::array();
-  const Posture reference = reference_posture(hand.skeleton);
-  for (int d = 0; d < kDofCount; ++d) {
-    const JointDof& dof = hand.skeleton.dof(static_cast<Dof>(d));
+  const hand::Posture reference = hand::reference_posture(hand.skeleton);
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const hand::JointDof& dof = hand.skeleton.dof(static_cast<hand::Dof>(d));
     angles.push_back({{"name", name_of(dof.dof)},
-                      {"lower_deg", kDegreesPerRadian * dof.lower},
-                      {"upper_deg", kDegreesPerRadian * dof.upper},
-                      {"reference_deg", kDegreesPerRadian * reference[dof.dof]}});
+                      {"lower_deg", geometry::kDegreesPerRadian * dof.lower},
+                      {"upper_deg", geometry::kDegreesPerRadian * dof.upper},
+                      {"reference_deg", geometry::kDegreesPerRadian * reference[dof.dof]}});
   }
-  const Texts texts(language);
+  const report::Texts texts(language);
   AnswerJson regions = AnswerJson::array();
-  for (int r = 0; r < kRegionCount; ++r) {
-    const std::string name(name_of(static_cast<Region>(r)));
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    const std::string name(name_of(static_cast<hand::Region>(r)));
     regions.push_back({{"name", name}, {"words", texts("region." + name)}});
   }
   return {{"name", hand.name},
@@ -76,7 +77,7 @@ AnswerJson product_object(const ShelvedProduct& shelved) {
       {"made_by", shelved.made_by},
       {"is_read", shelved.product != nullptr}};
   if (shelved.product == nullptr) return object;
-  const Product& product = *shelved.product;
+  const product::Product& product = *shelved.product;
   const Vec3 sides = product.distance->bounding_box().sizes();
   object["name"] = product.name;
   object["triangles"] = product.mesh.triangles.size();
@@ -86,9 +87,9 @@ AnswerJson product_object(const ShelvedProduct& shelved) {
   return object;
 }
 
-AnswerJson posture_object(const Grasp& grasp) {
-  return {{"posture", AnswerJson::parse(posture_json(grasp.posture))},
-          {"product_from_hand", placement_with_matrix(grasp.product_from_hand)},
+AnswerJson posture_object(const grasp::Grasp& grasp) {
+  return {{"posture", AnswerJson::parse(records::posture_json(grasp.posture))},
+          {"product_from_hand", records::placement_with_matrix(grasp.product_from_hand)},
           {"grip", name_of(grasp.grip)}};
 }
 
@@ -107,10 +108,10 @@ std::string error_answer(std::uint32_t request, const std::string& message, int 
 }
 
 std::string opened_answer(std::uint32_t request, const ShelvedProduct& product,
-                          LiveSession& session, Language language) {
-  const Phrases phrases(language);
+                          workflow::LiveSession& session, Language language) {
+  const report::Phrases phrases(language);
   AnswerJson holds = AnswerJson::parse(
-      ranked_holds_json(session.holds(), session.product().name, session.hand().side));
+      records::ranked_holds_json(session.holds(), session.product().name, session.hand().side));
   for (AnswerJson& hold : holds["holds"]) {
     for (const char* key : {"words", "against"}) {
       if (hold.contains(key) && hold[key].is_string()) {
@@ -137,33 +138,35 @@ std::string command_of(const LiveRequest& request, const LiveRequest& opened,
   if (is_hold) {
     command += fmt::format(" --hold {}", request.number);
     if (request.task.rest.grip_force) {
-      command += " --grip-force-n " + shortest(*request.task.rest.grip_force);
+      command += " --grip-force-n " + formats::shortest(*request.task.rest.grip_force);
     }
   } else {
     command += std::string(" --posture ") + kPostureFile;
   }
   if (!own_hand.empty()) command += " --hand " + shell_word(own_hand);
-  if (opened.person) command += " --person " + person_argument(*opened.person);
+  if (opened.person) command += " --person " + workflow::person_argument(*opened.person);
   if (opened.is_left) command += " --left";
-  if (request.task.friction.mass) command += " --mass-kg " + shortest(*request.task.friction.mass);
+  if (request.task.friction.mass)
+    command += " --mass-kg " + formats::shortest(*request.task.friction.mass);
   if (request.task.friction.friction) {
-    command += " --friction " + shortest(*request.task.friction.friction);
+    command += " --friction " + formats::shortest(*request.task.friction.friction);
   }
   return command;
 }
 
-std::string result_answer(const LiveRequest& request, const AssessmentSet& set, Language language) {
-  const VerdictWords words = verdict_words(set, verdict_of(set), language);
-  const Grasp& grasp = set.assessments.front().assessment.grasp;
+std::string result_answer(const LiveRequest& request, const study::AssessmentSet& set,
+                          Language language) {
+  const records::VerdictWords words = report::verdict_words(set, study::verdict_of(set), language);
+  const grasp::Grasp& grasp = set.assessments.front().assessment.grasp;
   AnswerJson answer = {{"say", "result"},
                        {"request", request.id},
                        {"is_hold", request.verb == LiveVerb::kHold},
                        {"command", set.command_line},
                        {"posture_file", kPostureFile},
                        {"posture", posture_object(grasp)},
-                       {"upper_mpa", pressure_scale(set).upper},
-                       {"hold_words", Phrases(language)(grasp.hold_words)}};
-  answer["assessment"] = AnswerJson::parse(assessment_json(set, words));
+                       {"upper_mpa", report::pressure_scale(set).upper},
+                       {"hold_words", report::Phrases(language)(grasp.hold_words)}};
+  answer["assessment"] = AnswerJson::parse(records::assessment_json(set, words));
   return dumped(answer);
 }
 
@@ -173,4 +176,4 @@ std::string shelved_product_json(const ShelvedProduct& product) {
   return dumped(product_object(product));
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -8,7 +8,7 @@
 #include "palmar/server/live_request.h"
 #include "palmar/server/product_shelf.h"
 
-namespace palmar {
+namespace palmar::server {
 
 // What the live channel answers as text: one JSON object per message. Keys carry units.
 
@@ -19,12 +19,13 @@ std::string error_answer(std::uint32_t request, const std::string& message, int 
 /// What was opened: product, hand with its angles and regions, ways to hold it
 /// (ranked_holds_json()), and the colours of pictures.
 std::string opened_answer(std::uint32_t request, const ShelvedProduct& product,
-                          LiveSession& session, Language language);
+                          workflow::LiveSession& session, Language language);
 
 /// A finished state: "assessment" as `palmar assess --json` prints it, the scale of pressures, and
 /// the command line that gives the same figures; of a posture and placement that were set by hand
 /// also the file that it reads ("posture_file", "posture").
-std::string result_answer(const LiveRequest& request, const AssessmentSet& set, Language language);
+std::string result_answer(const LiveRequest& request, const study::AssessmentSet& set,
+                          Language language);
 
 /// The command line that gives the figures of a request, "" if there is none: of a hand that closes
 /// or comes to rest where the product was put by hand. `opened`: hand of the session; `own_hand`:
@@ -39,4 +40,4 @@ std::string colours_json();
 /// What is shown of a product on the shelf: {"key", "name", "file_name", "is_read", ...}.
 std::string shelved_product_json(const ShelvedProduct& product);
 
-}  // namespace palmar
+}  // namespace palmar::server

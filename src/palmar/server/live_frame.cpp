@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 constexpr double kSteps = 65535.0;
@@ -45,7 +45,7 @@ class FrameWriter {
       for (const int corner : t) u32(static_cast<std::uint32_t>(corner));
     }
   }
-  void mesh(const TriangleMesh& mesh) {
+  void mesh(const geometry::TriangleMesh& mesh) {
     bytes_.reserve(bytes_.size() + 12 * (mesh.vertices.size() + mesh.triangles.size()) + 64);
     u32(static_cast<std::uint32_t>(mesh.vertices.size()));
     u32(static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -65,14 +65,14 @@ std::vector<Vec3> shown_skin(const LiveField& field) {
   if (field.contact == nullptr || field.contact->deformed.empty()) {
     return field.posed_skin != nullptr ? *field.posed_skin : std::vector<Vec3>{};
   }
-  const Rigid3 hand_from_product = field.product_from_hand.inverse();
+  const geometry::Rigid3 hand_from_product = field.product_from_hand.inverse();
   std::vector<Vec3> skin;
   skin.reserve(field.contact->deformed.size());
   for (const Vec3& v : field.contact->deformed) skin.push_back(hand_from_product * v);
   return skin;
 }
 
-void write_totals(FrameWriter& out, const RegionContact& total) {
+void write_totals(FrameWriter& out, const contact::RegionContact& total) {
   out.f32(total.force);
   out.f32(total.area);
   out.f32(total.peak_pressure);
@@ -82,22 +82,22 @@ void write_totals(FrameWriter& out, const RegionContact& total) {
 
 }  // namespace
 
-std::string hand_frame(const Hand& hand, std::uint32_t request) {
+std::string hand_frame(const hand::Hand& hand, std::uint32_t request) {
   FrameWriter out({FrameKind::kHand, request, 0});
   out.u32(static_cast<std::uint32_t>(hand.skin.vertices.size()));
   out.u32(static_cast<std::uint32_t>(hand.skin.triangles.size()));
   out.triangles(hand.skin.triangles);
-  for (const Region region : hand.region) out.u8(static_cast<std::uint8_t>(region));
+  for (const hand::Region region : hand.region) out.u8(static_cast<std::uint8_t>(region));
   return out.take();
 }
 
-std::string product_frame(const TriangleMesh& mesh, std::uint32_t request) {
+std::string product_frame(const geometry::TriangleMesh& mesh, std::uint32_t request) {
   FrameWriter out({FrameKind::kProduct, request, 0});
   out.mesh(mesh);
   return out.take();
 }
 
-std::string footprint_frame(const ProductFootprint& footprint, std::uint32_t request) {
+std::string footprint_frame(const contact::ProductFootprint& footprint, std::uint32_t request) {
   FrameWriter out({FrameKind::kFootprint, request, 0});
   out.mesh(footprint.surface);
   for (const double pressure : footprint.pressure) out.f32(pressure);
@@ -106,8 +106,8 @@ std::string footprint_frame(const ProductFootprint& footprint, std::uint32_t req
 
 std::string field_frame(const LiveField& field, const FrameHead& head) {
   const std::vector<Vec3> skin = shown_skin(field);
-  const ContactResult none;
-  const ContactResult& contact = field.contact != nullptr ? *field.contact : none;
+  const contact::ContactResult none;
+  const contact::ContactResult& contact = field.contact != nullptr ? *field.contact : none;
   FrameWriter out(head);
   out.reserve(8 * skin.size() + 1024);
   const Quat& q = field.product_from_hand.rotation;
@@ -116,7 +116,7 @@ std::string field_frame(const LiveField& field, const FrameHead& head) {
   out.f32(field.grip_force);
   write_totals(out, contact.total);
   out.u32(static_cast<std::uint32_t>(contact.status));
-  for (const double angle : field.posture.angle) out.f32(kDegreesPerRadian * angle);
+  for (const double angle : field.posture.angle) out.f32(geometry::kDegreesPerRadian * angle);
 
   Box3 box;
   for (const Vec3& v : skin) box.extend(v);
@@ -130,7 +130,7 @@ std::string field_frame(const LiveField& field, const FrameHead& head) {
   const double pressure_step = std::max(peak, 1e-6) / kSteps;
   out.f32(pressure_step);
   out.u32(static_cast<std::uint32_t>(contact.regions.size()));
-  for (const RegionContact& region : contact.regions) {
+  for (const contact::RegionContact& region : contact.regions) {
     out.f32(static_cast<double>(region.region));
     write_totals(out, region);
   }
@@ -141,12 +141,13 @@ std::string field_frame(const LiveField& field, const FrameHead& head) {
   for (std::size_t i = 0; i < skin.size(); ++i) {
     out.steps(i < contact.pressure.size() ? contact.pressure[i] : 0.0, pressure_step);
   }
-  const MovingFootprint::Loaded nothing;
-  const MovingFootprint::Loaded& on_product = field.on_product ? *field.on_product : nothing;
+  const contact::MovingFootprint::Loaded nothing;
+  const contact::MovingFootprint::Loaded& on_product =
+      field.on_product ? *field.on_product : nothing;
   out.u32(static_cast<std::uint32_t>(on_product.vertex.size()));
   for (const int v : on_product.vertex) out.u32(static_cast<std::uint32_t>(v));
   for (const double pressure : on_product.pressure) out.steps(pressure, pressure_step);
   return out.take();
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -11,7 +11,7 @@
 #include "palmar/grasp/grasp.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::server {
 
 // What the live channel sends as bytes: little-endian numbers, read by
 // apps/workbench/bench/live_frame.ts. Every frame begins with 4 times uint32: kFrameMagic, its
@@ -38,23 +38,23 @@ struct FrameHead {
 };
 
 /// uint32 vertices, uint32 triangles, uint32 x 3 per triangle, uint8 region per vertex.
-std::string hand_frame(const Hand& hand, std::uint32_t request);
+std::string hand_frame(const hand::Hand& hand, std::uint32_t request);
 
 /// uint32 vertices, uint32 triangles, float32 x 3 per vertex, uint32 x 3 per triangle.
-std::string product_frame(const TriangleMesh& mesh, std::uint32_t request);
+std::string product_frame(const geometry::TriangleMesh& mesh, std::uint32_t request);
 
 /// The same with float32 pressure [MPa] per vertex behind it.
-std::string footprint_frame(const ProductFootprint& footprint, std::uint32_t request);
+std::string footprint_frame(const contact::ProductFootprint& footprint, std::uint32_t request);
 
 /// What is shown of a posed hand on a product.
 struct LiveField {
-  Posture posture;
-  Rigid3 product_from_hand;
-  double grip_force = 0.0;                        ///< N
-  const ContactResult* contact = nullptr;         ///< null: none was solved
-  const std::vector<Vec3>* posed_skin = nullptr;  ///< hand frame, mm; used without contact
+  hand::Posture posture;
+  geometry::Rigid3 product_from_hand;
+  double grip_force = 0.0;                          ///< N
+  const contact::ContactResult* contact = nullptr;  ///< null: none was solved
+  const std::vector<Vec3>* posed_skin = nullptr;    ///< hand frame, mm; used without contact
   /// Along a motion: on the product's mesh as it was sent.
-  const MovingFootprint::Loaded* on_product = nullptr;
+  const contact::MovingFootprint::Loaded* on_product = nullptr;
 };
 
 /// Places are kept to this, or to what spans the hand in 65535 steps.
@@ -69,4 +69,4 @@ inline constexpr double kFrameStep = 0.005;  // mm
 /// uint32 per such vertex: which; uint16 per such vertex: pressure, in the same steps.
 std::string field_frame(const LiveField& field, const FrameHead& head);
 
-}  // namespace palmar
+}  // namespace palmar::server

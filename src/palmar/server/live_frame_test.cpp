@@ -6,7 +6,7 @@
 
 #include <bit>
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 /// Reads numbers one after the other, the lowest byte first.
@@ -42,23 +42,23 @@ void expect_head(FrameReader& in, FrameKind kind, std::uint32_t request, std::ui
 }
 
 TEST(LiveFrame, FieldReadsBackWithinItsSteps) {
-  ContactResult contact;
-  contact.status = ContactStatus::kSolved;
+  contact::ContactResult contact;
+  contact.status = contact::ContactStatus::kSolved;
   contact.deformed = {Vec3(10, 20, 30), Vec3(110, -20.5, 31.25), Vec3(60, 0.123, 30)};
   contact.pressure = {0.0, 0.25, 0.1};
   contact.total.force = 12.5;
   contact.total.area = 300.0;
   contact.total.peak_pressure = 0.25;
   contact.regions.resize(1);
-  contact.regions[0].region = Region::kThenar;
+  contact.regions[0].region = hand::Region::kThenar;
   contact.regions[0].force = 12.5;
   LiveField field;
   field.contact = &contact;
-  const MovingFootprint::Loaded on_product{{4, 70000}, {0.2, 0.05}};
+  const contact::MovingFootprint::Loaded on_product{{4, 70000}, {0.2, 0.05}};
   field.on_product = &on_product;
   field.grip_force = 8.0;
-  field.posture[Dof::kIndexPipFlexion] = 0.5;
-  field.product_from_hand = Rigid3::about_axis(Vec3::UnitZ(), Vec3(5, 0, 0), 0.3);
+  field.posture[hand::Dof::kIndexPipFlexion] = 0.5;
+  field.product_from_hand = geometry::Rigid3::about_axis(Vec3::UnitZ(), Vec3(5, 0, 0), 0.3);
   const std::string bytes = field_frame(field, {FrameKind::kMoving, 77, 3});
 
   FrameReader in(bytes);
@@ -72,21 +72,22 @@ TEST(LiveFrame, FieldReadsBackWithinItsSteps) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(in.f64(), field.product_from_hand.translation[k]);
   EXPECT_EQ(in.f32(), 8.0);
   for (const double value : {12.5, 300.0, 0.25, 0.0, 0.0}) EXPECT_EQ(in.f32(), value);
-  EXPECT_EQ(in.u32(), static_cast<std::uint32_t>(ContactStatus::kSolved));
-  for (int d = 0; d < kDofCount; ++d) {
+  EXPECT_EQ(in.u32(), static_cast<std::uint32_t>(contact::ContactStatus::kSolved));
+  for (int d = 0; d < hand::kDofCount; ++d) {
     const double angle = in.f32();
-    EXPECT_NEAR(angle, d == static_cast<int>(Dof::kIndexPipFlexion) ? 28.6479 : 0.0, 1e-4);  // deg
+    EXPECT_NEAR(angle, d == static_cast<int>(hand::Dof::kIndexPipFlexion) ? 28.6479 : 0.0,
+                1e-4);  // deg
   }
   Vec3 low;
   for (int k = 0; k < 3; ++k) low[k] = in.f32();
   const double step = in.f32();
   const double pressure_step = in.f32();
   ASSERT_EQ(in.u32(), 1U);
-  EXPECT_EQ(in.f32(), static_cast<double>(Region::kThenar));
+  EXPECT_EQ(in.f32(), static_cast<double>(hand::Region::kThenar));
   EXPECT_EQ(in.f32(), 12.5);
   for (int k = 0; k < 4; ++k) in.f32();
   ASSERT_EQ(in.u32(), 3U);
-  const Rigid3 hand_from_product = field.product_from_hand.inverse();
+  const geometry::Rigid3 hand_from_product = field.product_from_hand.inverse();
   for (const Vec3& place : contact.deformed) {
     Vec3 read;
     for (int k = 0; k < 3; ++k) read[k] = low[k] + step * in.u16();
@@ -118,7 +119,7 @@ TEST(LiveFrame, HandWithoutContactIsShownAsItIsPosed) {
 }
 
 TEST(LiveFrame, MeshesKeepVerticesAndTriangles) {
-  ProductFootprint footprint;
+  contact::ProductFootprint footprint;
   footprint.surface.vertices = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9)};
   footprint.surface.triangles = {{0, 2, 1}};
   footprint.pressure = {0.5, 0.0, 0.25};
@@ -134,4 +135,4 @@ TEST(LiveFrame, MeshesKeepVerticesAndTriangles) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -13,7 +13,7 @@
 #include "palmar/server/access.h"
 #include "palmar/server/job_request.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using RequestJson = nlohmann::json;
@@ -22,8 +22,8 @@ constexpr double kFarthest = 10'000.0;  // mm; a hand farther from the product's
 
 [[noreturn]] void refuse(const std::string& member, const RequestJson& value,
                          const std::string& allowed) {
-  throw UsageError("live request: \"" + member + "\" is " + in_quotes(value.dump()) + "; " +
-                   allowed + " is required");
+  throw UsageError("live request: \"" + member + "\" is " + formats::in_quotes(value.dump()) +
+                   "; " + allowed + " is required");
 }
 
 const RequestJson& member_of(const RequestJson& json, const char* name,
@@ -48,7 +48,8 @@ std::optional<double> number_of(const RequestJson& json, const char* name, doubl
   if (found == json.end() || found->is_null()) return std::nullopt;
   const double value = found->is_number() ? found->get<double>() : NAN;
   if (!(value >= lowest && value <= highest)) {
-    refuse(name, *found, "a number from " + shortest(lowest) + " to " + shortest(highest));
+    refuse(name, *found,
+           "a number from " + formats::shortest(lowest) + " to " + formats::shortest(highest));
   }
   return value;
 }
@@ -70,24 +71,25 @@ LiveVerb verb_named(const std::string& name) {
   if (name == "rest") return LiveVerb::kRest;
   if (name == "evaluate") return LiveVerb::kEvaluate;
   if (name == "move") return LiveVerb::kMove;
-  throw UsageError("live request: \"do\" is " + in_quotes(name) +
+  throw UsageError("live request: \"do\" is " + formats::in_quotes(name) +
                    "; open, hold, close, rest, evaluate or move is allowed");
 }
 
-LivePose pose_of(const RequestJson& json) {
-  const std::string allowed = "a list of " + std::to_string(kDofCount) + " angles in degrees";
+workflow::LivePose pose_of(const RequestJson& json) {
+  const std::string allowed = "a list of " + std::to_string(hand::kDofCount) + " angles in degrees";
   const RequestJson& angles = member_of(json, "posture_deg", allowed);
-  if (!angles.is_array() || angles.size() != kDofCount) refuse("posture_deg", angles, allowed);
-  LivePose pose;
-  for (std::size_t k = 0; k < kDofCount; ++k) {
+  if (!angles.is_array() || angles.size() != hand::kDofCount)
+    refuse("posture_deg", angles, allowed);
+  workflow::LivePose pose;
+  for (std::size_t k = 0; k < hand::kDofCount; ++k) {
     const double angle = angles[k].is_number() ? angles[k].get<double>() : NAN;
     if (!(std::abs(angle) <= 360.0))
       refuse("posture_deg", angles[k], "an angle within a full turn");
-    pose.posture.angle[k] = kDegree * angle;
+    pose.posture.angle[k] = geometry::kDegree * angle;
   }
   try {
     pose.product_from_hand =
-        placement_from_json(member_of(json, "product_from_hand", "a placement"));
+        records::placement_from_json(member_of(json, "product_from_hand", "a placement"));
   } catch (const InputError& error) {
     throw UsageError(std::string("live request: \"product_from_hand\": ") + error.what());
   }
@@ -97,8 +99,8 @@ LivePose pose_of(const RequestJson& json) {
   return pose;
 }
 
-LiveTask task_of(const RequestJson& json) {
-  LiveTask task;
+workflow::LiveTask task_of(const RequestJson& json) {
+  workflow::LiveTask task;
   task.rest.grip_force = number_of(json, "grip_force_n", 0.1, 2000.0);
   task.friction.mass = number_of(json, "mass_kg", 0.001, 100.0);
   task.friction.friction = number_of(json, "friction", 0.0, 5.0);
@@ -112,7 +114,7 @@ LiveTask task_of(const RequestJson& json) {
 LiveRequest parse_live_request(std::string_view text) {
   const RequestJson json = RequestJson::parse(text, nullptr, false);
   if (json.is_discarded() || !json.is_object()) {
-    throw UsageError("live request: " + in_quotes(text) + " is no JSON object");
+    throw UsageError("live request: " + formats::in_quotes(text) + " is no JSON object");
   }
   LiveRequest request;
   request.verb = verb_named(text_of(json, "do", "open, hold, close, rest, evaluate or move"));
@@ -127,7 +129,7 @@ LiveRequest parse_live_request(std::string_view text) {
         request.own_hand = person.substr(kOwnHand.size());
         if (!is_plain_name(request.own_hand)) refuse("person", json["person"], "a hand's key");
       } else if (!person.empty()) {
-        request.person = parse_person_of_size(person);
+        request.person = workflow::parse_person_of_size(person);
       }
       if (json.contains("left")) {
         if (!json["left"].is_boolean()) refuse("left", json["left"], "true or false");
@@ -151,7 +153,7 @@ LiveRequest parse_live_request(std::string_view text) {
       request.pose = pose_of(json);
       request.task = task_of(json);
       if (json.contains("grip") && !json["grip"].is_null()) {
-        request.grip = grip_named(text_of(json, "grip", "a grip"));
+        request.grip = grasp::grip_named(text_of(json, "grip", "a grip"));
         if (!request.grip) refuse("grip", json["grip"], "a grip's name");
       }
       break;
@@ -159,4 +161,4 @@ LiveRequest parse_live_request(std::string_view text) {
   return request;
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -12,7 +12,7 @@
 #include "palmar/workflow/live/live_person.h"
 #include "palmar/workflow/live/live_session.h"
 
-namespace palmar {
+namespace palmar::server {
 
 /// What a client may ask for on the live channel, one JSON object per message:
 ///
@@ -30,15 +30,15 @@ struct LiveRequest {
   LiveVerb verb{};
   std::uint32_t id = 0;  ///< which the answers carry
   // Of kOpen:
-  std::string product;                 ///< its key on the shelf
-  std::optional<PersonOfSize> person;  ///< unset: the template hand, or `own_hand`
-  std::string own_hand;                ///< key of a hand that was made here ("hand:KEY")
+  std::string product;                           ///< its key on the shelf
+  std::optional<workflow::PersonOfSize> person;  ///< unset: the template hand, or `own_hand`
+  std::string own_hand;                          ///< key of a hand that was made here ("hand:KEY")
   bool is_left = false;
   Language language = Language::kEnglish;
   int number = 1;  ///< of kHold
-  LiveTask task;
-  LivePose pose;
-  std::optional<Grip> grip;
+  workflow::LiveTask task;
+  workflow::LivePose pose;
+  std::optional<grasp::Grip> grip;
 };
 
 /// The longest message that is read.
@@ -47,4 +47,4 @@ inline constexpr std::size_t kLongestLiveMessage = std::size_t{64} << 10U;
 /// Throws UsageError naming the member, its value and what is allowed.
 LiveRequest parse_live_request(std::string_view text);
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using testing::HasSubstr;
@@ -49,7 +49,7 @@ TEST(LiveRequest, OpenSaysWhoseHand) {
       R"({"do":"open","id":1,"product":"p2","person":"woman:P5","left":true,"language":"de"})");
   EXPECT_EQ(request.product, "p2");
   ASSERT_TRUE(request.person.has_value());
-  EXPECT_EQ(request.person->sex, Sex::kFemale);
+  EXPECT_EQ(request.person->sex, grasp::Sex::kFemale);
   EXPECT_EQ(request.person->percentile, 5.0);
   EXPECT_TRUE(request.is_left);
   EXPECT_EQ(request.language, Language::kGerman);
@@ -67,7 +67,7 @@ TEST(LiveRequest, HoldHasATask) {
 
 TEST(LiveRequest, PersonsReadBack) {
   for (const char* text : {"woman:P5", "man:P97.5"}) {
-    EXPECT_EQ(person_argument(parse_person_of_size(text)), text);
+    EXPECT_EQ(workflow::person_argument(workflow::parse_person_of_size(text)), text);
   }
 }
 
@@ -133,4 +133,4 @@ TEST(LiveRequest, DamagedMessagesAreRefusedAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

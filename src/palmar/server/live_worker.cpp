@@ -14,17 +14,18 @@
 #include "palmar/server/live_answer.h"
 #include "palmar/server/live_frame.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 constexpr auto kBetweenProgress = std::chrono::milliseconds(100);
 
-LiveField field_of(const LivePose& pose, const ContactResult& contact, const Product& product) {
+LiveField field_of(const workflow::LivePose& pose, const contact::ContactResult& contact,
+                   const product::Product& product) {
   LiveField field;
   field.posture = pose.posture;
   field.product_from_hand = pose.product_from_hand;
   field.contact = &contact;
-  field.grip_force = grip_force(contact, *product.distance).force;
+  field.grip_force = grasp::grip_force(contact, *product.distance).force;
   return field;
 }
 
@@ -132,23 +133,23 @@ void LiveWorker::open(const LiveRequest& request, const Progress& progress) {
   progress.update(0.0, "reading the product");
   product_ = shelf_->open(request.product, progress);
   progress.update(0.1, "preparing the hand");
-  LiveHand hand = shelf_->hand({request.person, request.own_hand, request.is_left});
+  workflow::LiveHand hand = shelf_->hand({request.person, request.own_hand, request.is_left});
   own_hand_ = request.own_hand.empty() ? "" : shelf_->own_hand(request.own_hand).string();
   opened_ = request;
-  auto session = std::make_unique<LiveSession>(std::move(hand), product_->product);
-  const Product& product = session->product();
+  auto session = std::make_unique<workflow::LiveSession>(std::move(hand), product_->product);
+  const product::Product& product = session->product();
   sink_.bytes(hand_frame(session->hand(), request.id), false);
   const std::vector<double> none(product.mesh.vertices.size(), 0.0);
   // As fine as the skin, as its vertices are coloured along a motion.
-  moving_footprint_.emplace(surface_for_moving(
-      display_mesh(product.mesh, none, kMostShownTriangles).mesh, kMostShownTriangles));
+  moving_footprint_.emplace(contact::surface_for_moving(
+      report::display_mesh(product.mesh, none, kMostShownTriangles).mesh, kMostShownTriangles));
   sink_.bytes(product_frame(moving_footprint_->surface(), request.id), false);
   progress.update(0.2, "looking for ways to hold it");
-  const RankedHolds& ranked = session->holds(progress);
+  const grasp::RankedHolds& ranked = session->holds(progress);
   // The reference hand's skin has the same vertices in the same order.
   for (std::size_t k = 0; k < ranked.holds.size(); ++k) {
-    const Grasp& grasp = ranked.holds[k].grasp;
-    const std::vector<Vec3> skin = pose_skin(session->reference(), grasp.posture);
+    const grasp::Grasp& grasp = ranked.holds[k].grasp;
+    const std::vector<Vec3> skin = hand::pose_skin(session->reference(), grasp.posture);
     LiveField field;
     field.posture = grasp.posture;
     field.product_from_hand = grasp.product_from_hand;
@@ -162,7 +163,7 @@ void LiveWorker::open(const LiveRequest& request, const Progress& progress) {
 }
 
 void LiveWorker::move(const LiveRequest& request) {
-  const ContactResult& contact = session_->move(request.pose);
+  const contact::ContactResult& contact = session_->move(request.pose);
   LiveField field = field_of(request.pose, contact, session_->product());
   field.on_product = &moving_footprint_->under(session_->hand(), contact);
   sink_.bytes(field_frame(field, {FrameKind::kMoving, request.id, 0}), true);
@@ -170,8 +171,8 @@ void LiveWorker::move(const LiveRequest& request) {
 
 void LiveWorker::work(const LiveRequest& asked, const Progress& progress) {
   LiveRequest request = asked;
-  request.task = task_of_person(asked.task, opened_.person);
-  const Grip grip = request.grip.value_or(Grip::kMediumWrap);
+  request.task = workflow::task_of_person(asked.task, opened_.person);
+  const grasp::Grip grip = request.grip.value_or(grasp::Grip::kMediumWrap);
   switch (request.verb) {
     case LiveVerb::kHold:
       return send_result(request, session_->take_hold(request.number, request.task, progress));
@@ -186,9 +187,9 @@ void LiveWorker::work(const LiveRequest& asked, const Progress& progress) {
   }
 }
 
-void LiveWorker::send_result(const LiveRequest& request, AssessmentSet set) {
+void LiveWorker::send_result(const LiveRequest& request, study::AssessmentSet set) {
   set.command_line = command_of(request, opened_, *product_, own_hand_);
-  const Assessment& assessment = set.assessments.front().assessment;
+  const study::Assessment& assessment = set.assessments.front().assessment;
   LiveField field = field_of({assessment.grasp.posture, assessment.grasp.product_from_hand},
                              assessment.contact, session_->product());
   field.posed_skin = &assessment.posed_skin;
@@ -198,4 +199,4 @@ void LiveWorker::send_result(const LiveRequest& request, AssessmentSet set) {
   sink_.text(result_answer(request, set, opened_.language));
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

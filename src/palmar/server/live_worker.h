@@ -16,7 +16,7 @@
 #include "palmar/server/live_request.h"
 #include "palmar/server/product_shelf.h"
 
-namespace palmar {
+namespace palmar::server {
 
 /// Where answers go; called on the worker's thread.
 struct LiveSink {
@@ -52,7 +52,7 @@ class LiveWorker {
   void open(const LiveRequest& request, const Progress& progress);
   void move(const LiveRequest& request);
   void work(const LiveRequest& asked, const Progress& progress);
-  void send_result(const LiveRequest& request, AssessmentSet set);
+  void send_result(const LiveRequest& request, study::AssessmentSet set);
   Progress progress_of(const LiveRequest& request);
 
   std::shared_ptr<ProductShelf> shelf_;
@@ -65,12 +65,12 @@ class LiveWorker {
   bool is_stopping_ = false;
   std::atomic<bool> cancel_{false};
   // The thread's own:
-  std::unique_ptr<LiveSession> session_;
-  std::optional<MovingFootprint> moving_footprint_;  ///< on the product as it was sent
+  std::unique_ptr<workflow::LiveSession> session_;
+  std::optional<contact::MovingFootprint> moving_footprint_;  ///< on the product as it was sent
   std::optional<ShelvedProduct> product_;
   LiveRequest opened_;    ///< hand and language of the session
   std::string own_hand_;  ///< file of the hand, if it was made here
   std::thread thread_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::server

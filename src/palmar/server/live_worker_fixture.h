@@ -14,7 +14,7 @@
 
 #include "palmar/server/live_worker.h"
 
-namespace palmar {
+namespace palmar::server {
 
 /// What came, in its order; waits for it.
 class LiveAnswers {
@@ -65,4 +65,4 @@ class LiveAnswers {
   std::vector<nlohmann::json> all_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::server

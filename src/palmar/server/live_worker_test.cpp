@@ -11,7 +11,7 @@
 #include "palmar/server/live_frame.h"
 #include "palmar/server/live_worker_fixture.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using nlohmann::json;
@@ -39,7 +39,7 @@ LiveRequest holding(int id, double force) {
   return request;
 }
 
-LiveRequest moving(int id, const Rigid3& place) {
+LiveRequest moving(int id, const geometry::Rigid3& place) {
   LiveRequest request;
   request.verb = LiveVerb::kMove;
   request.id = static_cast<std::uint32_t>(id);
@@ -125,4 +125,4 @@ TEST(LiveWorker, StopsWhileItComputes) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -20,7 +20,7 @@
 #include "palmar/server/live_request.h"
 #include "palmar/workflow/product/product_choice.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 constexpr std::size_t kMostHands = 6;  // some 60 MB each
@@ -28,11 +28,11 @@ constexpr std::size_t kMostHands = 6;  // some 60 MB each
 /// The sides of its box in its own unit, if the unit is all that is missing.
 std::optional<UnitQuestion> unit_question(const std::filesystem::path& path) {
   try {
-    const MeshFile file = read_mesh(path);
+    const formats::MeshFile file = formats::read_mesh(path);
     if (file.unit) return std::nullopt;
     Box3 box;
     for (const Vec3& v : file.mesh.vertices) box.extend(v);
-    decide_unit(box, std::nullopt, LengthUnit::kMillimetre, path.string());
+    product::decide_unit(box, std::nullopt, geometry::LengthUnit::kMillimetre, path.string());
     return UnitQuestion{box.sizes()};
   } catch (const Error&) {
     return std::nullopt;  // something else is wrong with it
@@ -44,7 +44,7 @@ std::string make_command(const ShelvedExample& example, const std::string& file)
   for (const auto& [name, value] : example.given) {
     std::string option = name;
     std::replace(option.begin(), option.end(), '_', '-');
-    command += " --" + option + " " + shortest(value);
+    command += " --" + option + " " + formats::shortest(value);
   }
   return command + " --out " + file;
 }
@@ -62,11 +62,11 @@ const std::vector<ShelvedExample>& shelved_examples() {
   return examples;
 }
 
-std::shared_ptr<const Product> read_product(const ShelvedProduct& shelved,
-                                            const Progress& progress) {
-  ProductChoice choice(shelved.path, {.unit = shelved.unit});
-  auto product = std::make_shared<Product>(load_product(choice, progress));
-  add_findings(*product);
+std::shared_ptr<const product::Product> read_product(const ShelvedProduct& shelved,
+                                                     const Progress& progress) {
+  workflow::ProductChoice choice(shelved.path, {.unit = shelved.unit});
+  auto product = std::make_shared<product::Product>(load_product(choice, progress));
+  workflow::add_findings(*product);
   product->source = shelved.argument;  // not our folder's
   return product;
 }
@@ -87,7 +87,7 @@ ProductShelf::~ProductShelf() {
 std::filesystem::path ProductShelf::new_folder() {
   const std::scoped_lock lock(mutex_);
   const std::filesystem::path path = folder_ / std::to_string(++count_);
-  create_folder(path);
+  formats::create_folder(path);
   return path;
 }
 
@@ -111,14 +111,14 @@ void ProductShelf::keep_read(const std::string& key) {
 }
 
 ProductShelf::Added ProductShelf::add_bytes(const std::string& name, std::string_view bytes,
-                                            std::optional<LengthUnit> unit,
+                                            std::optional<geometry::LengthUnit> unit,
                                             const Progress& progress) {
   Added added;
   added.product.file_name = safe_file_name(name);
   added.product.argument = added.product.file_name;
   added.product.unit = unit;
   added.product.path = new_folder() / added.product.file_name;
-  write_file(added.product.path, bytes);
+  formats::write_file(added.product.path, bytes);
   try {
     added.product.product = read_product(added.product, progress);
   } catch (const InputError& error) {
@@ -139,7 +139,7 @@ ProductShelf::Added ProductShelf::add_bytes(const std::string& name, std::string
 }
 
 ShelvedProduct ProductShelf::add_file(const std::filesystem::path& path,
-                                      std::optional<LengthUnit> unit) {
+                                      std::optional<geometry::LengthUnit> unit) {
   ShelvedProduct product;
   product.file_name = path.filename().string();
   product.path = path;
@@ -157,16 +157,16 @@ ShelvedProduct ProductShelf::add_example(const std::string& name) {
     ShelvedProduct product;
     product.file_name = name + ".stl";
     product.argument = product.file_name;
-    product.unit = LengthUnit::kMillimetre;
+    product.unit = geometry::LengthUnit::kMillimetre;
     product.made_by = make_command(example, product.file_name);
     product.path = new_folder() / product.file_name;
-    write_mesh(product.path, make_solid({example.kind, example.given}).mesh);
+    formats::write_mesh(product.path, records::make_solid({example.kind, example.given}).mesh);
     product = put(std::move(product));
     const std::scoped_lock lock(mutex_);
     examples_[name] = product.key;
     return product;
   }
-  throw UsageError("example " + in_quotes(name) + " is not known");
+  throw UsageError("example " + formats::in_quotes(name) + " is not known");
 }
 
 std::string ProductShelf::example_key(const std::string& name) const {
@@ -185,7 +185,7 @@ std::optional<ShelvedProduct> ProductShelf::find(const std::string& key) const {
 
 ShelvedProduct ProductShelf::open(const std::string& key, const Progress& progress) {
   std::optional<ShelvedProduct> found = find(key);
-  if (!found) throw UsageError("product " + in_quotes(key) + " is not there (any more)");
+  if (!found) throw UsageError("product " + formats::in_quotes(key) + " is not there (any more)");
   if (!found->product) found->product = read_product(*found, progress);
   const std::scoped_lock lock(mutex_);
   for (ShelvedProduct& one : products_) {
@@ -198,15 +198,15 @@ ShelvedProduct ProductShelf::open(const std::string& key, const Progress& progre
 
 std::filesystem::path ProductShelf::own_hand(const std::string& key) const {
   const auto path = own_hands_ ? own_hands_(key) : std::nullopt;
-  if (!path) throw UsageError("hand " + in_quotes(key) + " is not there (any more)");
+  if (!path) throw UsageError("hand " + formats::in_quotes(key) + " is not there (any more)");
   return *path;
 }
 
-LiveHand ProductShelf::hand(const Holder& holder) {
-  HandChoice choice;
+workflow::LiveHand ProductShelf::hand(const Holder& holder) {
+  workflow::HandChoice choice;
   choice.person = holder.person;
   choice.is_left = holder.is_left;
-  std::string key = holder.person ? person_argument(*holder.person) : "template";
+  std::string key = holder.person ? workflow::person_argument(*holder.person) : "template";
   if (!holder.own_hand.empty()) {
     const std::filesystem::path path = own_hand(holder.own_hand);
     choice.name = path.string();
@@ -219,9 +219,9 @@ LiveHand ProductShelf::hand(const Holder& holder) {
   for (const auto& [name, hand] : hands_) {
     if (name == key) return hand;
   }
-  hands_.emplace_back(key, prepare_live_hand(choice));
+  hands_.emplace_back(key, workflow::prepare_live_hand(choice));
   if (hands_.size() > kMostHands) hands_.erase(hands_.begin());
   return hands_.back().second;
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

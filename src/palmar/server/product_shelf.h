@@ -17,7 +17,7 @@
 #include "palmar/workflow/hand/load_hand.h"
 #include "palmar/workflow/live/live_session.h"
 
-namespace palmar {
+namespace palmar::server {
 
 /// One product that can be opened.
 struct ShelvedProduct {
@@ -26,14 +26,14 @@ struct ShelvedProduct {
   std::filesystem::path path;  ///< where its file is
   /// As the command line takes it: the user's own file, or the name of one that was dropped.
   std::string argument;
-  std::optional<LengthUnit> unit;  ///< as the user said
-  std::string made_by;             ///< command that makes the file; empty if it was there
-  std::shared_ptr<const Product> product;
+  std::optional<geometry::LengthUnit> unit;  ///< as the user said
+  std::string made_by;                       ///< command that makes the file; empty if it was there
+  std::shared_ptr<const product::Product> product;
 };
 
 /// Its file, with the findings of its check. Throws InputError naming the file, Cancelled.
-std::shared_ptr<const Product> read_product(const ShelvedProduct& shelved,
-                                            const Progress& progress = {});
+std::shared_ptr<const product::Product> read_product(const ShelvedProduct& shelved,
+                                                     const Progress& progress = {});
 
 /// A finished example: made by a command that people can run, too.
 struct ShelvedExample {
@@ -68,10 +68,11 @@ class ProductShelf {
   };
   /// A file that a client sent. Throws InputError naming the file and what is wrong with it,
   /// Cancelled.
-  Added add_bytes(const std::string& name, std::string_view bytes, std::optional<LengthUnit> unit,
-                  const Progress& progress = {});
+  Added add_bytes(const std::string& name, std::string_view bytes,
+                  std::optional<geometry::LengthUnit> unit, const Progress& progress = {});
   /// A file of the user's, read when it is first opened.
-  ShelvedProduct add_file(const std::filesystem::path& path, std::optional<LengthUnit> unit);
+  ShelvedProduct add_file(const std::filesystem::path& path,
+                          std::optional<geometry::LengthUnit> unit);
   /// One whose file is there and isn't the shelf's own, with all that is known of it but its key.
   ShelvedProduct add_known(ShelvedProduct product);
   /// The one that is there if it is still. Throws UsageError for a name that is none.
@@ -85,12 +86,12 @@ class ProductShelf {
 
   /// Whose hand.
   struct Holder {
-    std::optional<PersonOfSize> person;  ///< unset: the template, or `own_hand`
-    std::string own_hand;                ///< key of a hand that was made here
+    std::optional<workflow::PersonOfSize> person;  ///< unset: the template, or `own_hand`
+    std::string own_hand;                          ///< key of a hand that was made here
     bool is_left = false;
   };
   /// A hand ready for contact; made once for every choice. Throws InputError, UsageError.
-  LiveHand hand(const Holder& holder);
+  workflow::LiveHand hand(const Holder& holder);
   /// Where the file of a hand with that key is.
   using OwnHands = std::function<std::optional<std::filesystem::path>(const std::string& key)>;
   void set_own_hands(OwnHands own) { own_hands_ = std::move(own); }
@@ -115,7 +116,7 @@ class ProductShelf {
   std::vector<std::string> read_;  ///< keys of those that are read, the one used last at the end
   OwnHands own_hands_;
   std::mutex hands_mutex_;
-  std::vector<std::pair<std::string, LiveHand>> hands_;  ///< the latest last
+  std::vector<std::pair<std::string, workflow::LiveHand>> hands_;  ///< the latest last
 };
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 /// A tetrahedron with edges of about that many millimetres; each length is another file.
@@ -18,7 +18,7 @@ std::string tetrahedron(double length) {
 }
 
 ShelvedProduct added(ProductShelf& shelf, double length) {
-  return shelf.add_bytes("t.obj", tetrahedron(length), LengthUnit::kMillimetre).product;
+  return shelf.add_bytes("t.obj", tetrahedron(length), geometry::LengthUnit::kMillimetre).product;
 }
 
 TEST(ProductShelf, ExampleOpenedAgainIsTheSameProduct) {
@@ -57,4 +57,4 @@ TEST(ProductShelf, NamesWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -12,7 +12,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/server/access.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using DrawerJson = nlohmann::ordered_json;
@@ -35,7 +35,7 @@ std::string drawer_text(const DrawerJson& json) {
 /// Its project.json; nothing if it is none of ours.
 std::optional<DrawerJson> kept_in(const std::filesystem::path& folder) {
   try {
-    DrawerJson json = DrawerJson::parse(read_file(folder / kProjectJson));
+    DrawerJson json = DrawerJson::parse(formats::read_file(folder / kProjectJson));
     if (json.at("palmar_kept") == kDrawerVersion && json.at("file_name").is_string() &&
         json.at("argument").is_string() && json.at("made_by").is_string() &&
         json.at("changed_ms").is_number_integer() && json.at("picture").is_string() &&
@@ -56,7 +56,7 @@ ProjectDrawer::ProjectDrawer(std::optional<std::filesystem::path> folder)
 
 std::filesystem::path ProjectDrawer::place(const std::string& key) const {
   if (!is_plain_name(key)) {
-    throw UsageError("project " + in_quotes(key) +
+    throw UsageError("project " + formats::in_quotes(key) +
                      ": letters, digits, - and _ are allowed, 1 to 64 of them");
   }
   if (!folder_) {
@@ -96,9 +96,10 @@ void ProjectDrawer::keep(const std::string& key, const ShelvedProduct& product,
   if (!picture.starts_with("data:image/") || picture.size() > kLongestPicture) picture.clear();
   const bool is_new = !kept_in(folder).has_value();
   const std::filesystem::path file = folder / kProductFolder / product.file_name;
-  create_folder(file.parent_path());
-  if (!std::filesystem::exists(file)) write_file(file, read_file(product.path));
-  if (json.contains("history")) write_file(folder / kHistoryJson, drawer_text(json["history"]));
+  formats::create_folder(file.parent_path());
+  if (!std::filesystem::exists(file)) formats::write_file(file, formats::read_file(product.path));
+  if (json.contains("history"))
+    formats::write_file(folder / kHistoryJson, drawer_text(json["history"]));
   const DrawerJson kept = {
       {"palmar_kept", kDrawerVersion},
       {"file_name", product.file_name},
@@ -108,7 +109,7 @@ void ProjectDrawer::keep(const std::string& key, const ShelvedProduct& product,
       {"changed_ms", now_ms()},
       {"picture", picture},
       {"state", json["state"]}};
-  write_file(folder / kProjectJson, drawer_text(kept));
+  formats::write_file(folder / kProjectJson, drawer_text(kept));
   if (is_new) remove_oldest();
 }
 
@@ -123,21 +124,21 @@ void ProjectDrawer::remove_oldest() {
 ProjectDrawer::Opened ProjectDrawer::open(const std::string& key) const {
   const std::filesystem::path folder = place(key);
   const auto json = kept_in(folder);
-  if (!json) throw UsageError("project " + in_quotes(key) + " is not there (any more)");
+  if (!json) throw UsageError("project " + formats::in_quotes(key) + " is not there (any more)");
   Opened opened;
   ShelvedProduct& product = opened.product;
   product.file_name = json->at("file_name");
   product.argument = json->at("argument");
   product.made_by = json->at("made_by");
   product.path = folder / kProductFolder / product.file_name;
-  if (json->at("unit").is_string()) product.unit = length_unit(json->at("unit"));
+  if (json->at("unit").is_string()) product.unit = geometry::length_unit(json->at("unit"));
   if (!std::filesystem::is_regular_file(product.path)) {
     throw InputError(product.path.string() + ": the project's product is not there (any more)");
   }
   opened.state = drawer_text(json->at("state"));
   opened.history = "null";
   try {
-    const DrawerJson history = DrawerJson::parse(read_file(folder / kHistoryJson));
+    const DrawerJson history = DrawerJson::parse(formats::read_file(folder / kHistoryJson));
     opened.history = drawer_text(history);
   } catch (const std::exception&) {
     // The steps are gone; what stood on the bench is here.
@@ -148,11 +149,12 @@ ProjectDrawer::Opened ProjectDrawer::open(const std::string& key) const {
 void ProjectDrawer::remove(const std::string& key) {
   const std::scoped_lock lock(mutex_);
   const std::filesystem::path folder = place(key);
-  if (!kept_in(folder)) throw UsageError("project " + in_quotes(key) + " is not there (any more)");
+  if (!kept_in(folder))
+    throw UsageError("project " + formats::in_quotes(key) + " is not there (any more)");
   // Without it the folder counts for nothing, whatever happens to the rest.
   std::error_code ignored;
   std::filesystem::remove(folder / kProjectJson, ignored);
   std::filesystem::remove_all(folder, ignored);
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

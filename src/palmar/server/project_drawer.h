@@ -11,7 +11,7 @@
 
 #include "palmar/server/product_shelf.h"
 
-namespace palmar {
+namespace palmar::server {
 
 /// What stood on a bench, kept by itself.
 struct KeptProject {
@@ -57,4 +57,4 @@ class ProjectDrawer {
   std::optional<std::filesystem::path> folder_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::server

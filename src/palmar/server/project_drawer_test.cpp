@@ -13,7 +13,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/server/data_folder.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,9 +25,9 @@ class Drawer : public ::testing::Test {
     test_folder = mkdtemp(name.data());
     product.file_name = "cup.stl";
     product.argument = "mine/cup.stl";
-    product.unit = LengthUnit::kCentimetre;
+    product.unit = geometry::LengthUnit::kCentimetre;
     product.path = test_folder / "cup.stl";
-    write_file(product.path, "the cup");
+    formats::write_file(product.path, "the cup");
   }
   void TearDown() override { fs::remove_all(test_folder); }
 
@@ -48,9 +48,9 @@ TEST_F(Drawer, KeepsAndOpensWithItsOwnCopyOfTheProduct) {
   EXPECT_EQ(again.list()[0].file_name, "cup.stl");
   EXPECT_EQ(again.list()[0].picture, "data:image/png;base64,AA");
   const ProjectDrawer::Opened opened = again.open("a1");
-  EXPECT_EQ(read_file(opened.product.path), "the cup");
+  EXPECT_EQ(formats::read_file(opened.product.path), "the cup");
   EXPECT_EQ(opened.product.argument, "mine/cup.stl");
-  EXPECT_EQ(opened.product.unit, LengthUnit::kCentimetre);
+  EXPECT_EQ(opened.product.unit, geometry::LengthUnit::kCentimetre);
   EXPECT_EQ(opened.state, R"({"hold":3})");
   EXPECT_EQ(opened.history, "[1]");
 }
@@ -93,9 +93,9 @@ TEST_F(Drawer, DamagedProjectsAreLeftOut) {
   ProjectDrawer drawer(test_folder);
   drawer.keep("good", product, R"({"state": {}})");
   drawer.keep("cut", product, R"({"state": {}})");
-  write_file(test_folder / "cut" / "project.json", "{\"palmar_kept\": 1");
+  formats::write_file(test_folder / "cut" / "project.json", "{\"palmar_kept\": 1");
   drawer.keep("away", product, R"({"state": {}, "history": [1]})");
-  write_file(test_folder / "away" / "history.json", "[1");
+  formats::write_file(test_folder / "away" / "history.json", "[1");
   ASSERT_EQ(drawer.list().size(), 2U);
   EXPECT_EQ(drawer.open("away").history, "null");
   fs::remove(test_folder / "away" / "product" / "cup.stl");
@@ -125,4 +125,4 @@ TEST(DataFolder, IsWhereXdgSays) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -14,7 +14,7 @@
 #include "palmar/server/live_answer.h"
 #include "palmar/server/service_routes.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using ServiceJson = nlohmann::ordered_json;
@@ -35,9 +35,10 @@ ServiceAnswer shelved(const ShelvedProduct& product) {
 /// The sides of what is asked about, in mm, for every unit that it may be in.
 ServiceAnswer which_unit(const ShelvedProduct& product, const UnitQuestion& question) {
   ServiceJson choices = ServiceJson::array();
-  for (const LengthUnit unit :
-       {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kInch, LengthUnit::kMetre}) {
-    const Vec3 sides = millimetres_per(unit) * question.sides;
+  for (const geometry::LengthUnit unit :
+       {geometry::LengthUnit::kMillimetre, geometry::LengthUnit::kCentimetre,
+        geometry::LengthUnit::kInch, geometry::LengthUnit::kMetre}) {
+    const Vec3 sides = geometry::millimetres_per(unit) * question.sides;
     choices.push_back({{"unit", name_of(unit)}, {"sides_mm", {sides.x(), sides.y(), sides.z()}}});
   }
   return json_answer({{"error", product.file_name + " doesn't say which unit it is in"},
@@ -63,7 +64,8 @@ Service::Service(std::string token, std::shared_ptr<ProductShelf> shelf, KeptDat
   }
 }
 
-std::string Service::give(const std::filesystem::path& file, std::optional<LengthUnit> unit) {
+std::string Service::give(const std::filesystem::path& file,
+                          std::optional<geometry::LengthUnit> unit) {
   given_.push_back(shelf_->add_file(file, unit).key);
   return given_.back();
 }
@@ -71,10 +73,10 @@ std::string Service::give(const std::filesystem::path& file, std::optional<Lengt
 std::optional<ServiceAnswer> Service::refused(const ServiceRequest& head) const {
   if (!is_own_host(head.host, at_)) {
     return refusal(403, "this server is called " + at_.address + ":" + std::to_string(at_.port) +
-                            ", not " + in_quotes(head.host));
+                            ", not " + formats::in_quotes(head.host));
   }
   if (!is_own_origin(head.origin, at_)) {
-    return refusal(403, "pages of " + in_quotes(head.origin) + " may not use this server");
+    return refusal(403, "pages of " + formats::in_quotes(head.origin) + " may not use this server");
   }
   const Target target = parse_target(head.target);
   if (!target.path.starts_with(kApi)) return std::nullopt;
@@ -121,7 +123,7 @@ ServiceAnswer Service::routed(const ServiceRequest& request, const Target& targe
   if (const auto key = name_between(target.path, kProducts, "/file"); key && is_get) {
     if (const auto product = shelf_->find(*key)) {
       return {.type = "application/octet-stream",
-              .body = read_file(product->path),
+              .body = formats::read_file(product->path),
               .file_name = product->file_name};
     }
   }
@@ -136,7 +138,7 @@ ServiceAnswer Service::routed(const ServiceRequest& request, const Target& targe
     if (auto answer = hands_answer(request, target, *kept_.jobs)) return *answer;
     if (auto answer = jobs_answer(request, target, *shelf_, *kept_.jobs, *uploads_)) return *answer;
   }
-  return refusal(404, in_quotes(request.method + " " + target.path) + " is nothing here");
+  return refusal(404, formats::in_quotes(request.method + " " + target.path) + " is nothing here");
 }
 
 ServiceAnswer Service::client_file(const std::string& path) const {
@@ -148,7 +150,7 @@ ServiceAnswer Service::client_file(const std::string& path) const {
   if (path == "/bench.css") return file(bench_style(), "text/css; charset=utf-8");
   if (path == "/icon.svg") return file(bench_icon(), "image/svg+xml");
   if (path == "/licence.txt") return file(bench_licence(), "text/plain; charset=utf-8");
-  return refusal(404, in_quotes(path) + " is nothing here");
+  return refusal(404, formats::in_quotes(path) + " is nothing here");
 }
 
 ServiceAnswer Service::state() const {
@@ -168,11 +170,12 @@ ServiceAnswer Service::state() const {
 
 ServiceAnswer Service::add_product(const ServiceRequest& request, const Target& target,
                                    const Progress& progress) const {
-  std::optional<LengthUnit> unit;
-  if (const auto text = target.query("unit"); text && !text->empty()) unit = length_unit(*text);
+  std::optional<geometry::LengthUnit> unit;
+  if (const auto text = target.query("unit"); text && !text->empty())
+    unit = geometry::length_unit(*text);
   const ProductShelf::Added added =
       shelf_->add_bytes(target.query("name").value_or("product"), request.body, unit, progress);
   return added.question ? which_unit(added.product, *added.question) : shelved(added.product);
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

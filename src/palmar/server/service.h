@@ -16,7 +16,7 @@
 #include "palmar/server/project_drawer.h"
 #include "palmar/server/upload_drawer.h"
 
-namespace palmar {
+namespace palmar::server {
 
 /// A request as HTTP brings it, without the connection.
 struct ServiceRequest {
@@ -87,7 +87,7 @@ class Service {
   const std::string& token() const { return token_; }
   const std::shared_ptr<ProductShelf>& shelf() const { return shelf_; }
   /// A product that was given on the command line; its key.
-  std::string give(const std::filesystem::path& file, std::optional<LengthUnit> unit);
+  std::string give(const std::filesystem::path& file, std::optional<geometry::LengthUnit> unit);
 
   /// Why it isn't let in, from its head alone; nothing if it is.
   std::optional<ServiceAnswer> refused(const ServiceRequest& head) const;
@@ -112,4 +112,4 @@ class Service {
   std::vector<std::string> given_;  ///< keys of products
 };
 
-}  // namespace palmar
+}  // namespace palmar::server

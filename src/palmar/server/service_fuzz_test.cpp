@@ -22,7 +22,7 @@
 #include "palmar/server/live_request.h"
 #include "palmar/server/service.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -113,7 +113,8 @@ class Fuzz : public ::testing::Test {
     return {
         {"GET", "/api/state", ""},
         {"GET", "/bench.js", ""},
-        {"POST", "/api/products?name=ball.stl&unit=mm", format_stl(make_icosphere(30.0, 1))},
+        {"POST", "/api/products?name=ball.stl&unit=mm",
+         formats::format_stl(geometry::make_icosphere(30.0, 1))},
         {"POST", "/api/products?name=ball.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n"},
         {"POST", "/api/examples?name=ball", ""},
         {"GET", "/api/products/p1", ""},
@@ -215,8 +216,9 @@ TEST_F(Fuzz, DamagedJobsAreReadOrRefused) {
       const JobRequest request = parse_job_request(damaged(seed.body, random));
       const std::string once = job_request_json(request);
       EXPECT_EQ(job_request_json(parse_job_request(once)), once);
-      for (const JobCommand& command : commands_of(
-               request, {{"a.stl", "b.stl", "c.stl", "d.stl"}, LengthUnit::kMillimetre, "/job/"})) {
+      for (const JobCommand& command : commands_of(request, {{"a.stl", "b.stl", "c.stl", "d.stl"},
+                                                             geometry::LengthUnit::kMillimetre,
+                                                             "/job/"})) {
         for (const std::string& word : command.words) {
           EXPECT_EQ(word.find("/etc"), std::string::npos) << word;
           EXPECT_EQ(word.find(".."), std::string::npos) << word;
@@ -230,4 +232,4 @@ TEST_F(Fuzz, DamagedJobsAreReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

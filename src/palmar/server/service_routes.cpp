@@ -15,7 +15,7 @@
 #include "palmar/server/shape_change.h"
 #include "palmar/server/study_dots.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using RouteJson = nlohmann::ordered_json;
@@ -82,7 +82,8 @@ ServiceAnswer added_job(const ServiceRequest& request, ProductShelf& shelf, JobS
   std::vector<ShelvedProduct> products;
   for (const std::string& key : asked.products) {
     const auto product = shelf.find(key);
-    if (!product) throw UsageError("job: product " + in_quotes(key) + " is not there (any more)");
+    if (!product)
+      throw UsageError("job: product " + formats::in_quotes(key) + " is not there (any more)");
     products.push_back(*product);
   }
   const std::string& sent = asked.hand.uploads;
@@ -126,7 +127,7 @@ ServiceAnswer job_page(const Job& job, const JobShelf& jobs) {
   if (!job.has_report) return refusal(404, "there is no report yet");
   ServiceAnswer answer;
   answer.type = "text/html; charset=utf-8";
-  answer.body = read_file(jobs.report(job));
+  answer.body = formats::read_file(jobs.report(job));
   answer.policy = kReportPolicy;
   return answer;
 }
@@ -135,12 +136,12 @@ ServiceAnswer job_page(const Job& job, const JobShelf& jobs) {
 ServiceAnswer shelved_shape(const Job& job, const std::string& name, ProductShelf& shelf,
                             const JobShelf& jobs) {
   const auto path = jobs.file(job, name);
-  if (!path) return refusal(404, in_quotes(name) + " is none of this job's files");
+  if (!path) return refusal(404, formats::in_quotes(name) + " is none of this job's files");
   ShelvedProduct product;
   product.file_name = name;
   product.path = *path;
   product.argument = path->string();
-  if (!is_cad_file(*path)) product.unit = LengthUnit::kMillimetre;
+  if (!records::is_cad_file(*path)) product.unit = geometry::LengthUnit::kMillimetre;
   ServiceAnswer answer;
   answer.body = shelved_product_json(shelf.add_known(std::move(product)));
   return answer;
@@ -156,8 +157,8 @@ std::optional<ServiceAnswer> read_of_job(const Job& job, const std::string& rest
   if (rest == "/made") {
     const std::string name = target.query("file").value_or("");
     const auto path = jobs.made_file(job, name);
-    if (!path) return refusal(404, in_quotes(name) + " is none of what this job made");
-    ServiceAnswer answer = bytes_answer(read_file(*path));
+    if (!path) return refusal(404, formats::in_quotes(name) + " is none of what this job made");
+    ServiceAnswer answer = bytes_answer(formats::read_file(*path));
     if (path->extension() == ".png") answer.type = "image/png";
     return answer;
   }
@@ -170,8 +171,9 @@ std::optional<ServiceAnswer> read_of_job(const Job& job, const std::string& rest
   }
   if (const auto name = name_between(rest, "/files/")) {
     if (const auto path = jobs.file(job, *name)) {
-      return ServiceAnswer{
-          .type = "application/octet-stream", .body = read_file(*path), .file_name = *name};
+      return ServiceAnswer{.type = "application/octet-stream",
+                           .body = formats::read_file(*path),
+                           .file_name = *name};
     }
   }
   return std::nullopt;
@@ -216,9 +218,9 @@ std::optional<ServiceAnswer> hands_answer(const ServiceRequest& request, const T
   if (request.method != "GET") return std::nullopt;
   if (const auto key = name_between(target.path, "/api/hands/", "/file")) {
     const auto path = jobs.hand_file(*key);
-    if (!path) return refusal(404, "hand " + in_quotes(*key) + " is not there (any more)");
+    if (!path) return refusal(404, "hand " + formats::in_quotes(*key) + " is not there (any more)");
     return ServiceAnswer{.type = "application/octet-stream",
-                         .body = read_file(*path),
+                         .body = formats::read_file(*path),
                          .file_name = path->filename().string()};
   }
   if (target.path != "/api/hands") return std::nullopt;
@@ -244,7 +246,7 @@ std::optional<ServiceAnswer> jobs_answer(const ServiceRequest& request, const Ta
   const std::string key = target.path.substr(begin.size(), slash - begin.size());
   const std::string rest = target.path.substr(slash);
   const auto job = jobs.find(key);
-  if (!job) return refusal(404, "job " + in_quotes(key) + " is not there (any more)");
+  if (!job) return refusal(404, "job " + formats::in_quotes(key) + " is not there (any more)");
   if (request.method == "GET") return read_of_job(*job, rest, target, jobs);
   if (request.method == "DELETE" && rest.empty()) {
     jobs.remove(key);
@@ -268,4 +270,4 @@ std::optional<ServiceAnswer> jobs_answer(const ServiceRequest& request, const Ta
   return job_answered(*jobs.find(key), jobs);
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

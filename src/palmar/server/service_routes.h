@@ -10,7 +10,7 @@
 #include "palmar/server/service.h"
 #include "palmar/server/upload_drawer.h"
 
-namespace palmar {
+namespace palmar::server {
 
 // Parts of what the server answers (service.h). Nothing: the path is none of theirs. Throw as what
 // they call does.
@@ -30,4 +30,4 @@ std::optional<ServiceAnswer> hands_answer(const ServiceRequest& request, const T
 std::optional<std::string> name_between(std::string_view path, std::string_view begin,
                                         std::string_view end = "");
 
-}  // namespace palmar
+}  // namespace palmar::server

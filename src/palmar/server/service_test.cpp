@@ -11,7 +11,7 @@
 #include "palmar/formats/mesh/stl.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 using nlohmann::json;
@@ -36,7 +36,9 @@ ServiceRequest asking(const std::string& method, const std::string& target,
           .body = body};
 }
 
-std::string sphere_stl(double radius) { return format_stl(make_icosphere(radius, 3)); }
+std::string sphere_stl(double radius) {
+  return formats::format_stl(geometry::make_icosphere(radius, 3));
+}
 
 TEST(Service, ApiRefusesWithoutTheToken) {
   for (const char* target : {"/api/state", "/api/products", "/api/live", "/api/nothing",
@@ -219,4 +221,4 @@ TEST_F(KeepingService, NothingOfItWithoutTheToken) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -14,12 +14,14 @@
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/records/product/made_product.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 TEST(ShapeChange, ThinnerCylinderLiesInsideByTheDifferenceOfRadii) {
-  const Product original = make_solid({"cylinder", {{"diameter_mm", 40.0}, {"length_mm", 120.0}}});
-  const Product thinner = make_solid({"cylinder", {{"diameter_mm", 36.0}, {"length_mm", 100.0}}});
+  const product::Product original =
+      records::make_solid({"cylinder", {{"diameter_mm", 40.0}, {"length_mm", 120.0}}});
+  const product::Product thinner =
+      records::make_solid({"cylinder", {{"diameter_mm", 36.0}, {"length_mm", 100.0}}});
   const std::vector<double> change = change_of(original, thinner.mesh);
   ASSERT_EQ(change.size(), thinner.mesh.vertices.size());
   for (std::size_t i = 0; i < change.size(); ++i) {
@@ -31,7 +33,7 @@ TEST(ShapeChange, ThinnerCylinderLiesInsideByTheDifferenceOfRadii) {
 }
 
 TEST(ShapeChange, SameShapeDoesNotMove) {
-  const Product ball = make_solid({"sphere", {{"diameter_mm", 60.0}}});
+  const product::Product ball = records::make_solid({"sphere", {{"diameter_mm", 60.0}}});
   for (const double moved : change_of(ball, ball.mesh)) EXPECT_NEAR(moved, 0.0, 1e-6);
 }
 
@@ -48,16 +50,16 @@ TEST(ShapeChange, RoundedEdgeLiesAsDeepAsItsRadiusSays) {
   std::string name = (std::filesystem::temp_directory_path() / "palmar_edge_XXXXXX").string();
   const std::filesystem::path folder = mkdtemp(name.data());
   const auto bar = [](double fillet) {
-    return make_solid(
+    return records::make_solid(
         {"prism",
          {{"width_mm", 40.0}, {"depth_mm", 30.0}, {"length_mm", 130.0}, {"fillet_mm", fillet}}});
   };
-  write_mesh(folder / "sharp.stl", bar(0.0).mesh);
-  write_mesh(folder / "round.stl", bar(6.0).mesh);
+  formats::write_mesh(folder / "sharp.stl", bar(0.0).mesh);
+  formats::write_mesh(folder / "round.stl", bar(6.0).mesh);
   ShelvedProduct sharp;
   sharp.file_name = sharp.argument = "sharp.stl";
   sharp.path = folder / "sharp.stl";
-  sharp.unit = LengthUnit::kMillimetre;
+  sharp.unit = geometry::LengthUnit::kMillimetre;
   // The middle of the arc lies r (1 - cos 45 deg) under both faces.
   EXPECT_NEAR(most_in(shape_frame(sharp, folder / "round.stl")), 6.0 * (1.0 - std::sqrt(0.5)), 0.1);
   EXPECT_NEAR(most_in(shape_frame(sharp, folder / "sharp.stl")), 0.0, 1e-3);
@@ -67,12 +69,12 @@ TEST(ShapeChange, RoundedEdgeLiesAsDeepAsItsRadiusSays) {
 TEST(ShapeChange, FramesAreOfTheFilesThatAreThere) {
   std::string name = (std::filesystem::temp_directory_path() / "palmar_shape_XXXXXX").string();
   const std::filesystem::path folder = mkdtemp(name.data());
-  const Product ball = make_solid({"sphere", {{"diameter_mm", 60.0}}});
-  write_mesh(folder / "ball.stl", ball.mesh);
+  const product::Product ball = records::make_solid({"sphere", {{"diameter_mm", 60.0}}});
+  formats::write_mesh(folder / "ball.stl", ball.mesh);
   ShelvedProduct shelved;
   shelved.file_name = shelved.argument = "ball.stl";
   shelved.path = folder / "ball.stl";
-  shelved.unit = LengthUnit::kMillimetre;
+  shelved.unit = geometry::LengthUnit::kMillimetre;
   const std::string before = shape_frame(shelved, ""), after = shape_frame(shelved, shelved.path);
   EXPECT_EQ(before.substr(0, 4), "PLM1");
   EXPECT_GE(after.size(), before.size() + 4 * ball.mesh.vertices.size());
@@ -81,4 +83,4 @@ TEST(ShapeChange, FramesAreOfTheFilesThatAreThere) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace palmar {
+namespace palmar::server {
 
 /// Single grasps of a study's first condition, for charts in which each is a dot:
 /// {"products": [{"name", "colour"}], "hands": [{"length_mm", "shown"}], "quantities": [{"key",
@@ -14,4 +14,4 @@ namespace palmar {
 /// it isn't among those. Throws InputError naming the store.
 std::string study_dots_json(const std::filesystem::path& store);
 
-}  // namespace palmar
+}  // namespace palmar::server

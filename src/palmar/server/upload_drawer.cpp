@@ -10,7 +10,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/server/access.h"
 
-namespace palmar {
+namespace palmar::server {
 
 std::filesystem::path safe_relative_path(std::string_view name) {
   constexpr std::ptrdiff_t kMostParts = 5;
@@ -42,7 +42,8 @@ std::vector<std::string> files_under(const std::filesystem::path& folder) {
 
 void UploadDrawer::add(const std::string& key, std::string_view name, std::string_view bytes) {
   if (!is_plain_name(key)) {
-    throw UsageError("upload " + in_quotes(key) + ": letters, digits, - and _ are allowed");
+    throw UsageError("upload " + formats::in_quotes(key) +
+                     ": letters, digits, - and _ are allowed");
   }
   const std::filesystem::path inside = safe_relative_path(name);
   const std::filesystem::path path = folder_ / key / inside;
@@ -50,11 +51,11 @@ void UploadDrawer::add(const std::string& key, std::string_view name, std::strin
   for (const auto& part : inside.parent_path()) {
     above /= part;
     if (std::filesystem::is_regular_file(above)) {
-      throw UsageError("upload: " + in_quotes(part.string()) + " is a file and a folder");
+      throw UsageError("upload: " + formats::in_quotes(part.string()) + " is a file and a folder");
     }
   }
   if (std::filesystem::is_directory(path)) {
-    throw UsageError("upload: " + in_quotes(inside.string()) + " is a folder and a file");
+    throw UsageError("upload: " + formats::in_quotes(inside.string()) + " is a folder and a file");
   }
   {
     const std::scoped_lock lock(mutex_);
@@ -72,14 +73,14 @@ void UploadDrawer::add(const std::string& key, std::string_view name, std::strin
     ++kept_[key].files;
     kept_[key].bytes += bytes.size();
   }
-  create_folder(path.parent_path());
-  write_file(path, bytes);
+  formats::create_folder(path.parent_path());
+  formats::write_file(path, bytes);
 }
 
 std::filesystem::path UploadDrawer::folder(const std::string& key) const {
   const std::scoped_lock lock(mutex_);
   if (!kept_.contains(key))
-    throw UsageError("upload " + in_quotes(key) + " is not there (any more)");
+    throw UsageError("upload " + formats::in_quotes(key) + " is not there (any more)");
   return folder_ / key;
 }
 
@@ -90,4 +91,4 @@ void UploadDrawer::forget(const std::string& key) {
   std::filesystem::remove_all(folder_ / key, ignored);
 }
 
-}  // namespace palmar
+}  // namespace palmar::server

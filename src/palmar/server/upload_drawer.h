@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace palmar {
+namespace palmar::server {
 
 /// Files that a client sends one by one and that belong together (photographs, an MR series), in a
 /// folder for each key of the client's until a job takes them. Thread-safe.
@@ -47,4 +47,4 @@ std::filesystem::path safe_relative_path(std::string_view name);
 /// All regular files under a folder, as paths relative to it with '/', sorted; no links.
 std::vector<std::string> files_under(const std::filesystem::path& folder);
 
-}  // namespace palmar
+}  // namespace palmar::server

@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::server {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ TEST_F(Uploads, FilesOfOneKeyStandInTheirFolders) {
   drawer.add("k2", "photo.png", "c");
   EXPECT_THAT(files_under(drawer.folder("k1")),
               ElementsAre("reference/p0_c1.jpg", "reference/p0_c2.jpg"));
-  EXPECT_EQ(read_file(drawer.folder("k2") / "photo.png"), "c");
+  EXPECT_EQ(formats::read_file(drawer.folder("k2") / "photo.png"), "c");
   drawer.forget("k1");
   EXPECT_THROW(drawer.folder("k1"), UsageError);
   EXPECT_FALSE(fs::exists(test_folder / "uploads" / "k1"));
@@ -59,7 +59,7 @@ TEST_F(Uploads, NoNameLeavesItsFolder) {
 TEST_F(Uploads, LinksAreNoFiles) {
   fs::create_directories(test_folder / "found");
   fs::create_symlink("/etc/passwd", test_folder / "found" / "passwd");
-  write_file(test_folder / "found" / "skin.ply", "x");
+  formats::write_file(test_folder / "found" / "skin.ply", "x");
   EXPECT_THAT(files_under(test_folder), ElementsAre("found/skin.ply"));
   EXPECT_TRUE(files_under(test_folder / "nothing").empty());
 }
@@ -75,4 +75,4 @@ TEST_F(Uploads, KeysAreFew) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::server

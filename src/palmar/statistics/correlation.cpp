@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/statistics/distributions.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 constexpr double kExact = 1e-14;  // 1 - |r| below this is rounding
@@ -150,4 +150,4 @@ std::pair<std::vector<double>, std::vector<double>> complete_pairs(
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -9,7 +9,7 @@
 
 #include "palmar/statistics/summary.h"
 
-namespace palmar {
+namespace palmar::statistics {
 
 enum class CorrelationStatus {
   kFound,
@@ -49,4 +49,4 @@ std::vector<double> mean_ranks(std::span<const double> values);
 std::pair<std::vector<double>, std::vector<double>> complete_pairs(
     std::span<const std::optional<double>> x, std::span<const std::optional<double>> y);
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -9,7 +9,7 @@
 
 #include "palmar/statistics/statistics_test_data.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 using testing::ElementsAre;
@@ -116,4 +116,4 @@ TEST(CompletePairs, LeavesOutWhatIsMissingOnEitherSide) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::statistics

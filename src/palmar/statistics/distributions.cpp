@@ -15,7 +15,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 namespace bm = boost::math;
@@ -104,4 +104,4 @@ void check_level(double level) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace palmar {
+namespace palmar::statistics {
 
 /// Distributions that tests and intervals need, from Boost.Math. Tail probabilities keep their
 /// digits however small they are (1e-300 is distinguished from 0).
@@ -28,4 +28,4 @@ double noncentrality_at(double t, double df, double p);
 /// < 1.
 void check_level(double level);
 
-}  // namespace palmar
+}  // namespace palmar::statistics

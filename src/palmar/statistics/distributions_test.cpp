@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 // d where R's pt(28.368, 19, ncp = d) is 0.025, divided by sqrt(20): 8.3851.
@@ -35,4 +35,4 @@ TEST(Noncentrality, TurnsItsSignWithT) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/statistics/distributions.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 // A predictor of which less than this share is its own counts as a function of the others; R's lm.
@@ -168,4 +168,4 @@ Band prediction_band(const LinearFit& fit, double x, double level) {
   return prediction_band(fit, Eigen::VectorXd::Constant(1, x), level);
 }
 
-}  // namespace palmar
+}  // namespace palmar::statistics

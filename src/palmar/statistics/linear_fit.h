@@ -10,7 +10,7 @@
 
 #include "palmar/statistics/summary.h"
 
-namespace palmar {
+namespace palmar::statistics {
 
 /// One number of a regression: the intercept, or what y gains per unit of a predictor.
 struct Coefficient {
@@ -73,4 +73,4 @@ Band confidence_band(const LinearFit& fit, const Eigen::VectorXd& x, double leve
 Band prediction_band(const LinearFit& fit, double x, double level = 0.95);
 Band prediction_band(const LinearFit& fit, const Eigen::VectorXd& x, double level = 0.95);
 
-}  // namespace palmar
+}  // namespace palmar::statistics

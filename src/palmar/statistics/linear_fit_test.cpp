@@ -9,7 +9,7 @@
 
 #include "palmar/statistics/statistics_test_data.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 using testing::HasSubstr;
@@ -177,4 +177,4 @@ TEST(LinearFit, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::statistics

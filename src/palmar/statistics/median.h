@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace palmar {
+namespace palmar::statistics {
 
 /// The middle one of values in any order; of an even number the upper of the two in the middle, so
 /// that it is always one of the values; 0 of none. (summarise() gives the mean of the two.)
@@ -18,4 +18,4 @@ T median(std::vector<T> values) {
   return *middle;
 }
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -11,7 +11,7 @@
 #include "palmar/statistics/distributions.h"
 #include "palmar/statistics/walsh_averages.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 std::vector<double> differences(std::span<const double> a, std::span<const double> b, int fewest) {
@@ -208,4 +208,4 @@ WelchTest welch_t_test(std::span<const double> a, std::span<const double> b, dou
   return test;
 }
 
-}  // namespace palmar
+}  // namespace palmar::statistics

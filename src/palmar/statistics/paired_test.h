@@ -8,7 +8,7 @@
 
 #include "palmar/statistics/summary.h"
 
-namespace palmar {
+namespace palmar::statistics {
 
 /// Student's test of "a and b have the same mean" over the same subjects, d_i = a_i - b_i:
 ///
@@ -82,4 +82,4 @@ struct WelchTest {
 /// Throws UsageError: fewer than 2 values in a group, one that is not finite.
 WelchTest welch_t_test(std::span<const double> a, std::span<const double> b, double level = 0.95);
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -11,7 +11,7 @@
 #include "palmar/statistics/statistics_test_data.h"
 #include "palmar/statistics/walsh_averages.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 using testing::ElementsAre;
@@ -362,4 +362,4 @@ TEST(SignedRankCounts, AreThoseOfSubsets) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/statistics/distributions.h"
 
-namespace palmar {
+namespace palmar::statistics {
 
 Proportion wilson_proportion(int count, int n, double level) {
   if (count < 0 || count > n) {
@@ -29,4 +29,4 @@ Proportion wilson_proportion(int count, int n, double level) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -4,7 +4,7 @@
 
 #include "palmar/statistics/summary.h"
 
-namespace palmar {
+namespace palmar::statistics {
 
 /// A share of counted people, with the interval that holds the share of the population they were
 /// drawn from:
@@ -23,4 +23,4 @@ struct Proportion {
 /// Throws UsageError unless 0 <= count <= n and 0 < level < 1.
 Proportion wilson_proportion(int count, int n, double level = 0.95);
 
-}  // namespace palmar
+}  // namespace palmar::statistics

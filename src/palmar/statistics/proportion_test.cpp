@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 TEST(WilsonProportion, AgreesWithR) {
@@ -56,4 +56,4 @@ TEST(WilsonProportion, RefusesMoreThanAll) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::statistics

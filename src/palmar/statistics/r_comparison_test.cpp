@@ -14,7 +14,7 @@
 #include "palmar/statistics/paired_test.h"
 #include "palmar/statistics/statistics_test_data.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 /// What R prints; "" if it isn't installed.
@@ -115,4 +115,4 @@ TEST(Statistics, EqualRWhereItIsInstalled) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::statistics {
 
 /// Equal to R's figure to 1e-9 of it; both compute in double, by different ways.
 inline void expect_as_in_r(double value, double in_r, const char* what) {
@@ -45,4 +45,4 @@ inline const std::vector<double> kCarDistance{2,  10, 4,  22, 16, 10, 18, 26, 34
                                               32, 40, 32, 40, 50, 42, 56, 76, 84, 36,  46, 68, 32,
                                               48, 52, 56, 64, 66, 54, 70, 92, 93, 120, 85};
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/statistics/distributions.h"
 
-namespace palmar {
+namespace palmar::statistics {
 
 double quantile(std::span<const double> sorted, double p) {
   if (sorted.empty()) throw UsageError("quantile of no values; at least one is needed");
@@ -88,4 +88,4 @@ Summary summarise(std::span<const double> values, double level) {
   return s;
 }
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::statistics {
 
 /// Two ends, in the unit of what they bound.
 struct Interval {
@@ -54,4 +54,4 @@ void check_sample(std::span<const double> values, std::string_view what, int few
 /// True if the values differ by no more than rounding: sd <= 1e-13 of the largest magnitude.
 bool is_constant(std::span<const double> values);
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -10,7 +10,7 @@
 
 #include "palmar/statistics/statistics_test_data.h"
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 using testing::HasSubstr;
@@ -90,4 +90,4 @@ TEST(Summary, BadInputIsNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::statistics

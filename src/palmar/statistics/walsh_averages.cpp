@@ -4,7 +4,7 @@
 
 #include <bit>
 
-namespace palmar {
+namespace palmar::statistics {
 namespace {
 
 /// Integers in the order of the doubles, and back; -0 below 0.
@@ -66,4 +66,4 @@ std::vector<double> signed_rank_counts(int m) {
   return count;
 }
 
-}  // namespace palmar
+}  // namespace palmar::statistics

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace palmar {
+namespace palmar::statistics {
 
 /// The k-th smallest (from 1) of the m (m + 1) / 2 averages (x_i + x_j) / 2, i <= j, of sorted
 /// finite values; memory O(1), time O(m) per bit of a double. The average of 50 000 people is found
@@ -20,4 +20,4 @@ double walsh_median(std::span<const double> sorted);
 /// distribution of the signed-rank statistic. Exact in double for m <= 52.
 std::vector<double> signed_rank_counts(int m);
 
-}  // namespace palmar
+}  // namespace palmar::statistics

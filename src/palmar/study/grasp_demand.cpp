@@ -15,7 +15,7 @@
 #include "palmar/grasp/task_force.h"
 #include "palmar/hand/posture/named_postures.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 // Angles this near to an end count as at the end: what clamping rounds off.
@@ -24,8 +24,8 @@ constexpr double kAngleRounding = 1e-12;  // rad
 constexpr std::array<double, 3> kAcrossNail = {-1.0 / 3.0, 0.0, 1.0 / 3.0};  // of the width
 constexpr double kNailHeight = 0.4;  // of the thickness, dorsal of the tip
 
-Segment distal_of(Finger finger) {
-  const auto chain = segments_of(finger);
+hand::Segment distal_of(hand::Finger finger) {
+  const auto chain = hand::segments_of(finger);
   return chain[2] ? *chain[2] : *chain[1];
 }
 
@@ -51,10 +51,10 @@ std::optional<double> meet(const NailLine& line, const Vec3& a, const Vec3& b, c
 }
 
 // Room up to the skin of the palm.
-double room_to_palm(const Hand& hand, const std::vector<Vec3>& skin, const NailLine& line,
+double room_to_palm(const hand::Hand& hand, const std::vector<Vec3>& skin, const NailLine& line,
                     double longest) {
   const auto is_palm_and_near = [&](int vertex) {
-    return hand.segment[vertex] == Segment::kPalm &&
+    return hand.segment[vertex] == hand::Segment::kPalm &&
            (skin[vertex] - line.start).squaredNorm() < 4.0 * kLongestNail * kLongestNail;
   };
   double room = longest;
@@ -67,8 +67,9 @@ double room_to_palm(const Hand& hand, const std::vector<Vec3>& skin, const NailL
 }
 
 // Room up to the product, by steps of the distance to it: none can pass through.
-double room_to_product(const DistanceField& product, const Rigid3& product_from_hand,
-                       const NailLine& line, double longest) {
+double room_to_product(const geometry::DistanceField& product,
+                       const geometry::Rigid3& product_from_hand, const NailLine& line,
+                       double longest) {
   constexpr double kTouch = 0.01;  // mm; nearer than that counts as touching
   constexpr int kSteps = 1000;     // along a line that grazes the product
   const Vec3 start = product_from_hand * line.start;
@@ -76,7 +77,7 @@ double room_to_product(const DistanceField& product, const Rigid3& product_from_
   double t = 0.0;
   for (int k = 0; k < kSteps && t < longest; ++k) {
     const Vec3 point = start + t * along;
-    DistanceSample sample;
+    geometry::DistanceSample sample;
     product.sample({&point, 1}, longest, {&sample, 1});
     if (sample.distance <= kTouch) return t;
     t += sample.distance;
@@ -86,11 +87,11 @@ double room_to_product(const DistanceField& product, const Rigid3& product_from_
 
 }  // namespace
 
-double range_share_of(const Hand& hand, const Posture& posture) {
-  const Posture relaxed = named_posture(hand.skeleton, "relaxed").value();
+double range_share_of(const hand::Hand& hand, const hand::Posture& posture) {
+  const hand::Posture relaxed = hand::named_posture(hand.skeleton, "relaxed").value();
   double share = 0.0;
-  for (const Joint& joint : hand.skeleton.joints) {
-    for (const JointDof& dof : joint.dofs) {
+  for (const hand::Joint& joint : hand.skeleton.joints) {
+    for (const hand::JointDof& dof : joint.dofs) {
       const double way = posture[dof.dof] - relaxed[dof.dof];
       if (std::abs(way) <= kAngleRounding) continue;
       const double whole = way > 0.0 ? dof.upper - relaxed[dof.dof] : relaxed[dof.dof] - dof.lower;
@@ -104,52 +105,53 @@ double range_share_of(const Hand& hand, const Posture& posture) {
 namespace {
 
 /// Least grip force [N] that holds the load by friction.
-double force_needed(const Hand& hand, const ContactResult& contact,
+double force_needed(const hand::Hand& hand, const contact::ContactResult& contact,
                     const StrengthQuestion& question) {
   const Vec3 mass_centre = question.load.mass_centre.value_or(question.mass_centre);
-  const Wrench load = wrench_of(question.load, mass_centre);
+  const contact::Wrench load = contact::wrench_of(question.load, mass_centre);
   if (load.force.isZero(0.0) && load.moment.isZero(0.0)) return 0.0;
-  ReductionOptions reduction;
+  grasp::ReductionOptions reduction;
   reduction.friction = question.friction;
-  const std::vector<GraspContact> contacts = reduce_contact(hand, contact, reduction);
-  const GripForce least = least_grip_force(contacts, load, mass_centre);
-  if (least.status != GripForceStatus::kHeld) return std::numeric_limits<double>::infinity();
+  const std::vector<grasp::GraspContact> contacts = grasp::reduce_contact(hand, contact, reduction);
+  const grasp::GripForce least = grasp::least_grip_force(contacts, load, mass_centre);
+  if (least.status != grasp::GripForceStatus::kHeld) return std::numeric_limits<double>::infinity();
   std::vector<Vec3> normal_forces;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Vec3& normal = contacts[i].normal;
     normal_forces.emplace_back(normal.dot(least.force[i]) * normal);
   }
-  return grip_force(normal_forces).force;
+  return grasp::grip_force(normal_forces).force;
 }
 
 }  // namespace
 
-double strength_needed(const Hand& hand, const ContactResult& contact,
-                       const StrengthQuestion& question, const Balance* rest) {
+double strength_needed(const hand::Hand& hand, const contact::ContactResult& contact,
+                       const StrengthQuestion& question, const grasp::Balance* rest) {
   const double force = std::max(question.stated_force, force_needed(hand, contact, question));
-  if (rest != nullptr && rest->status == BalanceStatus::kBalanced && rest->strength_use &&
+  if (rest != nullptr && rest->status == grasp::BalanceStatus::kBalanced && rest->strength_use &&
       rest->grip_force > 0.0) {
     return *rest->strength_use * force / rest->grip_force * question.muscle_strength *
-           usual_grip_strength();
+           grasp::usual_grip_strength();
   }
-  return force / strength_share(question.grip);
+  return force / grasp::strength_share(question.grip);
 }
 
-double nail_room_of(const Hand& hand, const Posture& posture, const std::vector<Vec3>& posed_skin,
-                    const Rigid3& product_from_hand, const Product& product) {
-  const PosedSkeleton posed = pose_skeleton(hand.skeleton, posture);
+double nail_room_of(const hand::Hand& hand, const hand::Posture& posture,
+                    const std::vector<Vec3>& posed_skin, const geometry::Rigid3& product_from_hand,
+                    const product::Product& product) {
+  const hand::PosedSkeleton posed = hand::pose_skeleton(hand.skeleton, posture);
   double room = kLongestNail;
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
-    const Segment distal = distal_of(finger);
-    const Joint& joint = hand.skeleton.joint(joint_of(distal));
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
+    const hand::Segment distal = distal_of(finger);
+    const hand::Joint& joint = hand.skeleton.joint(hand::joint_of(distal));
     const Vec3& tip = hand.skeleton.fingertips[f];
     const Vec3 along = (tip - joint.centre).normalized();
     // Flexion moves the tip to the palm.
     const Vec3 palmar = joint.dofs.back().axis.cross(along).normalized();
     const Vec3 across = palmar.cross(along);
-    const SegmentDimensions& size = hand.dimensions.segment[index_of(distal)];
-    const Rigid3& moved = posed.segment[index_of(distal)];
+    const hand::SegmentDimensions& size = hand.dimensions.segment[index_of(distal)];
+    const geometry::Rigid3& moved = posed.segment[index_of(distal)];
     for (const double side : kAcrossNail) {
       const Vec3 start = tip - kNailHeight * size.thickness * palmar + side * size.width * across;
       const NailLine line{moved * start, moved.rotation * along};
@@ -160,8 +162,8 @@ double nail_room_of(const Hand& hand, const Posture& posture, const std::vector<
   return room;
 }
 
-GraspDemand demand_of(const Hand& hand, const Product& product, const HeldProductState& held,
-                      const StrengthQuestion& question) {
+GraspDemand demand_of(const hand::Hand& hand, const product::Product& product,
+                      const HeldProductState& held, const StrengthQuestion& question) {
   GraspDemand demand;
   demand.range_share = range_share_of(hand, held.grasp.posture);
   demand.grip_strength = strength_needed(hand, held.contact, question, &held.balance);
@@ -170,4 +172,4 @@ GraspDemand demand_of(const Hand& hand, const Product& product, const HeldProduc
   return demand;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

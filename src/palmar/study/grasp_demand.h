@@ -6,12 +6,12 @@
 #include "palmar/study/assessment/grasp_indices.h"
 #include "palmar/study/study_record.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// Smallest share s of its ranges of motion, taken about the relaxed posture, with which the hand
 /// can take the posture: every angle lies within with_range_share(hand, s). `hand` has its whole
 /// range. Above 1 for a posture that even that hand can't take.
-double range_share_of(const Hand& hand, const Posture& posture);
+double range_share_of(const hand::Hand& hand, const hand::Posture& posture);
 
 /// Smallest grip strength of a dynamometer [N], as the measure of a person's muscles, with which a
 /// hand can hold the task's force. That is the grip force that is stated, or what friction needs to
@@ -29,15 +29,15 @@ double range_share_of(const Hand& hand, const Posture& posture);
 /// stronger ones may still fail. Infinite where no forces hold the load; 0 without load and force.
 struct StrengthQuestion {
   double friction = 0.5;  ///< of skin on the product
-  ProductLoad load;
+  contact::ProductLoad load;
   Vec3 mass_centre = Vec3::Zero();  ///< product frame, mm; unless the load has its own
-  Grip grip = Grip::kMediumWrap;
+  grasp::Grip grip = grasp::Grip::kMediumWrap;
   double stated_force = 0.0;     ///< N, grip force that the task asks for; 0: none
   double muscle_strength = 1.0;  ///< at rest, over that of HandMuscles (BalanceOptions::strength)
 };
 /// `rest`: how the grasp came to rest; nothing: it didn't.
-double strength_needed(const Hand& hand, const ContactResult& contact,
-                       const StrengthQuestion& question, const Balance* rest = nullptr);
+double strength_needed(const hand::Hand& hand, const contact::ContactResult& contact,
+                       const StrengthQuestion& question, const grasp::Balance* rest = nullptr);
 
 /// Longest nail that the posture allows [mm], at most kLongestNail: of the nails of all fingers the
 /// one with the least room. A nail is a flat strip, two thirds of the distal segment wide, that
@@ -46,12 +46,13 @@ double strength_needed(const Hand& hand, const ContactResult& contact,
 /// where pressing the pulp in has brought the product there already. Curved nails, nails that bend,
 /// and fingers that give way to them have more.
 inline constexpr double kLongestNail = 30.0;  // mm
-double nail_room_of(const Hand& hand, const Posture& posture, const std::vector<Vec3>& posed_skin,
-                    const Rigid3& product_from_hand, const Product& product);
+double nail_room_of(const hand::Hand& hand, const hand::Posture& posture,
+                    const std::vector<Vec3>& posed_skin, const geometry::Rigid3& product_from_hand,
+                    const product::Product& product);
 
 /// All three of one grasp. `hand` has its whole range of motion, even where the grasp was found
 /// with less of it.
-GraspDemand demand_of(const Hand& hand, const Product& product, const HeldProductState& held,
-                      const StrengthQuestion& question);
+GraspDemand demand_of(const hand::Hand& hand, const product::Product& product,
+                      const HeldProductState& held, const StrengthQuestion& question);
 
-}  // namespace palmar
+}  // namespace palmar::study

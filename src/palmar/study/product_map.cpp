@@ -5,17 +5,17 @@
 #include "palmar/geometry/remesh/split_edges.h"
 #include "palmar/study/study_record.h"
 
-namespace palmar {
+namespace palmar::study {
 
-TriangleMesh product_map(const TriangleMesh& product, double edge) {
-  return split_long_edges(product, edge);
+geometry::TriangleMesh product_map(const geometry::TriangleMesh& product, double edge) {
+  return geometry::split_long_edges(product, edge);
 }
 
-ProductMap product_map(const Product& product, double edge) {
-  SplitMesh split = split_with_parents(product.mesh, edge);
+ProductMap product_map(const product::Product& product, double edge) {
+  geometry::SplitMesh split = geometry::split_with_parents(product.mesh, edge);
   ProductMap map{std::move(split.mesh), std::move(split.parent), {}};
   if (product.faces == nullptr) return map;
-  check_faces(*product.faces, product.mesh.triangle_count(), product.name);
+  product::check_faces(*product.faces, product.mesh.triangle_count(), product.name);
   map.face_of_triangle.reserve(map.parent.size());
   for (const int parent : map.parent) {
     map.face_of_triangle.push_back(product.faces->face_of_triangle[parent]);
@@ -23,4 +23,4 @@ ProductMap product_map(const Product& product, double edge) {
   return map;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 constexpr double kSmallestSize = 0.05, kLargestSize = 20.0;  // factors on a product's lengths
@@ -76,12 +76,12 @@ void check_setting(const StudySetting& setting) {
 
 }  // namespace
 
-ShareOfStrength share_of_strength(const StudySetting& setting, double own) {
-  ShareOfStrength result;
-  result.share = setting.strength_share.value_or(kUsualStrengthShare);
+grasp::ShareOfStrength share_of_strength(const StudySetting& setting, double own) {
+  grasp::ShareOfStrength result;
+  result.share = setting.strength_share.value_or(grasp::kUsualStrengthShare);
   result.strength = setting.strength.value_or(own);
-  if (setting.strength && std::abs(*setting.strength - usual_grip_strength()) < 1e-9) {
-    result.whose = usual_people();
+  if (setting.strength && std::abs(*setting.strength - grasp::usual_grip_strength()) < 1e-9) {
+    result.whose = grasp::usual_people();
   }
   result.least = setting.least_grip_force;
   result.why_least = "the heaviest product by friction";
@@ -126,7 +126,7 @@ void StudyPlan::check() const {
   check_names(profiles, "profile");
   check_names(products, "product");
   check_names(settings, "setting");
-  for (const HandProfile& profile : profiles) profile.check();
+  for (const population::HandProfile& profile : profiles) profile.check();
   for (std::size_t i = 0; i < products.size(); ++i) check_product(*this, i);
   for (const StudySetting& setting : settings) check_setting(setting);
   for (const StudyHand& hand : hands) {
@@ -204,4 +204,4 @@ std::vector<std::int64_t> tasks_of(const StudyPlan& plan, StudyShard shard) {
   return tasks;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

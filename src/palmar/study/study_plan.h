@@ -16,18 +16,18 @@
 #include "palmar/population/population.h"
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// One population with how its hands are drawn.
 struct StudyPopulation {
-  Population population;
-  SamplingOptions sampling;
+  population::Population population;
+  population::SamplingOptions sampling;
 };
 
 /// One hand of a study.
 struct StudyHand {
   int population = 0;  ///< index into StudyPlan::populations
-  HandSample sample;
+  population::HandSample sample;
 };
 
 /// One product of a study, in one size.
@@ -40,7 +40,7 @@ struct StudyProduct {
   std::string content_hash;      ///< SHA-256 of mesh in mm, hex
   std::string unit = "mm";       ///< of the file, as it was settled
   std::optional<Vec3> at, axis;  ///< where it is held, product frame, mm (before `size`)
-  HoldRequest holding;           ///< by which part and how; excludes `at` and `axis`
+  grasp::HoldRequest holding;    ///< by which part and how; excludes `at` and `axis`
   double mass = 0.0;             ///< kg; 0: no load
   /// Name of the product of the same study and size whose grasp at rest is kept, posture and
   /// placement as they are (Xie 2014, 5.5.3: prisms with two fillets in one posture); TOML
@@ -63,7 +63,7 @@ struct StudySetting {
   double friction = 0.5;
   /// Whether a grasp comes to rest; if not, it stays as the hand was closed (Xie 2014).
   bool is_balanced = true;
-  ContactModel model = palmar_model();
+  contact::ContactModel model = contact::palmar_model();
   bool indices = true;
   /// Whether the indices have the volume of the wrench space, too: a tenth of a study's time.
   bool wrench_volume = false;
@@ -83,17 +83,17 @@ struct StudyLimit {
 };
 
 /// What the setting's strength share is of: its strength, or `own` [N] of the person.
-ShareOfStrength share_of_strength(const StudySetting& setting, double own);
+grasp::ShareOfStrength share_of_strength(const StudySetting& setting, double own);
 
 /// Everything a study runs: populations x profiles x products x grips x settings.
 struct StudyPlan {
   std::string name, title;
   std::uint64_t seed = 1;
   std::vector<StudyPopulation> populations;
-  std::vector<HandProfile> profiles;  ///< at least "none"
-  std::vector<StudyHand> hands;       ///< all populations, drawn
+  std::vector<population::HandProfile> profiles;  ///< at least "none"
+  std::vector<StudyHand> hands;                   ///< all populations, drawn
   std::vector<StudyProduct> products;
-  std::vector<std::optional<Grip>> grips;  ///< nothing: the power grip that suits the shape
+  std::vector<std::optional<grasp::Grip>> grips;  ///< nothing: the power grip that suits the shape
   std::vector<StudySetting> settings;
   std::vector<StudyLimit> limits;
   std::string hand_hash;  ///< of the hand that is scaled
@@ -124,4 +124,4 @@ std::string name_of(StudyShard shard);  ///< "2/4"
 /// Numbers of its tasks, ascending. Throws UsageError if there are more shards than hands.
 std::vector<std::int64_t> tasks_of(const StudyPlan& plan, StudyShard shard = {});
 
-}  // namespace palmar
+}  // namespace palmar::study

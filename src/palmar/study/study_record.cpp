@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/study/study_record.h"
 
-namespace palmar {
+namespace palmar::study {
 
 std::string name_of(StudyOutcome outcome) {
   switch (outcome) {
@@ -25,10 +25,10 @@ std::string name_of(StudyOutcome outcome) {
 }
 
 bool is_same(const StudyHold& a, const StudyHold& b) {
-  const Hold &x = a.hold, &y = b.hold;
+  const grasp::Hold &x = a.hold, &y = b.hold;
   return x.part == y.part && x.grip == y.grip && x.along == y.along && x.edge == y.edge &&
          x.toward == y.toward && x.turn == y.turn && x.is_over_end == y.is_over_end &&
          a.words == b.words;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

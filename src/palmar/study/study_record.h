@@ -11,7 +11,7 @@
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/study/study_plan.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// A field on the vertices of a mesh that is 0 almost everywhere.
 struct SparseField {
@@ -31,7 +31,7 @@ enum class StudyOutcome {
 std::string name_of(StudyOutcome outcome);  ///< "held", "slips_out", ...
 
 struct RegionRecord {
-  Region region{};
+  hand::Region region{};
   double force = 0.0;                ///< N
   double area = 0.0;                 ///< mm^2
   double peak_pressure = 0.0;        ///< MPa
@@ -46,9 +46,9 @@ struct IndexRecord {
 
 /// By which part of the product a hand holds it, and how.
 struct StudyHold {
-  Hold hold;                     ///< without its fingertips
-  std::optional<PartKind> kind;  ///< of the part
-  std::string words;             ///< "medium wrap of the handle, 40 % along it"
+  grasp::Hold hold;                       ///< without its fingertips
+  std::optional<product::PartKind> kind;  ///< of the part
+  std::string words;                      ///< "medium wrap of the handle, 40 % along it"
 };
 bool is_same(const StudyHold& a, const StudyHold& b);
 
@@ -64,7 +64,7 @@ struct StudyRecord {
   std::int64_t number = 0;  ///< of the task
   StudyOutcome outcome = StudyOutcome::kFailed;
   std::string reason;  ///< empty if held
-  Grip grip = Grip::kMediumWrap;
+  grasp::Grip grip = grasp::Grip::kMediumWrap;
   bool is_balanced = false;
   std::optional<StudyHold> hold;  ///< nothing: placed by coordinates, or of an older study
   // Of the whole hand; 0 without contact.
@@ -77,24 +77,24 @@ struct StudyRecord {
   GraspDemand demand;
   std::vector<RegionRecord> regions;  ///< in contact, ascending
   std::vector<IndexRecord> indices;   ///< those with a value
-  Posture posture;
-  Rigid3 product_from_hand;
-  ContactFallbacks fallbacks;    ///< on the way to rest and of the contact in the end
-  SparseField skin_pressure;     ///< MPa, per vertex of the hand's skin
-  SparseField product_pressure;  ///< MPa, per vertex of the product's map (product_map())
-  double seconds = 0.0;          ///< spent; not a result
+  hand::Posture posture;
+  geometry::Rigid3 product_from_hand;
+  contact::ContactFallbacks fallbacks;  ///< on the way to rest and of the contact in the end
+  SparseField skin_pressure;            ///< MPa, per vertex of the hand's skin
+  SparseField product_pressure;         ///< MPa, per vertex of the product's map (product_map())
+  double seconds = 0.0;                 ///< spent; not a result
 };
 
 /// The mesh on which a product's pressure maps are kept: its own, split until no edge is longer
 /// than `edge` mm. The same for all hands.
-TriangleMesh product_map(const TriangleMesh& product, double edge = 3.0);
+geometry::TriangleMesh product_map(const geometry::TriangleMesh& product, double edge = 3.0);
 
 /// That mesh, and what its triangles are of the product.
 struct ProductMap {
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   std::vector<int> parent;            ///< per triangle: the product's triangle it is a part of
   std::vector<int> face_of_triangle;  ///< index into Product::faces; empty if it has none
 };
-ProductMap product_map(const Product& product, double edge = 3.0);
+ProductMap product_map(const product::Product& product, double edge = 3.0);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -14,7 +14,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/study/study_task.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 struct HandTasks {
@@ -112,4 +112,4 @@ void run_study(StudyBench& bench, const StudyPlan& plan, const StudyRunOptions& 
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -15,18 +15,18 @@
 #include "palmar/study/study_plan.h"
 #include "palmar/study/study_record.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// What a study needs beside its plan.
 struct StudyInputs {
-  std::shared_ptr<const Hand> base;  ///< the hand that is scaled
-  std::vector<Product> products;     ///< as StudyPlan::products, mm, `size` applied
+  std::shared_ptr<const hand::Hand> base;  ///< the hand that is scaled
+  std::vector<product::Product> products;  ///< as StudyPlan::products, mm, `size` applied
   /// Of `base`, for plans with tissue on bone (skin_compliance.h); none: made when needed.
-  std::shared_ptr<const SkinCompliance> compliance = nullptr;
+  std::shared_ptr<const contact::SkinCompliance> compliance = nullptr;
   /// Of `base`, for settings with its model; none: made when needed.
-  std::shared_ptr<const HandFamily> family = nullptr;
+  std::shared_ptr<const contact::HandFamily> family = nullptr;
   /// As `products`: their parts, where they are known; null or too few: found when needed.
-  std::vector<std::shared_ptr<const ProductParts>> parts = {};
+  std::vector<std::shared_ptr<const product::ProductParts>> parts = {};
 };
 
 /// What a record has.
@@ -52,4 +52,4 @@ void run_study(const StudyPlan& plan, const StudyInputs& inputs, const StudyRunO
 void run_study(StudyBench& bench, const StudyPlan& plan, const StudyRunOptions& options,
                const std::function<void(const StudyRecord&)>& keep, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::study

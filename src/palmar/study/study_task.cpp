@@ -28,7 +28,7 @@
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/study/grasp_demand.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 constexpr double kGravity = 9.80665;        // m/s^2; standard gravity
@@ -48,37 +48,39 @@ struct Failure {
 
 /// A grasp at rest, to be evaluated.
 struct HeldGrasp {
-  Grasp grasp;
-  Balance balance;
+  grasp::Grasp grasp;
+  grasp::Balance balance;
 };
 
 StudyOutcome outcome_of(const HeldGrasp& held) {
   switch (held.grasp.status) {
-    case GraspStatus::kTooLarge:
+    case grasp::GraspStatus::kTooLarge:
       return StudyOutcome::kTooLarge;
-    case GraspStatus::kTooSmall:
+    case grasp::GraspStatus::kTooSmall:
       return StudyOutcome::kTooSmall;
-    case GraspStatus::kNotGraspable:
+    case grasp::GraspStatus::kNotGraspable:
       return StudyOutcome::kNotGraspable;
-    case GraspStatus::kHeld:
-    case GraspStatus::kPartlyHeld:
+    case grasp::GraspStatus::kHeld:
+    case grasp::GraspStatus::kPartlyHeld:
       break;
   }
-  if (held.balance.status == BalanceStatus::kSlipsOut) return StudyOutcome::kSlipsOut;
-  return held.grasp.status == GraspStatus::kHeld ? StudyOutcome::kHeld : StudyOutcome::kPartlyHeld;
+  if (held.balance.status == grasp::BalanceStatus::kSlipsOut) return StudyOutcome::kSlipsOut;
+  return held.grasp.status == grasp::GraspStatus::kHeld ? StudyOutcome::kHeld
+                                                        : StudyOutcome::kPartlyHeld;
 }
 
-bool is_held(const Grasp& grasp) {
-  return grasp.status == GraspStatus::kHeld || grasp.status == GraspStatus::kPartlyHeld;
+bool is_held(const grasp::Grasp& grasp) {
+  return grasp.status == grasp::GraspStatus::kHeld ||
+         grasp.status == grasp::GraspStatus::kPartlyHeld;
 }
 
-void take_contact(const ContactResult& contact, StudyRecord& record) {
+void take_contact(const contact::ContactResult& contact, StudyRecord& record) {
   record.force = contact.total.force;
   record.area = contact.total.area;
   record.peak_pressure = contact.total.peak_pressure;
   record.peak_pressure_cells = contact.total.peak_pressure_cells;
   record.mean_pressure = contact.total.mean_pressure;
-  for (const RegionContact& region : contact.regions) {
+  for (const contact::RegionContact& region : contact.regions) {
     record.regions.push_back({.region = region.region,
                               .force = region.force,
                               .area = region.area,
@@ -101,16 +103,17 @@ bool is_finite(const StudyRecord& record) {
 
 namespace {
 
-std::shared_ptr<const Hand> with_range_of(const std::shared_ptr<const Hand>& hand,
-                                          const HandProfile& profile) {
+std::shared_ptr<const hand::Hand> with_range_of(const std::shared_ptr<const hand::Hand>& hand,
+                                                const population::HandProfile& profile) {
   if (profile.range_share == 1.0) return hand;
-  return std::make_shared<const Hand>(with_range_share(*hand, profile.range_share));
+  return std::make_shared<const hand::Hand>(
+      population::with_range_share(*hand, profile.range_share));
 }
 
 }  // namespace
 
 struct StudyBench::Impl {
-  static const Hand& base_of(const StudyInputs& inputs) {
+  static const hand::Hand& base_of(const StudyInputs& inputs) {
     if (inputs.base == nullptr) throw UsageError("study: has no hand to scale");
     return *inputs.base;
   }
@@ -122,19 +125,19 @@ struct StudyBench::Impl {
                                    inputs.products.size(), plan.products.size()));
     }
     const bool has_maps = detail == StudyDetail::kAll;
-    for (const Product& product : inputs.products) {
+    for (const product::Product& product : inputs.products) {
       if (has_maps) maps.push_back(product_map(product.mesh));
     }
-    for (const HandProfile& profile : plan.profiles) {
-      std::vector<Product> as_touched;
-      std::vector<TriangleMesh> touched_maps;
+    for (const population::HandProfile& profile : plan.profiles) {
+      std::vector<product::Product> as_touched;
+      std::vector<geometry::TriangleMesh> touched_maps;
       if (profile.glove_thickness > 0.0) {
         for (std::size_t i = 0; i < inputs.products.size(); ++i) {
-          as_touched.push_back(gloved(inputs.products[i], profile.glove_thickness));
+          as_touched.push_back(product::gloved(inputs.products[i], profile.glove_thickness));
           if (!has_maps) continue;
-          Product map = inputs.products[i];
+          product::Product map = inputs.products[i];
           map.mesh = maps[i];
-          touched_maps.push_back(gloved(map, profile.glove_thickness).mesh);
+          touched_maps.push_back(product::gloved(map, profile.glove_thickness).mesh);
         }
       }
       gloved_products.push_back(std::move(as_touched));
@@ -150,24 +153,25 @@ struct StudyBench::Impl {
   }
 
   /// A person's hand under a profile, with its whole range of motion.
-  std::shared_ptr<const Hand> make_hand(const HandSample& person,
-                                        const HandProfile& profile) const {
-    return std::make_shared<const Hand>(maker.make(with_profile(person, profile).dimensions).hand);
+  std::shared_ptr<const hand::Hand> make_hand(const population::HandSample& person,
+                                              const population::HandProfile& profile) const {
+    return std::make_shared<const hand::Hand>(
+        maker.make(population::with_profile(person, profile).dimensions).hand);
   }
   /// The product for the skin: inside a glove it is thicker.
-  const Product& product_for(int profile, int product) const {
+  const product::Product& product_for(int profile, int product) const {
     const auto& in_glove = gloved_products[profile];
     return (in_glove.empty() ? inputs.products : in_glove)[product];
   }
-  const TriangleMesh& map_for(int profile, int product) const {
+  const geometry::TriangleMesh& map_for(int profile, int product) const {
     const auto& in_glove = gloved_maps[profile];
     return (in_glove.empty() ? maps : in_glove)[product];
   }
 
-  GraspOptions grasp_options(const StudyTask& task) const {
+  grasp::GraspOptions grasp_options(const StudyTask& task) const {
     const StudyProduct& product = plan.products[task.product];
     const StudySetting& setting = plan.settings[task.setting];
-    GraspOptions options;
+    grasp::GraspOptions options;
     options.grip = plan.grips[task.grip];
     options.power.palm_limit_depth = setting.palm_limit_depth;
     options.power.finger_limit_depth = setting.finger_limit_depth;
@@ -186,16 +190,17 @@ struct StudyBench::Impl {
   const StudyPlan& plan;
   const StudyInputs& inputs;
   StudyDetail detail;
-  std::vector<TriangleMesh> maps;  ///< with StudyDetail::kAll
+  std::vector<geometry::TriangleMesh> maps;  ///< with StudyDetail::kAll
   // By profile and product; empty for a bare hand.
-  std::vector<std::vector<Product>> gloved_products;
-  std::vector<std::vector<TriangleMesh>> gloved_maps;
+  std::vector<std::vector<product::Product>> gloved_products;
+  std::vector<std::vector<geometry::TriangleMesh>> gloved_maps;
   std::vector<std::optional<std::size_t>> posture_source;  ///< product whose posture one keeps
-  HandInstanceMaker maker;
+  hand::HandInstanceMaker maker;
   /// What hands of one mesh share when they are prepared, by equations.
-  std::vector<std::pair<ContactModel, std::shared_ptr<const HandFamily>>> families;
+  std::vector<std::pair<contact::ContactModel, std::shared_ptr<const contact::HandFamily>>>
+      families;
 
-  const HandFamily* family_of(const ContactModel& model) const {
+  const contact::HandFamily* family_of(const contact::ContactModel& model) const {
     for (const auto& [known, family] : families) {
       if (known == model) return family.get();
     }
@@ -204,12 +209,12 @@ struct StudyBench::Impl {
 
   /// Where the mean hand holds a product, or why that can't be said.
   struct Place {
-    std::unique_ptr<const GraspPlace> place;
+    std::unique_ptr<const grasp::GraspPlace> place;
     std::string failure;
   };
-  std::vector<std::shared_ptr<const Hand>> mean_hands;  ///< by profile; null: not needed
-  std::vector<std::string> mean_failures;               ///< by profile
-  std::map<StudyTask, Place> places;                    ///< by task, of hand 0
+  std::vector<std::shared_ptr<const hand::Hand>> mean_hands;  ///< by profile; null: not needed
+  std::vector<std::string> mean_failures;                     ///< by profile
+  std::map<StudyTask, Place> places;                          ///< by task, of hand 0
 
   /// The task that stands for all hands.
   StudyTask place_key(StudyTask task) const {
@@ -233,7 +238,7 @@ class StudySubject {
     try {
       whole_range_ = bench.make_hand(sample_, profile_);
       hand_ = with_range_of(whole_range_, profile_);
-      grasping_ = std::make_unique<const GraspingHand>(hand_);
+      grasping_ = std::make_unique<const grasp::GraspingHand>(hand_);
     } catch (const Error& error) {
       failure_ = std::string("the hand can't be made: ") + error.what();
     }
@@ -243,8 +248,8 @@ class StudySubject {
     if (!failure_.empty()) throw Failure{failure_};
     const StudySetting& setting = bench_.plan.settings[task.setting];
     const int product_index = task.product;
-    const Product& product = bench_.product_for(task.profile, task.product);
-    const PreparedHand& prepared = prepared_for(setting.model);
+    const product::Product& product = bench_.product_for(task.profile, task.product);
+    const contact::PreparedHand& prepared = prepared_for(setting.model);
 
     AssessOptions options = options_of(task, setting);
     HeldGrasp held;
@@ -266,44 +271,45 @@ class StudySubject {
     }
     record.posture = held.grasp.posture;
     record.product_from_hand = held.grasp.product_from_hand;
-    record.is_balanced = held.balance.status == BalanceStatus::kBalanced ||
-                         held.balance.status == BalanceStatus::kSupported;
+    record.is_balanced = held.balance.status == grasp::BalanceStatus::kBalanced ||
+                         held.balance.status == grasp::BalanceStatus::kSupported;
     if (record.outcome != StudyOutcome::kHeld) record.reason = held.grasp.message;
     if (!is_held(held.grasp)) return record;
     if (options.balance.is_on && !record.is_balanced) record.reason = held.balance.message;
 
     const Assessment assessment =
         evaluate(prepared, product, held.grasp, options, progress, held.balance);
-    const ContactResult& contact = assessment.contact;
-    if (contact.status == ContactStatus::kNotConverged) {
+    const contact::ContactResult& contact = assessment.contact;
+    if (contact.status == contact::ContactStatus::kNotConverged) {
       throw Failure{"contact: " + contact.message};
     }
     take_contact(contact, record);
     record.fallbacks = held.balance.fallbacks;
     record.fallbacks += contact.fallbacks;
     if (contact.total.force > 0.0) {
-      record.grip_force = grip_force(contact, *product.distance).force;
+      record.grip_force = grasp::grip_force(contact, *product.distance).force;
     }
     const bool has_fields = bench_.detail == StudyDetail::kAll;
     if (has_fields) record.skin_pressure = sparse(contact.pressure);
     if (has_fields && contact.total.force > 0.0) {
-      const TriangleMesh& map = bench_.map_for(task.profile, task.product);
-      record.product_pressure = sparse(
-          map_to_product(contact.refined ? *contact.refined->hand : prepared.hand(),
-                         contact.refined ? contact.refined->contact : contact, map, kWholeTriangles)
-              .pressure);
+      const geometry::TriangleMesh& map = bench_.map_for(task.profile, task.product);
+      record.product_pressure =
+          sparse(contact::map_to_product(contact.refined ? *contact.refined->hand : prepared.hand(),
+                                         contact.refined ? contact.refined->contact : contact, map,
+                                         kWholeTriangles)
+                     .pressure);
     }
     if (contact.total.force > 0.0) {
       record.demand = demand_of(*whole_range_, product,
                                 {held.grasp, held.balance, contact, assessment.posed_skin},
                                 {.friction = setting.friction,
                                  .load = options.balance.load,
-                                 .mass_centre = centre_of_volume(product.mesh),
+                                 .mass_centre = geometry::centre_of_volume(product.mesh),
                                  .grip = record.grip,
                                  .stated_force = setting.grip_force.value_or(0.0),
                                  .muscle_strength = options.balance.strength});
     }
-    for (const GraspIndex& index : assessment.indices) {
+    for (const grasp::GraspIndex& index : assessment.indices) {
       if (index.value && std::isfinite(*index.value)) {
         record.indices.push_back({index.key, *index.value});
       }
@@ -313,14 +319,14 @@ class StudySubject {
   }
 
  private:
-  const PreparedHand& prepared_for(const ContactModel& model) {
+  const contact::PreparedHand& prepared_for(const contact::ContactModel& model) {
     for (const auto& [known, prepared] : prepared_) {
       if (known == model) return *prepared;
     }
-    const HandFamily* family = bench_.family_of(model);
-    prepared_.emplace_back(model, family != nullptr
-                                      ? std::make_unique<const PreparedHand>(hand_, *family)
-                                      : std::make_unique<const PreparedHand>(hand_, model));
+    const contact::HandFamily* family = bench_.family_of(model);
+    prepared_.emplace_back(
+        model, family != nullptr ? std::make_unique<const contact::PreparedHand>(hand_, *family)
+                                 : std::make_unique<const contact::PreparedHand>(hand_, model));
     return *prepared_.back().second;
   }
 
@@ -336,7 +342,7 @@ class StudySubject {
     options.contact.refine = setting.refine;
 
     if (profile_.glove_thickness > 0.0) {
-      Coating glove;
+      contact::Coating glove;
       glove.thickness = profile_.glove_thickness;
       glove.shear_modulus = profile_.glove_shear_modulus;
       options.contact.coatings.push_back(glove);
@@ -350,38 +356,38 @@ class StudySubject {
     // afterwards, alike for all profiles (exclusion.h).
     if (sample_.grip_strength > 0.0) {
       options.balance.strength =
-          std::clamp(sample_.grip_strength / usual_grip_strength(), 0.01, 10.0);
+          std::clamp(sample_.grip_strength / grasp::usual_grip_strength(), 0.01, 10.0);
     }
     if (setting.strength_share) {
       if (!setting.strength && !(sample_.grip_strength > 0.0)) {
         throw Failure{"a share of the grip strength is requested, but the person's isn't known"};
       }
       options.balance.share_of_strength =
-          share_of_strength(setting, with_profile(sample_, profile_).grip_strength);
+          share_of_strength(setting, population::with_profile(sample_, profile_).grip_strength);
     }
     return options;
   }
 
   /// The grasp of a task that doesn't keep another one's posture, come to rest. Kept where another
   /// product wants the same posture.
-  HeldGrasp at_rest(const PreparedHand& prepared, const StudyTask& task,
+  HeldGrasp at_rest(const contact::PreparedHand& prepared, const StudyTask& task,
                     const AssessOptions& options, const Progress& progress) {
     const auto known = at_rest_.find(task);
     if (known != at_rest_.end()) return known->second;
     const auto index = static_cast<std::size_t>(task.product);
-    const Product& product = bench_.product_for(task.profile, task.product);
+    const product::Product& product = bench_.product_for(task.profile, task.product);
     HeldGrasp held;
     if (bench_.plan.settings[task.setting].is_place_per_hand) {
-      held.grasp = find_grasp(prepared.hand(), product, options.grasp, progress);
+      held.grasp = grasp::find_grasp(prepared.hand(), product, options.grasp, progress);
     } else {
       const StudyBench::Impl::Place& place = bench_.places.at(bench_.place_key(task));
       if (place.place == nullptr) throw Failure{place.failure};
       held.grasp = place.place->hold(*grasping_, progress);
     }
     if (is_held(held.grasp)) {
-      held.balance =
-          balance_grasp(prepared, product, held.grasp, options.balance, options.contact, progress);
-      if (held.balance.status == BalanceStatus::kSlipsOut) {
+      held.balance = grasp::balance_grasp(prepared, product, held.grasp, options.balance,
+                                          options.contact, progress);
+      if (held.balance.status == grasp::BalanceStatus::kSlipsOut) {
         held.grasp.message += "; but it " + held.balance.message;
       }
     }
@@ -392,12 +398,13 @@ class StudySubject {
   }
 
   const StudyBench::Impl& bench_;
-  const HandSample& sample_;
-  const HandProfile& profile_;
-  std::shared_ptr<const Hand> whole_range_, hand_;
-  std::unique_ptr<const GraspingHand> grasping_;
+  const population::HandSample& sample_;
+  const population::HandProfile& profile_;
+  std::shared_ptr<const hand::Hand> whole_range_, hand_;
+  std::unique_ptr<const grasp::GraspingHand> grasping_;
   std::string failure_;
-  std::vector<std::pair<ContactModel, std::unique_ptr<const PreparedHand>>> prepared_;
+  std::vector<std::pair<contact::ContactModel, std::unique_ptr<const contact::PreparedHand>>>
+      prepared_;
   std::map<StudyTask, HeldGrasp> at_rest_;
 };
 
@@ -416,8 +423,8 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
     bench.families.emplace_back(
         setting.model, known != nullptr && known->model() == setting.model
                            ? known
-                           : std::make_shared<const HandFamily>(bench.inputs.base, setting.model,
-                                                                bench.inputs.compliance));
+                           : std::make_shared<const contact::HandFamily>(
+                                 bench.inputs.base, setting.model, bench.inputs.compliance));
   }
   const std::size_t profiles = bench.plan.profiles.size();
   std::vector<bool> is_needed(profiles, false);
@@ -429,12 +436,12 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
   }
   bench.mean_hands.resize(profiles);
   bench.mean_failures.resize(profiles);
-  HandSample mean;
+  population::HandSample mean;
   mean.dimensions = mean_dimensions(bench.plan);
   parallel_for(static_cast<int>(profiles), [&](int p) {
     if (!is_needed[p] || bench.mean_hands[p] != nullptr) return;
     try {
-      const HandProfile& asked = bench.plan.profiles[p];
+      const population::HandProfile& asked = bench.plan.profiles[p];
       bench.mean_hands[p] = with_range_of(bench.make_hand(mean, asked), asked);
     } catch (const Error& error) {
       bench.mean_failures[p] = std::string("the mean hand can't be made: ") + error.what();
@@ -453,7 +460,7 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
     }
     run_isolated([&, &key = task, &found = place] {
       try {
-        found.place = std::make_unique<const GraspPlace>(
+        found.place = std::make_unique<const grasp::GraspPlace>(
             *bench.mean_hands[profile], bench.product_for(key.profile, key.product),
             bench.grasp_options(key), progress);
       } catch (const Cancelled&) {
@@ -499,16 +506,16 @@ void StudyBench::run_hand(int hand, std::span<const std::int64_t> tasks,
   }
 }
 
-std::vector<SizedDimension> mean_dimensions(const StudyPlan& plan) {
-  std::map<HandDimension, std::pair<double, std::size_t>> sums;
+std::vector<hand::SizedDimension> mean_dimensions(const StudyPlan& plan) {
+  std::map<hand::HandDimension, std::pair<double, std::size_t>> sums;
   for (const StudyHand& hand : plan.hands) {
-    for (const SizedDimension& one : hand.sample.dimensions) {
+    for (const hand::SizedDimension& one : hand.sample.dimensions) {
       auto& [sum, count] = sums[one.dimension];
       sum += one.value;
       ++count;
     }
   }
-  std::vector<SizedDimension> means;
+  std::vector<hand::SizedDimension> means;
   for (const auto& [dimension, total] : sums) {
     if (total.second != plan.hands.size()) continue;
     means.push_back({dimension, total.first / static_cast<double>(total.second)});
@@ -539,4 +546,4 @@ std::vector<double> dense(const SparseField& field, std::size_t size) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

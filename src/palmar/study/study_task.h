@@ -13,7 +13,7 @@
 #include "palmar/study/study_record.h"
 #include "palmar/study/study_run.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// What all grasps of a study share: the maps on the products, and where each product is held,
 /// found on the study's mean hand (StudySetting::is_place_per_hand). May be used from many threads.
@@ -43,11 +43,11 @@ class StudyBench {
 };
 
 /// The study's mean hand: every dimension that all hands have, at its mean over them.
-std::vector<SizedDimension> mean_dimensions(const StudyPlan& plan);
+std::vector<hand::SizedDimension> mean_dimensions(const StudyPlan& plan);
 
 /// A field of a mesh without its zeros, in single precision.
 SparseField sparse(const std::vector<double>& field);
 /// With zeros, `size` values long.
 std::vector<double> dense(const SparseField& field, std::size_t size);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -16,7 +16,7 @@
 #include "palmar/product/primitives.h"
 #include "palmar/validation/validation_cases.h"
 
-namespace palmar {
+namespace palmar::validation {
 namespace {
 
 struct CaseEntry {
@@ -166,67 +166,69 @@ void set_history(ValidationRows& rows, const std::string& added_in, const std::s
   }
 }
 
-ContactModel independent_model() {
-  ContactModel model;
-  model.coupling = RegionCoupling::kIndependent;
+contact::ContactModel independent_model() {
+  contact::ContactModel model;
+  model.coupling = contact::RegionCoupling::kIndependent;
   return model;
 }
 
-ContactModel layered_model() {
-  ContactModel model;
-  model.tissue = TissueModel::kLayered;
+contact::ContactModel layered_model() {
+  contact::ContactModel model;
+  model.tissue = contact::TissueModel::kLayered;
   return model;
 }
 
-ValidationBench::ValidationBench(std::shared_ptr<const Hand> hand,
-                                 std::shared_ptr<const SkinCompliance> compliance,
+ValidationBench::ValidationBench(std::shared_ptr<const hand::Hand> hand,
+                                 std::shared_ptr<const contact::SkinCompliance> compliance,
                                  Progress progress)
     : hand_(std::move(hand)), compliance_(std::move(compliance)), progress_(std::move(progress)) {
   if (!hand_) throw UsageError("validate: no hand was given");
 }
 
-const PreparedHand& ValidationBench::prepared(const ContactModel& model) {
-  std::unique_ptr<PreparedHand>& slot = prepared_[name_of(model)];
+const contact::PreparedHand& ValidationBench::prepared(const contact::ContactModel& model) {
+  std::unique_ptr<contact::PreparedHand>& slot = prepared_[name_of(model)];
   if (slot) return *slot;
-  const bool is_on_bone = model.tissue == TissueModel::kBone;
-  slot = std::make_unique<PreparedHand>(hand_, model, is_on_bone ? compliance() : nullptr);
+  const bool is_on_bone = model.tissue == contact::TissueModel::kBone;
+  slot = std::make_unique<contact::PreparedHand>(hand_, model, is_on_bone ? compliance() : nullptr);
   return *slot;
 }
 
 const HeldCylinder& ValidationBench::cylinder(double diameter) {
   std::unique_ptr<HeldCylinder>& slot = cylinders_[diameter];
   if (!slot) {
-    CylinderProductOptions options;
+    product::CylinderProductOptions options;
     options.diameter = diameter;
     options.length = 160.0;
     auto held = std::make_unique<HeldCylinder>();
-    held->product = make_cylinder_product(options);
-    held->grasp = close_power_grasp(*hand_, held->product);
-    held->balance = balance_grasp(prepared(palmar_model()), held->product, held->grasp);
-    held->posed_skin = pose_skin(*hand_, held->grasp.posture);
+    held->product = product::make_cylinder_product(options);
+    held->grasp = grasp::close_power_grasp(*hand_, held->product);
+    held->balance =
+        grasp::balance_grasp(prepared(contact::palmar_model()), held->product, held->grasp);
+    held->posed_skin = hand::pose_skin(*hand_, held->grasp.posture);
     slot = std::move(held);
   }
   return *slot;
 }
 
-std::shared_ptr<const SkinCompliance> ValidationBench::compliance() {
+std::shared_ptr<const contact::SkinCompliance> ValidationBench::compliance() {
   if (!compliance_) {
-    compliance_ =
-        std::make_shared<const SkinCompliance>(skin_compliance(*hand_, skin_geometry(hand_->skin)));
+    compliance_ = std::make_shared<const contact::SkinCompliance>(
+        contact::skin_compliance(*hand_, contact::skin_geometry(hand_->skin)));
   }
   return compliance_;
 }
 
-ContactResult ValidationBench::contact(const HeldCylinder& held, const ContactModel& model) {
-  return solve_hand_contact(prepared(model), held.posed_skin, held.grasp.product_from_hand,
-                            *held.product.distance);
+contact::ContactResult ValidationBench::contact(const HeldCylinder& held,
+                                                const contact::ContactModel& model) {
+  return contact::solve_hand_contact(prepared(model), held.posed_skin, held.grasp.product_from_hand,
+                                     *held.product.distance);
 }
 
 void ValidationBench::update(double share, const std::string& activity) const {
   progress_.update(case_begin + share * (case_end - case_begin), activity);
 }
 
-ValidationReport validate(std::shared_ptr<const Hand> hand, const ValidationOptions& options,
+ValidationReport validate(std::shared_ptr<const hand::Hand> hand, const ValidationOptions& options,
                           const Progress& progress) {
   options.check();
   ValidationBench bench(std::move(hand), options.compliance, progress);
@@ -259,4 +261,4 @@ ValidationReport validate(std::shared_ptr<const Hand> hand, const ValidationOpti
   return report;
 }
 
-}  // namespace palmar
+}  // namespace palmar::validation

@@ -11,7 +11,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::validation {
 
 enum class Verdict {
   kMet,
@@ -76,7 +76,7 @@ struct ValidationReport {
 
 struct ValidationOptions {
   /// Of the hand (skin_compliance.h); none: made when first needed.
-  std::shared_ptr<const SkinCompliance> compliance = nullptr;
+  std::shared_ptr<const contact::SkinCompliance> compliance = nullptr;
   std::vector<std::string> cases;  ///< ids; empty: all
   bool quick = false;              ///< without those that take longer than some seconds
   void check() const;              ///< throws UsageError: an id that is not known
@@ -91,12 +91,12 @@ std::vector<ValidationCaseName> validation_cases();
 
 /// Holds the simulator against closed forms, laws and published figures; nothing is read but the
 /// hand. Throws UsageError, NumericalError (a case without a solution), Cancelled.
-ValidationReport validate(std::shared_ptr<const Hand> hand, const ValidationOptions& options = {},
-                          const Progress& progress = {});
+ValidationReport validate(std::shared_ptr<const hand::Hand> hand,
+                          const ValidationOptions& options = {}, const Progress& progress = {});
 
 /// The report as a table in Markdown, without times, so that it changes only with its figures.
 std::string validation_markdown(const ValidationReport& report);
 /// The same for a terminal, with times.
 std::string validation_text(const ValidationReport& report);
 
-}  // namespace palmar
+}  // namespace palmar::validation

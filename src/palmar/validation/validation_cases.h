@@ -14,13 +14,13 @@
 #include "palmar/product/product.h"
 #include "palmar/validation/validation.h"
 
-namespace palmar {
+namespace palmar::validation {
 
 /// A cylinder in the template's power grasp, at rest.
 struct HeldCylinder {
-  Product product;
-  Grasp grasp;
-  Balance balance;
+  product::Product product;
+  grasp::Grasp grasp;
+  grasp::Balance balance;
   std::vector<Vec3> posed_skin;  ///< hand frame, mm
 };
 
@@ -28,27 +28,27 @@ struct HeldCylinder {
 class ValidationBench {
  public:
   /// `compliance` of the hand's skin; none: made when first needed.
-  ValidationBench(std::shared_ptr<const Hand> hand,
-                  std::shared_ptr<const SkinCompliance> compliance, Progress progress);
+  ValidationBench(std::shared_ptr<const hand::Hand> hand,
+                  std::shared_ptr<const contact::SkinCompliance> compliance, Progress progress);
 
-  const Hand& hand() const { return *hand_; }
-  const PreparedHand& prepared(const ContactModel& model);
-  std::shared_ptr<const SkinCompliance> compliance();
+  const hand::Hand& hand() const { return *hand_; }
+  const contact::PreparedHand& prepared(const contact::ContactModel& model);
+  std::shared_ptr<const contact::SkinCompliance> compliance();
   const HeldCylinder& cylinder(double diameter);
-  ContactResult contact(const HeldCylinder& held, const ContactModel& model);
+  contact::ContactResult contact(const HeldCylinder& held, const contact::ContactModel& model);
 
   /// Of the case that runs: share done of it.
   void update(double share, const std::string& activity) const;
   double case_begin = 0.0, case_end = 1.0;  ///< share of the whole run
 
-  std::shared_ptr<const Hand> shared_hand() const { return hand_; }
+  std::shared_ptr<const hand::Hand> shared_hand() const { return hand_; }
   const Progress& progress() const { return progress_; }
 
  private:
-  std::shared_ptr<const Hand> hand_;
-  std::shared_ptr<const SkinCompliance> compliance_;
+  std::shared_ptr<const hand::Hand> hand_;
+  std::shared_ptr<const contact::SkinCompliance> compliance_;
   Progress progress_;
-  std::map<std::string, std::unique_ptr<PreparedHand>> prepared_;
+  std::map<std::string, std::unique_ptr<contact::PreparedHand>> prepared_;
   std::map<double, std::unique_ptr<HeldCylinder>> cylinders_;
 };
 
@@ -59,9 +59,9 @@ void set_history(ValidationRows& rows, const std::string& added_in,
                  const std::string& chosen_in = "");
 
 /// The half-space with one region at a time.
-ContactModel independent_model();
+contact::ContactModel independent_model();
 /// The half-space with bone under the skin.
-ContactModel layered_model();
+contact::ContactModel layered_model();
 
 // validation_press.cpp
 ValidationRows validate_half_space(ValidationBench& bench);
@@ -72,8 +72,8 @@ ValidationRows validate_fingertip(ValidationBench& bench);
 ValidationRows validate_contact_area(ValidationBench& bench);
 /// Rows of G6 over 30 hands: the round prism and the redesigns of the sharp one, in the posture
 /// that each hand has on the sharp one.
-ValidationRows validate_designs_over_hands(ValidationBench& bench, const Product& sharp,
-                                           const Product& round);
+ValidationRows validate_designs_over_hands(ValidationBench& bench, const product::Product& sharp,
+                                           const product::Product& round);
 // validation_grasp.cpp
 ValidationRows validate_grip_force(ValidationBench& bench);
 ValidationRows validate_shares(ValidationBench& bench);
@@ -87,4 +87,4 @@ ValidationRows validate_predictions(ValidationBench& bench);
 ValidationRows validate_motion(ValidationBench& bench);
 ValidationRows validate_structure(ValidationBench& bench);
 
-}  // namespace palmar
+}  // namespace palmar::validation

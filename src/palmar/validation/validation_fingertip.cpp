@@ -12,14 +12,14 @@
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/validation/validation_cases.h"
 
-namespace palmar {
+namespace palmar::validation {
 namespace {
 
-PressOptions plate(std::vector<double> depths) {
-  PressOptions options;
-  options.specimen.kind = PressSpecimen::Kind::kHandRegion;
-  options.specimen.region = Region::kMiddleDistal;
-  options.indenter.kind = PressIndenter::Kind::kPlane;
+contact::PressOptions plate(std::vector<double> depths) {
+  contact::PressOptions options;
+  options.specimen.kind = contact::PressSpecimen::Kind::kHandRegion;
+  options.specimen.region = hand::Region::kMiddleDistal;
+  options.indenter.kind = contact::PressIndenter::Kind::kPlane;
   options.tilt = std::numbers::pi / 6.0;
   options.depths = std::move(depths);
   return options;
@@ -40,9 +40,11 @@ std::string text(double depth) { return std::to_string(depth).substr(0, 3) + " m
 constexpr double kPeakTolerance = 0.10;
 constexpr double kMeasuredDepth = 2.0;  // mm, at which about 2 N are reached
 
-double peak_over_mean(const PressStep& step) { return step.peak_pressure / step.mean_pressure; }
+double peak_over_mean(const contact::PressStep& step) {
+  return step.peak_pressure / step.mean_pressure;
+}
 
-void add_force(ValidationRows& rows, const std::vector<PressStep>& steps, double scale) {
+void add_force(ValidationRows& rows, const std::vector<contact::PressStep>& steps, double scale) {
   for (std::size_t i = 0; i < kDepth.size(); ++i) {
     rows.push_back(judge("half-space, force at " + text(kDepth[i]), "N", steps[i].force,
                          between(0.75 * scale * kLow[i], 1.25 * scale * kHigh[i], kBand)));
@@ -68,18 +70,18 @@ void add_force(ValidationRows& rows, const std::vector<PressStep>& steps, double
 
 ValidationRows validate_fingertip(ValidationBench& bench) {
   ValidationRows rows;
-  const HandDimensions size = measure_hand(bench.hand());
-  const double radius = 0.5 * size.segment[index_of(Segment::kMiddleDistal)].width;
+  const hand::HandDimensions size = hand::measure_hand(bench.hand());
+  const double radius = 0.5 * size.segment[index_of(hand::Segment::kMiddleDistal)].width;
   const double scale = std::sqrt(radius / 7.0);
-  const PreparedHand& half_space = bench.prepared(ContactModel{});
-  const auto steps = press(plate({kDepth.begin(), kDepth.end()}), &half_space);
+  const contact::PreparedHand& half_space = bench.prepared(contact::ContactModel{});
+  const auto steps = contact::press(plate({kDepth.begin(), kDepth.end()}), &half_space);
   add_force(rows, steps, scale);
 
-  PressOptions options = plate({1.0, 2.0, 4.0});
+  contact::PressOptions options = plate({1.0, 2.0, 4.0});
   options.shear_modulus = 0.02;
-  const auto soft = press(options, &half_space);
+  const auto soft = contact::press(options, &half_space);
   options.shear_modulus = 0.10;
-  const auto stiff = press(options, &half_space);
+  const auto stiff = contact::press(options, &half_space);
   double ratio = 1.0;
   for (std::size_t i = 0; i < soft.size(); ++i) {
     const double r = stiff[i].area / soft[i].area;
@@ -89,11 +91,11 @@ ValidationRows validate_fingertip(ValidationBench& bench) {
                        ratio, near_value(1.0, 0.02, "linear elasticity")));
 
   bench.update(0.5, "case G2, layered");
-  const PreparedHand& layer = bench.prepared(layered_model());
-  const auto layered = press(plate({kDepth.begin(), kDepth.end()}), &layer);
+  const contact::PreparedHand& layer = bench.prepared(layered_model());
+  const auto layered = contact::press(plate({kDepth.begin(), kDepth.end()}), &layer);
   bench.update(0.7, "case G2, tissue on bone");
-  const PreparedHand& bone = bench.prepared(palmar_model());
-  const auto on_bone = press(plate({kDepth.begin(), kDepth.end()}), &bone);
+  const contact::PreparedHand& bone = bench.prepared(contact::palmar_model());
+  const auto on_bone = contact::press(plate({kDepth.begin(), kDepth.end()}), &bone);
   const std::string shape = "Pawluk and Howe 1999, measured on people: paraboloid, 0 to 2 N";
   const auto near_paraboloid = [&](double depth) {
     return depth <= kMeasuredDepth ? near_value(2.0, kPeakTolerance, shape)
@@ -120,9 +122,9 @@ ValidationRows validate_fingertip(ValidationBench& bench) {
   }
   for (const auto& [model, name] :
        {std::pair{&half_space, "half-space"}, {&layer, "layered"}, {&bone, "bone"}}) {
-    PressOptions force = plate({});
+    contact::PressOptions force = plate({});
     force.forces = {2.0};
-    const PressStep step = press(force, model).front();
+    const contact::PressStep step = contact::press(force, model).front();
     rows.push_back(judge(std::string(name) + ", peak / mean at 2 N", "", peak_over_mean(step),
                          near_value(2.0, kPeakTolerance, shape)));
     set_history(rows, model == &bone ? kOnBone : "dc20bd8");
@@ -130,4 +132,4 @@ ValidationRows validate_fingertip(ValidationBench& bench) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::validation

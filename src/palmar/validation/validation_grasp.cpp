@@ -15,13 +15,13 @@
 #include "palmar/product/primitives.h"
 #include "palmar/validation/validation_cases.h"
 
-namespace palmar {
+namespace palmar::validation {
 namespace {
 
 /// Sum of normal forces over the grip force: 2 for two opposed forces, pi for even pressure all
 /// round.
-double normal_over_grip(const HeldCylinder& held, const ContactResult& contact) {
-  const Squeeze squeeze = grip_force(contact, *held.product.distance);
+double normal_over_grip(const HeldCylinder& held, const contact::ContactResult& contact) {
+  const grasp::Squeeze squeeze = grasp::grip_force(contact, *held.product.distance);
   return squeeze.force > 0.0 ? squeeze.sum_of_normals / squeeze.force
                              : std::numeric_limits<double>::quiet_NaN();
 }
@@ -31,23 +31,23 @@ constexpr std::array<const char*, 7> kParts = {
     "thumb",  "distal phalanges", "middle phalanges", "proximal phalanges",
     "thenar", "hypothenar",       "rest of the palm"};
 
-std::size_t part_of(Region region) {
-  if (region == Region::kThenar) return 4;
-  if (region == Region::kHypothenar) return 5;
-  const auto segment = segment_of(region);
-  if (!segment || *segment == Segment::kPalm) return 6;
-  if (finger_of(*segment) == Finger::kThumb) return 0;
+std::size_t part_of(hand::Region region) {
+  if (region == hand::Region::kThenar) return 4;
+  if (region == hand::Region::kHypothenar) return 5;
+  const auto segment = hand::segment_of(region);
+  if (!segment || *segment == hand::Segment::kPalm) return 6;
+  if (hand::finger_of(*segment) == hand::Finger::kThumb) return 0;
   // Proximal, middle, distal of four fingers, in this order.
-  const int place = static_cast<int>(*segment) - static_cast<int>(Segment::kIndexProximal);
+  const int place = static_cast<int>(*segment) - static_cast<int>(hand::Segment::kIndexProximal);
   return static_cast<std::size_t>(3 - place % 3);
 }
 
 /// Shares of the normal force, percent.
-std::array<double, 7> shares(const ContactResult& contact) {
+std::array<double, 7> shares(const contact::ContactResult& contact) {
   std::array<double, 7> share{};
   double sum = 0.0;
-  for (const RegionContact& region : contact.regions) {
-    if (region.region == Region::kDorsum) continue;
+  for (const contact::RegionContact& region : contact.regions) {
+    if (region.region == hand::Region::kDorsum) continue;
     share[part_of(region.region)] += region.force;
     sum += region.force;
   }
@@ -55,7 +55,7 @@ std::array<double, 7> shares(const ContactResult& contact) {
   return share;
 }
 
-void add_shares(ValidationRows& rows, ValidationBench& bench, const ContactModel& model,
+void add_shares(ValidationRows& rows, ValidationBench& bench, const contact::ContactModel& model,
                 const std::string& name, bool has_ranges) {
   constexpr std::array<double, 3> diameters = {32.0, 48.0, 64.0};
   std::array<std::array<double, 7>, 3> share{};
@@ -79,13 +79,13 @@ void add_shares(ValidationRows& rows, ValidationBench& bench, const ContactModel
   }
 }
 
-Product prism(double fillet) {
-  PrismProductOptions options;
+product::Product prism(double fillet) {
+  product::PrismProductOptions options;
   options.width = 40.0;
   options.depth = 30.0;
   options.length = 160.0;
   options.fillet_radius = fillet;
-  return make_prism_product(options);
+  return product::make_prism_product(options);
 }
 
 }  // namespace
@@ -98,14 +98,14 @@ ValidationRows validate_grip_force(ValidationBench& bench) {
   rows.push_back(judge("palmar, forces out of balance / grip force", "",
                        held.balance.residual_share, at_most(0.01, "at rest below 1 %")));
   set_history(rows, "fb81418");
-  const double ours = normal_over_grip(held, bench.contact(held, palmar_model()));
+  const double ours = normal_over_grip(held, bench.contact(held, contact::palmar_model()));
   rows.push_back(judge("palmar, sum of normal forces / grip force", "", ours,
                        between(2.0, std::numbers::pi, exact)));
   rows.push_back(judge("palmar, the same, wanted", "", ours, between(2.1, 2.9, measured)));
   // Which published proportion of muscle moments a grasp at rest uses was chosen on G4 and G5.
   set_history(rows, "dc20bd8", "4669e26");
   rows.push_back(judge("xie2014, sum of normal forces / grip force", "",
-                       normal_over_grip(held, bench.contact(held, xie2014_model())),
+                       normal_over_grip(held, bench.contact(held, contact::xie2014_model())),
                        between(2.1, 2.9, measured)));
   // In the same grasp at rest, so that choice is in it as well.
   set_history(rows, "dc20bd8", "4669e26");
@@ -114,25 +114,26 @@ ValidationRows validate_grip_force(ValidationBench& bench) {
 
 ValidationRows validate_shares(ValidationBench& bench) {
   ValidationRows rows;
-  add_shares(rows, bench, palmar_model(), "palmar", true);
+  add_shares(rows, bench, contact::palmar_model(), "palmar", true);
   set_history(rows, "dc20bd8", "4669e26");
-  add_shares(rows, bench, xie2014_model(), "xie2014", false);
+  add_shares(rows, bench, contact::xie2014_model(), "xie2014", false);
   set_history(rows, "10fca44", "4669e26");
   return rows;
 }
 
 ValidationRows validate_fillets(ValidationBench& bench) {
   ValidationRows rows;
-  const Product round = prism(10.0), sharp = prism(3.0);
-  const Grasp grasp = close_power_grasp(bench.hand(), round);
-  const std::vector<Vec3> skin = pose_skin(bench.hand(), grasp.posture);
+  const product::Product round = prism(10.0), sharp = prism(3.0);
+  const grasp::Grasp grasp = grasp::close_power_grasp(bench.hand(), round);
+  const std::vector<Vec3> skin = hand::pose_skin(bench.hand(), grasp.posture);
   for (const auto& [model, name] :
-       {std::pair{palmar_model(), "palmar"}, {xie2014_model(), "xie2014"}}) {
-    const PreparedHand& prepared = bench.prepared(model);
-    const auto total = [&](const Product& product) {
-      return solve_hand_contact(prepared, skin, grasp.product_from_hand, *product.distance).total;
+       {std::pair{contact::palmar_model(), "palmar"}, {contact::xie2014_model(), "xie2014"}}) {
+    const contact::PreparedHand& prepared = bench.prepared(model);
+    const auto total = [&](const product::Product& product) {
+      return contact::solve_hand_contact(prepared, skin, grasp.product_from_hand, *product.distance)
+          .total;
     };
-    const RegionContact r10 = total(round), r3 = total(sharp);
+    const contact::RegionContact r10 = total(round), r3 = total(sharp);
     const std::string order = "Xie 2014, 5.5.3: r3 above r10";
     const std::string start = std::string(name) + ", ";
     rows.push_back(judge(start + "peak on cells, r3 / r10", "",
@@ -156,8 +157,8 @@ ValidationRows validate_coupling(ValidationBench& bench) {
   const std::string source = "two equal contacts three radii apart: 1.22";
   for (const double diameter : {35.0, 48.0, 60.0}) {
     const HeldCylinder& held = bench.cylinder(diameter);
-    const RegionContact together = bench.contact(held, ContactModel{}).total;
-    const RegionContact alone = bench.contact(held, independent_model()).total;
+    const contact::RegionContact together = bench.contact(held, contact::ContactModel{}).total;
+    const contact::RegionContact alone = bench.contact(held, independent_model()).total;
     const std::string start = std::to_string(static_cast<int>(diameter)) + " mm, ";
     rows.push_back(
         judge(start + "coupled, force", "N", together.force, information(std::nullopt, "-")));
@@ -173,4 +174,4 @@ ValidationRows validate_coupling(ValidationBench& bench) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::validation

@@ -15,19 +15,19 @@
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/validation/validation_cases.h"
 
-namespace palmar {
+namespace palmar::validation {
 namespace {
 
 constexpr double kStep = 0.05;  // mm
 
 /// The solid shrunk by `gap` on all sides, its outside only.
-class ShrunkField : public DistanceField {
+class ShrunkField : public geometry::DistanceField {
  public:
   ShrunkField(const DistanceField& field, double gap) : field_(&field), gap_(gap) {}
   void sample(std::span<const Vec3> points, double range,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     field_->sample(points, range, samples);
-    for (DistanceSample& s : samples) {
+    for (geometry::DistanceSample& s : samples) {
       const bool is_far = std::abs(s.distance) >= range;
       s.distance = is_far ? s.distance : std::min(range, s.distance + gap_);
       if (!is_far) s.closest -= gap_ * s.normal;
@@ -75,9 +75,9 @@ void add_smoothness(ValidationRows& rows, const std::string& motion,
 
 /// All skin closes in at once: the cylinder grows to its size.
 std::vector<double> closing_everywhere(ValidationBench& bench, const HeldCylinder& held,
-                                       const ContactModel& model, double from) {
-  ContactSolver solver(bench.prepared(model));
-  ContactResult contact;
+                                       const contact::ContactModel& model, double from) {
+  contact::ContactSolver solver(bench.prepared(model));
+  contact::ContactResult contact;
   std::vector<double> force;
   for (int k = static_cast<int>(std::lround(from / kStep)); k >= 0; --k) {
     bench.progress().throw_if_cancelled();
@@ -90,20 +90,21 @@ std::vector<double> closing_everywhere(ValidationBench& bench, const HeldCylinde
 
 /// Fingers close from some degrees further open; the fingertips move 0.05 mm per step.
 std::vector<double> closing_fingers(ValidationBench& bench, const HeldCylinder& held) {
-  ContactSolver solver(bench.prepared(palmar_model()));
-  ContactResult contact;
+  contact::ContactSolver solver(bench.prepared(contact::palmar_model()));
+  contact::ContactResult contact;
   std::vector<double> force;
   constexpr double path = 4.0;    // mm of the fingertips
   constexpr double lever = 80.0;  // mm from the knuckle to the fingertip, about
   const int steps = static_cast<int>(path / kStep);
   for (int k = steps; k >= 0; --k) {
     bench.progress().throw_if_cancelled();
-    Posture posture = held.grasp.posture;
-    for (const Dof dof : {Dof::kIndexMcpFlexion, Dof::kMiddleMcpFlexion, Dof::kRingMcpFlexion,
-                          Dof::kLittleMcpFlexion, Dof::kThumbMpFlexion}) {
+    hand::Posture posture = held.grasp.posture;
+    for (const hand::Dof dof :
+         {hand::Dof::kIndexMcpFlexion, hand::Dof::kMiddleMcpFlexion, hand::Dof::kRingMcpFlexion,
+          hand::Dof::kLittleMcpFlexion, hand::Dof::kThumbMpFlexion}) {
       posture[dof] -= k * kStep / lever;
     }
-    solver.solve(pose_skin(bench.hand(), posture), held.grasp.product_from_hand,
+    solver.solve(hand::pose_skin(bench.hand(), posture), held.grasp.product_from_hand,
                  *held.product.distance, contact);
     force.push_back(contact.total.force);
   }
@@ -112,22 +113,22 @@ std::vector<double> closing_fingers(ValidationBench& bench, const HeldCylinder& 
 
 /// The product moves into the palm, against the force with which the palm holds it off.
 std::vector<double> closing_palm(ValidationBench& bench, const HeldCylinder& held) {
-  ContactSolver solver(bench.prepared(palmar_model()));
-  ContactResult contact = bench.contact(held, palmar_model());
+  contact::ContactSolver solver(bench.prepared(contact::palmar_model()));
+  contact::ContactResult contact = bench.contact(held, contact::palmar_model());
   Vec3 push = Vec3::Zero();
-  for (const RegionContact& region : contact.regions) {
-    if (segment_of(region.region) == Segment::kPalm) push += region.force_vector;
+  for (const contact::RegionContact& region : contact.regions) {
+    if (hand::segment_of(region.region) == hand::Segment::kPalm) push += region.force_vector;
   }
   push.normalize();
   std::vector<double> force;
   for (int k = 80; k >= 0; --k) {
     bench.progress().throw_if_cancelled();
-    Rigid3 place = held.grasp.product_from_hand;
+    geometry::Rigid3 place = held.grasp.product_from_hand;
     place.translation -= k * kStep * push;
     solver.solve(held.posed_skin, place, *held.product.distance, contact);
     double palm = 0.0;
-    for (const RegionContact& region : contact.regions) {
-      if (segment_of(region.region) == Segment::kPalm) palm += region.force;
+    for (const contact::RegionContact& region : contact.regions) {
+      if (hand::segment_of(region.region) == hand::Segment::kPalm) palm += region.force;
     }
     force.push_back(palm);
   }
@@ -143,7 +144,7 @@ class ThreadCountGuard {
   int before_ = thread_count();
 };
 
-int differing_bits(const ContactResult& a, const ContactResult& b) {
+int differing_bits(const contact::ContactResult& a, const contact::ContactResult& b) {
   int count = 0;
   const auto differs = [](double x, double y) {
     return std::bit_cast<std::uint64_t>(x) != std::bit_cast<std::uint64_t>(y);
@@ -161,24 +162,25 @@ void add_threads(ValidationRows& rows, ValidationBench& bench, const HeldCylinde
   const ThreadCountGuard guard;
   const auto solved = [&](int threads) {
     set_thread_count(threads);
-    const PreparedHand prepared(bench.shared_hand(), palmar_model(), bench.compliance());
-    return solve_hand_contact(prepared, held.posed_skin, held.grasp.product_from_hand,
-                              *held.product.distance);
+    const contact::PreparedHand prepared(bench.shared_hand(), contact::palmar_model(),
+                                         bench.compliance());
+    return contact::solve_hand_contact(prepared, held.posed_skin, held.grasp.product_from_hand,
+                                       *held.product.distance);
   };
-  const ContactResult one = solved(1), two = solved(2);
+  const contact::ContactResult one = solved(1), two = solved(2);
   rows.push_back(judge("vertices whose result differs, 1 or 2 threads", "",
                        differing_bits(one, two), at_most(0.0, "same input, same bits")));
 }
 
 void add_rigid_motion(ValidationRows& rows, ValidationBench& bench, const HeldCylinder& held) {
-  const ContactResult here = bench.contact(held, palmar_model());
-  const Rigid3 motion{Quat(Eigen::AngleAxisd(0.8, Vec3(0.3, -0.5, 0.7).normalized())),
-                      Vec3(120.0, -40.0, 75.0)};
+  const contact::ContactResult here = bench.contact(held, contact::palmar_model());
+  const geometry::Rigid3 motion{Quat(Eigen::AngleAxisd(0.8, Vec3(0.3, -0.5, 0.7).normalized())),
+                                Vec3(120.0, -40.0, 75.0)};
   std::vector<Vec3> skin = held.posed_skin;
   for (Vec3& v : skin) v = motion * v;
-  const ContactResult there =
-      solve_hand_contact(bench.prepared(palmar_model()), skin,
-                         held.grasp.product_from_hand * motion.inverse(), *held.product.distance);
+  const contact::ContactResult there = contact::solve_hand_contact(
+      bench.prepared(contact::palmar_model()), skin,
+      held.grasp.product_from_hand * motion.inverse(), *held.product.distance);
   double difference = 0.0, largest = 0.0, depth = 0.0;
   for (std::size_t v = 0; v < here.force.size(); ++v) {
     difference = std::max(difference, std::abs(here.force[v] - there.force[v]));
@@ -194,17 +196,18 @@ void add_rigid_motion(ValidationRows& rows, ValidationBench& bench, const HeldCy
 
 void add_scaled_hand(ValidationRows& rows, ValidationBench& bench) {
   constexpr double factor = 1.2;
-  const auto pressed = [](const PreparedHand& hand, double depth) {
-    PressOptions options;
-    options.specimen.kind = PressSpecimen::Kind::kHandRegion;
-    options.indenter.kind = PressIndenter::Kind::kPlane;
+  const auto pressed = [](const contact::PreparedHand& hand, double depth) {
+    contact::PressOptions options;
+    options.specimen.kind = contact::PressSpecimen::Kind::kHandRegion;
+    options.indenter.kind = contact::PressIndenter::Kind::kPlane;
     options.shear_modulus = 0.05;
     options.depths = {depth};
-    return press(options, &hand).front();
+    return contact::press(options, &hand).front();
   };
-  const PreparedHand larger(std::make_shared<const Hand>(scaled(bench.hand(), factor)));
-  const PressStep one = pressed(bench.prepared(ContactModel{}), 2.0);
-  const PressStep two = pressed(larger, factor * 2.0);
+  const contact::PreparedHand larger(
+      std::make_shared<const hand::Hand>(scaled(bench.hand(), factor)));
+  const contact::PressStep one = pressed(bench.prepared(contact::ContactModel{}), 2.0);
+  const contact::PressStep two = pressed(larger, factor * 2.0);
   const std::string law = "square of the scale at the same G";
   rows.push_back(judge("hand and depth scaled by 1.2, force of a fingertip", "",
                        two.force / one.force, near_value(factor * factor, 0.005, law)));
@@ -227,7 +230,7 @@ ValidationRows validate_motion(ValidationBench& bench) {
   set_history(rows, "dc20bd8", "b06f877");
   bench.update(0.8, "case motion, xie2014");
   add_smoothness(rows, "xie2014, all skin closing in over 6 mm",
-                 closing_everywhere(bench, held, xie2014_model(), 6.0), false);
+                 closing_everywhere(bench, held, contact::xie2014_model(), 6.0), false);
   set_history(rows, "dc20bd8");
   return rows;
 }
@@ -243,4 +246,4 @@ ValidationRows validate_structure(ValidationBench& bench) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::validation

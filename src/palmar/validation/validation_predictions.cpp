@@ -16,30 +16,30 @@
 #include "palmar/product/primitives.h"
 #include "palmar/validation/validation_cases.h"
 
-namespace palmar {
+namespace palmar::validation {
 namespace {
 
 constexpr double kGravity = 9.80665;  // m/s^2
 constexpr double kWeight = kGravity;  // N; 1 kg
 
 /// Shares of the digits' normal forces, thumb to little finger, percent; nothing if it isn't held.
-std::optional<std::array<double, kFingerCount>> digit_shares(ValidationBench& bench,
-                                                             const Product& product,
-                                                             const GraspOptions& options) {
-  Grasp grasp = find_grasp(bench.hand(), product, options);
-  if (grasp.status != GraspStatus::kHeld) return std::nullopt;
-  BalanceOptions balance;
+std::optional<std::array<double, hand::kFingerCount>> digit_shares(
+    ValidationBench& bench, const product::Product& product, const grasp::GraspOptions& options) {
+  grasp::Grasp grasp = grasp::find_grasp(bench.hand(), product, options);
+  if (grasp.status != grasp::GraspStatus::kHeld) return std::nullopt;
+  grasp::BalanceOptions balance;
   balance.load.weight = kWeight;
-  const PreparedHand& prepared = bench.prepared(palmar_model());
-  const Balance rest = balance_grasp(prepared, product, grasp, balance);
-  if (rest.status != BalanceStatus::kBalanced) return std::nullopt;
-  const ContactResult contact = solve_hand_contact(prepared, pose_skin(bench.hand(), grasp.posture),
-                                                   grasp.product_from_hand, *product.distance);
-  std::array<double, kFingerCount> share{};
+  const contact::PreparedHand& prepared = bench.prepared(contact::palmar_model());
+  const grasp::Balance rest = grasp::balance_grasp(prepared, product, grasp, balance);
+  if (rest.status != grasp::BalanceStatus::kBalanced) return std::nullopt;
+  const contact::ContactResult contact =
+      contact::solve_hand_contact(prepared, hand::pose_skin(bench.hand(), grasp.posture),
+                                  grasp.product_from_hand, *product.distance);
+  std::array<double, hand::kFingerCount> share{};
   double sum = 0.0;
-  for (const RegionContact& region : contact.regions) {
-    const auto segment = segment_of(region.region);
-    const auto finger = segment ? finger_of(*segment) : std::nullopt;
+  for (const contact::RegionContact& region : contact.regions) {
+    const auto segment = hand::segment_of(region.region);
+    const auto finger = segment ? hand::finger_of(*segment) : std::nullopt;
     if (!finger) continue;
     share[index_of(*finger)] += region.force;
     sum += region.force;
@@ -52,36 +52,38 @@ std::optional<std::array<double, kFingerCount>> digit_shares(ValidationBench& be
 /// 100 mm and 0.5 to 2 kg from above with five fingertips. As the program would hold it, and with
 /// the fingertips where people have theirs: 98, 145, 181 and 236 degrees from the thumb.
 void add_circular_grip(ValidationRows& rows, ValidationBench& bench, bool is_at_measured_places) {
-  CylinderProductOptions cylinder;
+  product::CylinderProductOptions cylinder;
   cylinder.diameter = 75.0;
   cylinder.length = 60.0;
-  GraspOptions options;
-  options.grip = Grip::kPrecisionDisk;
+  grasp::GraspOptions options;
+  options.grip = grasp::Grip::kPrecisionDisk;
   if (is_at_measured_places) {
     const double height = 15.0;  // mm above the middle; our choice
-    const std::array<double, kFingerCount> angle = {0.0, 98.0, 145.0, 181.0, 236.0};
-    for (int f = 0; f < kFingerCount; ++f) {
+    const std::array<double, hand::kFingerCount> angle = {0.0, 98.0, 145.0, 181.0, 236.0};
+    for (int f = 0; f < hand::kFingerCount; ++f) {
       // From above, a right hand's digits follow each other clockwise.
       const double turn = -angle[f] / 180.0 * std::numbers::pi;
       options.precision.targets.push_back(
-          {static_cast<Finger>(f), {37.5 * std::cos(turn), 37.5 * std::sin(turn), height}});
+          {static_cast<hand::Finger>(f), {37.5 * std::cos(turn), 37.5 * std::sin(turn), height}});
     }
   }
-  const auto share = digit_shares(bench, make_cylinder_product(cylinder), options);
-  const auto of = [&](Finger finger) { return share ? (*share)[index_of(finger)] : std::nan(""); };
+  const auto share = digit_shares(bench, product::make_cylinder_product(cylinder), options);
+  const auto of = [&](hand::Finger finger) {
+    return share ? (*share)[index_of(finger)] : std::nan("");
+  };
   const std::string where = std::string("circular grip of 75 mm and 1 kg from above") +
                             (is_at_measured_places ? ", fingertips as measured" : "") +
                             ", share of the ";
   const std::string source = "Kinoshita 1996, 26 people: ";
-  rows.push_back(judge(where + "thumb", "%", of(Finger::kThumb),
+  rows.push_back(judge(where + "thumb", "%", of(hand::Finger::kThumb),
                        at_least(38.0, source + "always above 38 %")));
   for (const auto& [finger, name] :
-       {std::pair{Finger::kRing, "ring finger"}, {Finger::kLittle, "little finger"}}) {
+       {std::pair{hand::Finger::kRing, "ring finger"}, {hand::Finger::kLittle, "little finger"}}) {
     rows.push_back(judge(where + name, "%", of(finger),
                          between(15.0, 26.0, source + "18 to 23 %; 3 points beyond count as met")));
   }
   rows.push_back(judge(
-      where + "index finger", "%", of(Finger::kIndex),
+      where + "index finger", "%", of(hand::Finger::kIndex),
       between(8.0, 18.0, source + "the smallest, from 11 % on; below the ring finger's 18 %")));
 }
 
@@ -90,26 +92,27 @@ void add_circular_grip(ValidationRows& rows, ValidationBench& bench, bool is_at_
 void add_prismatic_pinch(ValidationRows& rows, ValidationBench& bench) {
   const double span = 55.0,
                pitch = 20.0;  // mm; the pitch of fingertips side by side: our choice
-  PrismProductOptions prism;
+  product::PrismProductOptions prism;
   prism.width = span;
   prism.depth = 40.0;
   prism.length = 120.0;
   prism.fillet_radius = 2.0;
-  GraspOptions options;
-  options.grip = Grip::kPrecisionSphere;  // five fingertips; these points make it a flat pinch
+  grasp::GraspOptions options;
+  options.grip =
+      grasp::Grip::kPrecisionSphere;  // five fingertips; these points make it a flat pinch
   const double side = 0.5 * span;
-  options.precision.targets = {{Finger::kThumb, {-side, 0.0, 0.5 * pitch}},
-                               {Finger::kIndex, {side, 0.0, 1.5 * pitch}},
-                               {Finger::kMiddle, {side, 0.0, 0.5 * pitch}},
-                               {Finger::kRing, {side, 0.0, -0.5 * pitch}},
-                               {Finger::kLittle, {side, 0.0, -1.5 * pitch}}};
-  const auto share = digit_shares(bench, make_prism_product(prism), options);
+  options.precision.targets = {{hand::Finger::kThumb, {-side, 0.0, 0.5 * pitch}},
+                               {hand::Finger::kIndex, {side, 0.0, 1.5 * pitch}},
+                               {hand::Finger::kMiddle, {side, 0.0, 0.5 * pitch}},
+                               {hand::Finger::kRing, {side, 0.0, -0.5 * pitch}},
+                               {hand::Finger::kLittle, {side, 0.0, -1.5 * pitch}}};
+  const auto share = digit_shares(bench, product::make_prism_product(prism), options);
   const std::array<double, 4> measured = {33.0, 33.0, 17.0, 15.0};  // percent of the four
-  const std::array<Finger, 4> finger = {Finger::kIndex, Finger::kMiddle, Finger::kRing,
-                                        Finger::kLittle};
+  const std::array<hand::Finger, 4> finger = {hand::Finger::kIndex, hand::Finger::kMiddle,
+                                              hand::Finger::kRing, hand::Finger::kLittle};
   const std::array<const char*, 4> name = {"index", "middle", "ring", "little"};
   double four = 0.0;
-  for (const Finger f : finger) four += share ? (*share)[index_of(f)] : 0.0;
+  for (const hand::Finger f : finger) four += share ? (*share)[index_of(f)] : 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     const double ours = share ? 100.0 * (*share)[index_of(finger[i])] / four : std::nan("");
     ValidationTarget target =
@@ -122,11 +125,11 @@ void add_prismatic_pinch(ValidationRows& rows, ValidationBench& bench) {
   }
 }
 
-PressOptions tip_on_plate() {
-  PressOptions options;
-  options.specimen.kind = PressSpecimen::Kind::kHandRegion;
-  options.specimen.region = Region::kIndexDistal;
-  options.indenter.kind = PressIndenter::Kind::kPlane;
+contact::PressOptions tip_on_plate() {
+  contact::PressOptions options;
+  options.specimen.kind = contact::PressSpecimen::Kind::kHandRegion;
+  options.specimen.region = hand::Region::kIndexDistal;
+  options.indenter.kind = contact::PressIndenter::Kind::kPlane;
   options.tilt = std::numbers::pi / 6.0;
   options.forces = {0.5, 1.0, 2.0, 4.0};
   return options;
@@ -144,11 +147,11 @@ void add_fingertip(ValidationRows& rows, ValidationBench& bench) {
   const std::string power = "radius as force to the power of 0 to 1/3 (Xydas and Kao 1999)";
   const std::string shape = "Pawluk and Howe 1999, measured on people: paraboloid, 0 to 2 N";
   const std::array<const char*, 4> at = {"0.5 N", "1 N", "2 N", "4 N"};
-  for (const auto& [model, name] : {std::pair{palmar_model(), std::string("palmar")},
+  for (const auto& [model, name] : {std::pair{contact::palmar_model(), std::string("palmar")},
                                     {layered_model(), "layered"},
-                                    {ContactModel{}, "half-space"}}) {
+                                    {contact::ContactModel{}, "half-space"}}) {
     bench.update(0.5, "case predictions, fingertip, " + name);
-    const auto steps = press(tip_on_plate(), &bench.prepared(model));
+    const auto steps = contact::press(tip_on_plate(), &bench.prepared(model));
     rows.push_back(judge(name + ", index fingertip on a plate, area at 0.5 N", "mm2", steps[0].area,
                          between(0.75 * least, 1.25 * tap, touch)));
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -180,4 +183,4 @@ ValidationRows validate_predictions(ValidationBench& bench) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::validation

@@ -12,16 +12,16 @@
 #include "palmar/contact/press/press.h"
 #include "palmar/validation/validation_cases.h"
 
-namespace palmar {
+namespace palmar::validation {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kShear = 0.05;   // MPa
 constexpr double kRadius = 20.0;  // mm
 
-PressOptions sphere_press(double spacing, std::vector<double> depths) {
-  PressOptions options;
-  options.indenter.kind = PressIndenter::Kind::kSphere;
+contact::PressOptions sphere_press(double spacing, std::vector<double> depths) {
+  contact::PressOptions options;
+  options.indenter.kind = contact::PressIndenter::Kind::kSphere;
   options.indenter.radius = kRadius;
   options.shear_modulus = kShear;
   options.poisson = 0.5;
@@ -51,7 +51,7 @@ void add_sphere(ValidationRows& rows) {
   std::array<double, 3> force = {1, 1, 1}, area = {1, 1, 1}, peak = {1, 1, 1};
   double cells = 1.0, residual = 0.0;
   for (const double spacing : {0.4, 0.5, 0.8, 1.25, 2.5, 5.0}) {
-    const auto steps = press(sphere_press(spacing, {depths.begin(), depths.end()}));
+    const auto steps = contact::press(sphere_press(spacing, {depths.begin(), depths.end()}));
     for (std::size_t i = 0; i < depths.size(); ++i) {
       const double f = hertz_force(kRadius, depths[i]), a = kPi * kRadius * depths[i];
       keep_worst(steps[i].force / f, force[i]);
@@ -86,23 +86,23 @@ void add_sphere(ValidationRows& rows) {
 void add_thesis_kernel(ValidationRows& rows) {
   // reference/validation/halfspace_kernel_study.csv, hexagonal lattice, depth 2 mm.
   for (const auto& [spacing, ratio] : {std::pair{2.5, 0.954}, {1.25, 1.048}, {0.8, 1.046}}) {
-    PressOptions options = sphere_press(spacing, {2.0});
-    options.kernel = Kernel::kPoint;
+    contact::PressOptions options = sphere_press(spacing, {2.0});
+    options.kernel = contact::Kernel::kPoint;
     rows.push_back(judge("sphere, point kernel of the thesis, force / Hertz at spacing " +
                              std::to_string(spacing).substr(0, 4) + " mm",
-                         "", press(options).front().force / hertz_force(kRadius, 2.0),
+                         "", contact::press(options).front().force / hertz_force(kRadius, 2.0),
                          information(ratio, "kernel study, own lattice")));
   }
 }
 
 void add_punch(ValidationRows& rows) {
-  PressOptions options = sphere_press(0.5, {1.0});
-  options.indenter.kind = PressIndenter::Kind::kPunch;
+  contact::PressOptions options = sphere_press(0.5, {1.0});
+  options.indenter.kind = contact::PressIndenter::Kind::kPunch;
   options.indenter.radius = 5.0;
   rows.push_back(judge("flat punch of 5 mm, force per mm, spacing 0.5 mm", "N",
-                       press(options).front().force,
+                       contact::press(options).front().force,
                        near_value(8.0 * kShear * 5.0, 0.005, "F = 8 G a depth")));
-  options.indenter.kind = PressIndenter::Kind::kTwoPunches;
+  options.indenter.kind = contact::PressIndenter::Kind::kTwoPunches;
   for (const double radii : {3.0, 6.0}) {
     options.indenter.distance = radii * options.indenter.radius;
     // Each punch rests in the other's field, (2/pi) asin(a / r) of its depth.
@@ -110,7 +110,7 @@ void add_punch(ValidationRows& rows) {
     const double expected = 1.0 / (1.0 + 2.0 / kPi * std::asin(1.0 / radii));
     rows.push_back(judge(
         "two punches, " + std::string(radii == 3.0 ? "3" : "6") + " radii apart, force / two alone",
-        "", press(options).front().force / alone,
+        "", contact::press(options).front().force / alone,
         near_value(expected, 0.02, "field of one punch at the other's centre")));
   }
 }
@@ -120,12 +120,12 @@ void add_ellipse(ValidationRows& rows) {
   constexpr double a = 4.0, b = 2.0, p0 = 0.03, ratio = p0 / (4.0 * kShear);
   const double e2 = 1.0 - b * b / (a * a);
   const double K = std::comp_ellint_1(std::sqrt(e2)), E = std::comp_ellint_2(std::sqrt(e2));
-  PressOptions options = sphere_press(0.8, {ratio * b * K});
-  options.specimen.kind = PressSpecimen::Kind::kEllipsoid;
+  contact::PressOptions options = sphere_press(0.8, {ratio * b * K});
+  options.specimen.kind = contact::PressSpecimen::Kind::kEllipsoid;
   options.specimen.radius_x = e2 * a * a / (2.0 * ratio * b * (K - E));
   options.specimen.radius_y = e2 * a * a / (2.0 * ratio * b * (a * a / (b * b) * E - K));
-  options.indenter.kind = PressIndenter::Kind::kPlane;
-  const PressStep step = press(options).front();
+  options.indenter.kind = contact::PressIndenter::Kind::kPlane;
+  const contact::PressStep step = contact::press(options).front();
   const std::string source = "Hertz; semi-axes 4 and 2 mm, spacing 0.8 mm";
   const double force = 2.0 / 3.0 * kPi * a * b * p0;
   rows.push_back(judge("ellipse, force", "N", step.force, near_value(force, 0.02, source)));
@@ -135,12 +135,12 @@ void add_ellipse(ValidationRows& rows) {
 }
 
 void add_scaling(ValidationRows& rows) {
-  PressOptions options = sphere_press(1.25, {2.0});
-  const PressStep one = press(options).front();
+  contact::PressOptions options = sphere_press(1.25, {2.0});
+  const contact::PressStep one = contact::press(options).front();
   options.indenter.radius = 2.0 * kRadius;
   options.spacing = 2.5;
   options.depths = {4.0};
-  const PressStep two = press(options).front();
+  const contact::PressStep two = contact::press(options).front();
   const std::string law = "forces grow with the square of all lengths, pressures stay";
   rows.push_back(judge("all lengths doubled, force ratio", "", two.force / one.force,
                        near_value(4.0, 1e-6, law)));
@@ -190,9 +190,9 @@ ValidationRows validate_layer(ValidationBench& bench) {
   double force = 1.0, radius = 1.0, shape = 1.0;
   for (const LayerSphere& t : kLayerSphere) {
     constexpr double depth = 0.2;  // mm; the root of R depth is 2 mm
-    PressOptions options = sphere_press(0.5, {depth});
+    contact::PressOptions options = sphere_press(0.5, {depth});
     options.layer_thickness = std::sqrt(kRadius * depth) / t.chi;
-    const PressStep step = press(options).front();
+    const contact::PressStep step = contact::press(options).front();
     const double ratio = step.force / hertz_force(kRadius, depth);
     const double peak_over_mean = step.peak_pressure / step.mean_pressure;
     keep_worst(ratio / t.force, force);
@@ -217,11 +217,11 @@ ValidationRows validate_layer(ValidationBench& bench) {
   bench.update(0.5, "case layer, punch");
   force = 1.0;
   for (const LayerPunch& t : kLayerPunch) {
-    PressOptions options = sphere_press(0.5, {0.1});
-    options.indenter.kind = PressIndenter::Kind::kPunch;
+    contact::PressOptions options = sphere_press(0.5, {0.1});
+    options.indenter.kind = contact::PressIndenter::Kind::kPunch;
     options.indenter.radius = 5.0;
     options.layer_thickness = 5.0 / t.ratio;
-    const double ratio = press(options).front().force / (8.0 * kShear * 5.0 * 0.1);
+    const double ratio = contact::press(options).front().force / (8.0 * kShear * 5.0 * 0.1);
     if (t.ratio <= 6.0) keep_worst(ratio / t.force, force);
     for (const double shown : {0.2, 1.0, 3.0, 8.0, 10.0}) {
       if (t.ratio != shown) continue;
@@ -237,4 +237,4 @@ ValidationRows validate_layer(ValidationBench& bench) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::validation

@@ -13,7 +13,7 @@
 
 #include "palmar/validation/validation_cases.h"
 
-namespace palmar {
+namespace palmar::validation {
 namespace {
 
 constexpr double kCircle = std::numbers::pi;  // area over radius squared
@@ -23,13 +23,13 @@ constexpr double kDeep = 20.0;                // mm; the skin's far side
 
 /// A flat skin, z = 0, outside +z, of equilateral triangles; closed by a pyramid below. Its lattice
 /// is shifted, so that no shape pressed on the origin lies on a vertex or between two.
-std::shared_ptr<const Hand> flat_hand(double spacing) {
-  auto hand = std::make_shared<Hand>();
+std::shared_ptr<const hand::Hand> flat_hand(double spacing) {
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "flat skin";
   const double height = spacing * std::sqrt(3.0) / 2.0;
   const int columns = 1 + static_cast<int>(std::lround(2.0 * kHalfWidth / spacing));
   const int rows = 1 + static_cast<int>(std::lround(2.0 * kHalfWidth / height));
-  TriangleMesh& skin = hand->skin;
+  geometry::TriangleMesh& skin = hand->skin;
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
       const double shift = r % 2 == 0 ? 0.0 : 0.5;
@@ -61,19 +61,19 @@ std::shared_ptr<const Hand> flat_hand(double spacing) {
     close(at(r + 1, 0), at(r, 0));
     close(at(r, columns - 1), at(r + 1, columns - 1));
   }
-  hand->region.assign(skin.vertices.size(), Region::kCentralPalm);
-  hand->segment.assign(skin.vertices.size(), Segment::kPalm);
-  hand->tissue = default_tissue();
+  hand->region.assign(skin.vertices.size(), hand::Region::kCentralPalm);
+  hand->segment.assign(skin.vertices.size(), hand::Segment::kPalm);
+  hand->tissue = hand::default_tissue();
   return hand;
 }
 
 /// A body that a function describes: nearest point of the surface, and distance, negative inside.
-class Body : public DistanceField {
+class Body : public geometry::DistanceField {
  public:
-  using Nearest = std::function<DistanceSample(const Vec3&)>;
+  using Nearest = std::function<geometry::DistanceSample(const Vec3&)>;
   explicit Body(Nearest nearest) : nearest_(std::move(nearest)) {}
   void sample(std::span<const Vec3> points, double /*range*/,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < points.size(); ++i) samples[i] = nearest_(points[i]);
   }
   Box3 bounding_box() const override { return {Vec3::Constant(-500.0), Vec3::Constant(500.0)}; }
@@ -82,7 +82,7 @@ class Body : public DistanceField {
   Nearest nearest_;
 };
 
-DistanceSample around(const Vec3& point, const Vec3& centre, double radius) {
+geometry::DistanceSample around(const Vec3& point, const Vec3& centre, double radius) {
   const Vec3 n = (point - centre).normalized();
   return {(point - centre).norm() - radius, centre + radius * n, n, -1};
 }
@@ -103,7 +103,7 @@ Body ring(double section, double outer, double depth) {
   return Body([=](const Vec3& x) {
     const Vec3 q = x - Vec3(0, 0, outer - depth);
     const Vec3 out = Vec3(q.x(), 0.0, q.z()).normalized();
-    DistanceSample found = around(q, (outer - section) * out, section);
+    geometry::DistanceSample found = around(q, (outer - section) * out, section);
     found.closest += Vec3(0, 0, outer - depth);
     return found;
   });
@@ -111,7 +111,7 @@ Body ring(double section, double outer, double depth) {
 
 /// The flat end of a round bar with a sharp edge.
 Body punch(double radius, double depth) {
-  return Body([=](const Vec3& x) -> DistanceSample {
+  return Body([=](const Vec3& x) -> geometry::DistanceSample {
     const double rho = std::hypot(x.x(), x.y());
     const Vec3 out = rho > 0.0 ? Vec3(x.x() / rho, x.y() / rho, 0.0) : Vec3(Vec3::UnitX());
     const double below = -depth - x.z();  // outside the end if positive
@@ -138,15 +138,15 @@ struct ClosedForm {
   double peak = 0.0;   ///< MPa; 0: not compared
 };
 
-using Skins = std::array<std::unique_ptr<PreparedHand>, 3>;
+using Skins = std::array<std::unique_ptr<contact::PreparedHand>, 3>;
 
 void add_form(ValidationRows& rows, const Skins& skins, const Body& body, const ClosedForm& form) {
-  ContactOptions options;
+  contact::ContactOptions options;
   options.shear_modulus = kModulus;
   std::array<double, 3> error{};
   for (std::size_t i = 0; i < kSpacing.size(); ++i) {
-    const ContactResult contact =
-        solve_hand_contact(*skins[i], skins[i]->hand().skin.vertices, Rigid3(), body, options);
+    const contact::ContactResult contact = contact::solve_hand_contact(
+        *skins[i], skins[i]->hand().skin.vertices, geometry::Rigid3(), body, options);
     const std::string at =
         " on a mesh of " + std::to_string(kSpacing[i]).substr(0, i == 1 ? 4 : 3) + " mm";
     error[i] = std::abs(contact.total.force / form.force - 1.0);
@@ -176,7 +176,8 @@ ValidationRows validate_skin_meshes(ValidationBench& bench) {
   Skins skins;
   for (std::size_t i = 0; i < kSpacing.size(); ++i) {
     bench.update(0.2 * static_cast<double>(i), "case skin, meshes");
-    skins[i] = std::make_unique<PreparedHand>(flat_hand(kSpacing[i]), ContactModel{});
+    skins[i] =
+        std::make_unique<contact::PreparedHand>(flat_hand(kSpacing[i]), contact::ContactModel{});
   }
   {
     // Shallow, as all shapes here: the solver's gaps are distances to the nearest point, Hertz' run
@@ -229,4 +230,4 @@ ValidationRows validate_skin_meshes(ValidationBench& bench) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::validation

@@ -8,7 +8,7 @@
 
 #include "palmar/validation/validation.h"
 
-namespace palmar {
+namespace palmar::validation {
 namespace {
 
 std::string number(double value) {
@@ -135,4 +135,4 @@ std::string validation_text(const ValidationReport& report) {
   return text + summary(report) + "\n";
 }
 
-}  // namespace palmar
+}  // namespace palmar::validation

@@ -12,7 +12,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::validation {
 namespace {
 
 using ::testing::AllOf;
@@ -138,7 +138,7 @@ TEST(Validate, IdsOfCasesDiffer) {
 TEST(Validate, MissingHandIsRefused) { EXPECT_THROW(validate(nullptr), UsageError); }
 
 TEST(Validate, RunsOnlyWhatIsAskedAndNothingSlowWhenQuick) {
-  const auto hand = std::make_shared<const Hand>();  // not touched by the case that runs
+  const auto hand = std::make_shared<const hand::Hand>();  // not touched by the case that runs
   ValidationOptions options;
   options.cases = {"G1", "motion"};
   options.quick = true;
@@ -156,8 +156,8 @@ TEST(Validate, CancelEndsIt) {
   const std::atomic<bool> cancel = true;
   Progress progress;
   progress.cancel = &cancel;
-  EXPECT_THROW(validate(std::make_shared<const Hand>(), {}, progress), Cancelled);
+  EXPECT_THROW(validate(std::make_shared<const hand::Hand>(), {}, progress), Cancelled);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::validation

@@ -18,7 +18,7 @@
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 // Shares of the whole: reading and preparing, assessing, writing the report.
@@ -32,23 +32,23 @@ Cancelled cancelled_early() {
 
 /// What depends on the product, read once: the same for every hand.
 struct ProductTask {
-  Product product;
-  GraspOptions grasp;
-  FrictionOptions friction;
+  product::Product product;
+  grasp::GraspOptions grasp;
+  contact::FrictionOptions friction;
 };
 
 std::vector<ProductTask> read_products(const AssessRequest& request, const Progress& progress) {
   std::vector<ProductTask> tasks;
   for (const ProductChoice& choice : request.products) {
     if (progress.is_cancelled()) throw cancelled_early();
-    Product product = load_product(choice, progress);
+    product::Product product = load_product(choice, progress);
     if (progress.is_cancelled()) throw cancelled_early();
     add_findings(product);
-    const FrictionOptions friction = request.friction.options_for(product);
+    const contact::FrictionOptions friction = request.friction.options_for(product);
     for (const std::string& text : product.notes) {
       note_to(request.note, choice.name() + ": " + text);
     }
-    GraspOptions grasp = options_for(request.grasp, product);
+    grasp::GraspOptions grasp = options_for(request.grasp, product);
     if (!request.grasp.holding.number) grasp.grip_force = request.rest.grip_force;
     tasks.push_back({std::move(product), grasp, friction});
   }
@@ -56,29 +56,29 @@ std::vector<ProductTask> read_products(const AssessRequest& request, const Progr
 }
 
 /// What has to be held, of all products: the usual grip force is the same for all of them.
-HeaviestLoad heaviest_of(const std::vector<ProductTask>& tasks) {
-  HeaviestLoad heaviest;
+grasp::HeaviestLoad heaviest_of(const std::vector<ProductTask>& tasks) {
+  grasp::HeaviestLoad heaviest;
   for (const ProductTask& task : tasks) heaviest.add(task.product, task.friction.load);
   return heaviest;
 }
 
-AssessOptions options_of(const AssessRequest& request, const Skeleton& skeleton) {
-  AssessOptions options;
+study::AssessOptions options_of(const AssessRequest& request, const hand::Skeleton& skeleton) {
+  study::AssessOptions options;
   options.contact = request.contact;
   options.seed = request.seed;
   if (!request.natural_postures.empty()) {
-    options.indices.coordination = read_coordination(request.natural_postures, skeleton);
+    options.indices.coordination = records::read_coordination(request.natural_postures, skeleton);
   }
   return options;
 }
 
-void add_measured(const Product& product, const MeasuredPressure& measured,
-                  Assessment& assessment) {
+void add_measured(const product::Product& product, const study::MeasuredPressure& measured,
+                  study::Assessment& assessment) {
   if (!assessment.sensors) {
     throw UsageError(product.name + ": the hand doesn't touch it, so nothing stands beside " +
                      measured.source);
   }
-  assessment.measured = compare_pressure(*assessment.sensors, measured);
+  assessment.measured = study::compare_pressure(*assessment.sensors, measured);
 }
 
 }  // namespace
@@ -103,20 +103,23 @@ void AssessRequest::check() const {
 
 AssessOutcome assess_products(const AssessRequest& request, const Progress& progress) {
   request.check();
-  if (!request.out.empty()) check_report_folder(request.out);
-  std::optional<SensorLayout> sensors;
-  std::optional<MeasuredPressure> measured;
-  if (!request.sensors.empty()) sensors = read_sensor_layout(request.sensors);
-  if (!request.measured.empty()) measured = read_measured_pressure(request.measured, *sensors);
+  if (!request.out.empty()) report::check_report_folder(request.out);
+  std::optional<study::SensorLayout> sensors;
+  std::optional<study::MeasuredPressure> measured;
+  if (!request.sensors.empty()) sensors = records::read_sensor_layout(request.sensors);
+  if (!request.measured.empty())
+    measured = records::read_measured_pressure(request.measured, *sensors);
   std::vector<ProductTask> tasks = read_products(request, progress);
 
   if (progress.report) progress.report(0.0, "preparing the hand");
   const auto hand = load_hand(request.hand);
-  AssessOptions options = options_of(request, hand->skeleton);
+  study::AssessOptions options = options_of(request, hand->skeleton);
   options.sensors = sensors;
-  const HeaviestLoad heaviest = request.rest.is_usual() ? heaviest_of(tasks) : HeaviestLoad{};
+  const grasp::HeaviestLoad heaviest =
+      request.rest.is_usual() ? heaviest_of(tasks) : grasp::HeaviestLoad{};
   options.balance = request.rest.options(request.friction.friction, heaviest);
-  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model, request.note);
+  const contact::PreparedHand prepared =
+      prepared_hand(request.hand, hand, request.model, request.note);
 
   AssessOutcome outcome;
   outcome.asked = tasks.size();
@@ -130,22 +133,22 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
     options.balance.load = task.friction.load;
     HeldProduct held;
     try {
-      Assessment assessment =
-          assess(prepared, task.product, options,
-                 part_of(progress, start, start + step, task.product.name), [&](const Progress& p) {
-                   held = take_product(hand, task.product, request.grasp, options.grasp, p);
-                   return held.grasp;
-                 });
+      study::Assessment assessment = study::assess(
+          prepared, task.product, options,
+          part_of(progress, start, start + step, task.product.name), [&](const Progress& p) {
+            held = take_product(hand, task.product, request.grasp, options.grasp, p);
+            return held.grasp;
+          });
       if (measured) add_measured(task.product, *measured, assessment);
-      std::shared_ptr<const ErrorBudget> errors;
+      std::shared_ptr<const study::ErrorBudget> errors;
       if (request.error_budget) {
-        ErrorBudgetOptions budget;
-        budget.compliance = [](const Hand& own) {
-          return tissue_on_bone(own, {.tissue = TissueModel::kBone});
+        study::ErrorBudgetOptions budget;
+        budget.compliance = [](const hand::Hand& own) {
+          return tissue_on_bone(own, {.tissue = contact::TissueModel::kBone});
         };
-        errors = std::make_shared<const ErrorBudget>(
-            error_budget(hand, prepared, task.product, held.grasp, assessment, budget,
-                         part_of(progress, start, start + step, task.product.name)));
+        errors = std::make_shared<const study::ErrorBudget>(
+            study::error_budget(hand, prepared, task.product, held.grasp, assessment, budget,
+                                part_of(progress, start, start + step, task.product.name)));
       }
       outcome.set.assessments.push_back({std::move(task.product), std::move(assessment), held.ways,
                                          held.ways_hand, std::move(errors)});
@@ -153,8 +156,8 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
       outcome.is_cancelled = true;
       break;
     }
-    const AssessedProduct& done = outcome.set.assessments.back();
-    const Grip grip = done.assessment.grasp.grip;
+    const study::AssessedProduct& done = outcome.set.assessments.back();
+    const grasp::Grip grip = done.assessment.grasp.grip;
     if (options.balance.share_of_strength && options.balance.share_of_strength->is_raised(grip)) {
       note_to(request.note, fmt::format("{}: grip force {:.0f} N: {}", done.product.name,
                                         options.balance.share_of_strength->force(grip),
@@ -165,11 +168,11 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
               fmt::format("{}: {}; held in a {} (hold {})", done.product.name, done.ways->why_taken,
                           done.assessment.grasp.hold_words, done.ways->taken));
     }
-    const std::string fallbacks = fallbacks_in_words(done.assessment.contact.fallbacks);
+    const std::string fallbacks = contact::fallbacks_in_words(done.assessment.contact.fallbacks);
     if (!fallbacks.empty()) {
       note_to(request.note, done.product.name + ": contact solver: " + fallbacks);
     }
-    if (done.assessment.contact.status == ContactStatus::kNotConverged) {
+    if (done.assessment.contact.status == contact::ContactStatus::kNotConverged) {
       note_to(request.note, done.product.name + ": " + done.assessment.contact.message);
       outcome.has_converged = false;
     }
@@ -181,22 +184,23 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
 
 void finish_assessment(const AssessRequest& request, const Progress& progress,
                        AssessOutcome& outcome) {
-  outcome.words = verdict_words(outcome.set, verdict_of(outcome.set), request.language);
+  outcome.words =
+      report::verdict_words(outcome.set, study::verdict_of(outcome.set), request.language);
   if (request.out.empty()) return;
   // What is done is written even when the user has cancelled, but for pictures.
   outcome.folder = request.out;
   try {
-    write_report(
+    report::write_report(
         request.out, outcome.set,
         {.language = request.language, .pictures = request.pictures, .extras = request.extras},
         part_of(progress, kAssessed, request.pdf || request.extras.slides ? kWritten : 1.0));
     if (request.pdf) {
       progress.update(kWritten, "PDF");
-      print_pdf(std::filesystem::path(request.out) / "report.html", *request.pdf, progress);
+      report::print_pdf(std::filesystem::path(request.out) / "report.html", *request.pdf, progress);
     }
     if (request.extras.slides) {
       progress.update(kWritten, "slides");
-      take_slides(std::filesystem::path(request.out) / "report.html", progress);
+      report::take_slides(std::filesystem::path(request.out) / "report.html", progress);
     }
   } catch (const Cancelled&) {
     outcome.is_cancelled = true;
@@ -211,4 +215,4 @@ std::string free_report_folder() {
   return folder;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -24,17 +24,17 @@
 #include "palmar/workflow/note/note.h"
 #include "palmar/workflow/product/product_choice.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// How one hand holds one or more products, each by itself.
 struct AssessRequest {
   std::vector<ProductChoice> products;  ///< files or values; at least one
   HandChoice hand;
-  GraspSettings grasp;
-  ContactModel model = palmar_model();  ///< the equations of the skin
-  ContactOptions contact = refined_contact_with_band();
-  FrictionSettings friction;
-  RestSettings rest;  ///< one grip force for all products, unless it says otherwise
+  grasp::GraspSettings grasp;
+  contact::ContactModel model = contact::palmar_model();  ///< the equations of the skin
+  contact::ContactOptions contact = refined_contact_with_band();
+  grasp::FrictionSettings friction;
+  grasp::RestSettings rest;  ///< one grip force for all products, unless it says otherwise
   /// CSV of measured grasp postures (degrees, a column per joint angle) as basis of the index of
   /// ease; "": the built-in one.
   std::string natural_postures;
@@ -43,25 +43,25 @@ struct AssessRequest {
   std::string sensors;
   /// CSV of what such sensors measured on the one product (read_measured_pressure()); "": nothing.
   std::string measured;
-  bool error_budget = false;                ///< hold each product again with one thing changed
-  Language language = Language::kEnglish;   ///< of the report and the verdict
-  std::string out;                          ///< folder of the report; "": none is written
-  bool pictures = true;                     ///< PNG pictures in it
-  std::optional<Paper> pdf = std::nullopt;  ///< answer.pdf and report.pdf on this paper
-  ReportExtras extras = {};                 ///< whose it is, units, files for other programs
-  std::uint64_t seed = 0;                   ///< written into the results
-  std::string command_line;                 ///< for provenance
+  bool error_budget = false;               ///< hold each product again with one thing changed
+  Language language = Language::kEnglish;  ///< of the report and the verdict
+  std::string out;                         ///< folder of the report; "": none is written
+  bool pictures = true;                    ///< PNG pictures in it
+  std::optional<report::Paper> pdf = std::nullopt;  ///< answer.pdf and report.pdf on this paper
+  report::ReportExtras extras = {};  ///< whose it is, units, files for other programs
+  std::uint64_t seed = 0;            ///< written into the results
+  std::string command_line;          ///< for provenance
   NoteSink note = {};  ///< early notes: what was found in a product, why one has no solution
   void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 
 struct AssessOutcome {
-  AssessmentSet set;          ///< of the products that were finished, in their order
-  std::size_t asked = 0;      ///< products that were asked for
-  bool is_cancelled = false;  ///< what was finished is here and, but for pictures, in the report
-  bool has_converged = true;  ///< of every contact
-  std::string folder;         ///< of the report; "": none was written
-  VerdictWords words;         ///< the answer, as it stands in report and JSON
+  study::AssessmentSet set;     ///< of the products that were finished, in their order
+  std::size_t asked = 0;        ///< products that were asked for
+  bool is_cancelled = false;    ///< what was finished is here and, but for pictures, in the report
+  bool has_converged = true;    ///< of every contact
+  std::string folder;           ///< of the report; "": none was written
+  records::VerdictWords words;  ///< the answer, as it stands in report and JSON
 };
 
 /// Reads all products, checks them, prepares the hand and assesses one product after the other;
@@ -81,4 +81,4 @@ void finish_assessment(const AssessRequest& request, const Progress& progress,
 /// stands there is touched.
 std::string free_report_folder();
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -17,7 +17,7 @@
 #include "palmar/workflow/live/live_person.h"
 #include "palmar/workflow/live/live_session.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 constexpr double kBenchOpened = 0.2, kBenchAssessed = 0.7;  // shares of the whole
@@ -51,7 +51,7 @@ auto unpacked(const std::filesystem::path& project, const std::string& what,
               const std::string& file_name, const std::string& bytes, Read read) {
   const UnpackingFolder folder;
   const std::filesystem::path path = folder.path() / file_name;
-  write_file(path, bytes);
+  formats::write_file(path, bytes);
   try {
     return read(path);
   } catch (const InputError& error) {
@@ -64,33 +64,33 @@ auto unpacked(const std::filesystem::path& project, const std::string& what,
   }
 }
 
-std::shared_ptr<const Product> bench_product(const std::filesystem::path& file,
-                                             const BenchProject& project,
-                                             const Progress& progress) {
+std::shared_ptr<const product::Product> bench_product(const std::filesystem::path& file,
+                                                      const records::BenchProject& project,
+                                                      const Progress& progress) {
   return unpacked(file, "product", project.file_name, project.bytes,
                   [&](const std::filesystem::path& path) {
-                    auto product = std::make_shared<Product>(
+                    auto product = std::make_shared<product::Product>(
                         load_product(ProductChoice(path, {.unit = project.unit}), progress));
                     add_findings(*product);
                     product->source = project.file_name;
-                    return std::shared_ptr<const Product>(std::move(product));
+                    return std::shared_ptr<const product::Product>(std::move(product));
                   });
 }
 
-AssessmentSet shown_on_bench(LiveSession& session, const BenchProject& project,
-                             const LiveTask& task, const Progress& progress) {
+study::AssessmentSet shown_on_bench(LiveSession& session, const records::BenchProject& project,
+                                    const LiveTask& task, const Progress& progress) {
   if (!project.pose) {
     session.holds(part_of(progress, 0.0, 0.3));
     return session.take_hold(project.hold, task, part_of(progress, 0.3, 1.0));
   }
   const LivePose pose{project.pose->posture, project.pose->product_from_hand};
-  const Grip grip = project.pose->grip.value_or(Grip::kMediumWrap);
+  const grasp::Grip grip = project.pose->grip.value_or(grasp::Grip::kMediumWrap);
   switch (project.settle) {
-    case BenchSettle::kClose:
+    case records::BenchSettle::kClose:
       return session.close_here(pose, project.pose->grip, task, progress);
-    case BenchSettle::kRest:
+    case records::BenchSettle::kRest:
       return session.rest_here(pose, grip, task, progress);
-    case BenchSettle::kAsPlaced:
+    case records::BenchSettle::kAsPlaced:
       break;
   }
   return session.evaluate_here(pose, grip, task, progress);
@@ -99,12 +99,12 @@ AssessmentSet shown_on_bench(LiveSession& session, const BenchProject& project,
 }  // namespace
 
 bool is_bench_project(const std::filesystem::path& file) {
-  return file.string().ends_with(kBenchProjectEnding);
+  return file.string().ends_with(records::kBenchProjectEnding);
 }
 
 AssessOutcome assess_bench_project(const BenchAssessRequest& request, const Progress& progress) {
-  const BenchProject project = read_bench_project(request.file);
-  if (request.grip_force && project.pose && project.settle == BenchSettle::kAsPlaced) {
+  const records::BenchProject project = records::read_bench_project(request.file);
+  if (request.grip_force && project.pose && project.settle == records::BenchSettle::kAsPlaced) {
     throw UsageError(request.file.string() +
                      ": hand and product are taken as they were placed, so the grip force is what "
                      "comes of it and can't be given; let the grasp come to rest in the workbench");
@@ -122,7 +122,7 @@ AssessOutcome assess_bench_project(const BenchAssessRequest& request, const Prog
                  [](const std::filesystem::path& path) { return load_hand(path.string()); });
   }
   const AssessRequest& report = request.report;
-  if (!report.out.empty()) check_report_folder(report.out);
+  if (!report.out.empty()) report::check_report_folder(report.out);
 
   LiveTask task;
   task.rest.grip_force = request.grip_force ? request.grip_force : project.grip_force;
@@ -142,9 +142,9 @@ AssessOutcome assess_bench_project(const BenchAssessRequest& request, const Prog
   outcome.set = shown_on_bench(session, project, task_of_person(task, choice.person),
                                part_of(progress, kBenchOpened, kBenchAssessed));
   outcome.set.command_line = report.command_line;
-  Assessment& assessment = outcome.set.assessments.front().assessment;
+  study::Assessment& assessment = outcome.set.assessments.front().assessment;
   assessment.options.seed = report.seed;
-  if (assessment.contact.status == ContactStatus::kNotConverged) {
+  if (assessment.contact.status == contact::ContactStatus::kNotConverged) {
     note_to(report.note, project.file_name + ": " + assessment.contact.message);
     outcome.has_converged = false;
   }
@@ -152,4 +152,4 @@ AssessOutcome assess_bench_project(const BenchAssessRequest& request, const Prog
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -9,13 +9,13 @@
 #include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/workflow/assess.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A project file of the workbench (.palmar-project), taken as the bench takes it.
 struct BenchAssessRequest {
   std::filesystem::path file;
   std::optional<double> grip_force;  ///< N, over the file's; not of a pose that is taken as placed
-  FrictionSettings friction;         ///< mass and friction, which the file doesn't say
+  grasp::FrictionSettings friction;  ///< mass and friction, which the file doesn't say
   /// Of the report alone: language, out, pictures, pdf, extras, seed, command_line, note.
   AssessRequest report;
 };
@@ -30,4 +30,4 @@ AssessOutcome assess_bench_project(const BenchAssessRequest& request,
 /// Whether the path has the ending of such a file.
 bool is_bench_project(const std::filesystem::path& file);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -16,7 +16,7 @@
 #include "palmar/study/assessment/error_budget.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using testing::AllOf;
@@ -49,10 +49,10 @@ TEST(AssessProducts, ErrorBudgetHoldsTheProductAgainAtTheSameGripForce) {
   request.rest.grip_force = 40.0;
   request.error_budget = true;
   const AssessOutcome outcome = assess_products(request);
-  const std::shared_ptr<const ErrorBudget> budget = outcome.set.assessments.front().errors;
+  const std::shared_ptr<const study::ErrorBudget> budget = outcome.set.assessments.front().errors;
   ASSERT_NE(budget, nullptr);
   const auto area_of = [&](const std::string& changed) {
-    for (const ErrorCase& one : budget->cases) {
+    for (const study::ErrorCase& one : budget->cases) {
       if (one.changed == changed) return one.area;
     }
     ADD_FAILURE() << changed << " is missing";
@@ -61,13 +61,14 @@ TEST(AssessProducts, ErrorBudgetHoldsTheProductAgainAtTheSameGripForce) {
   // Softer skin meets the same force with more of itself.
   EXPECT_GT(area_of("soft tissue"), budget->nominal.area);
   EXPECT_LT(area_of("stiff tissue"), budget->nominal.area);
-  std::set<ErrorSource> sources;
-  for (const ErrorCase& one : budget->cases) {
+  std::set<study::ErrorSource> sources;
+  for (const study::ErrorCase& one : budget->cases) {
     sources.insert(one.source);
     // The hand of this test has no bones.
-    if (one.source == ErrorSource::kBone) continue;
+    if (one.source == study::ErrorSource::kBone) continue;
     EXPECT_EQ(one.failure, "") << one.changed;
-    EXPECT_NEAR(one.grip_force, 40.0, one.source == ErrorSource::kMesh ? 6.0 : 0.8) << one.changed;
+    EXPECT_NEAR(one.grip_force, 40.0, one.source == study::ErrorSource::kMesh ? 6.0 : 0.8)
+        << one.changed;
   }
   EXPECT_EQ(sources.size(), 5U);
 }
@@ -81,8 +82,8 @@ TEST(AssessProducts, ForcesOnAHeldProductAddUpToNothing) {
   ASSERT_EQ(outcome.set.assessments.size(), 1U);
   EXPECT_TRUE(outcome.has_converged);
   EXPECT_EQ(outcome.folder, "");
-  const Assessment& held = outcome.set.assessments.front().assessment;
-  ASSERT_EQ(held.balance.status, BalanceStatus::kBalanced);
+  const study::Assessment& held = outcome.set.assessments.front().assessment;
+  ASSERT_EQ(held.balance.status, grasp::BalanceStatus::kBalanced);
   EXPECT_NEAR(held.balance.grip_force, 40.0, 0.8);  // N; settling ends within 2 % of it
   Vec3 sum = held.contact.total.force_vector - 6.0 * Vec3::UnitZ();
   for (const Vec3& force : held.balance.friction_force) sum += force;
@@ -90,19 +91,20 @@ TEST(AssessProducts, ForcesOnAHeldProductAddUpToNothing) {
 }
 
 TEST(AssessProducts, DesignsAreComparedAtOneGripForce) {
-  PrismProductOptions prism;
+  product::PrismProductOptions prism;
   prism.width = 40.0;
   prism.depth = 30.0;
   prism.length = 140.0;
   prism.fillet_radius = 5.0;
-  AssessRequest request = request_for({handle(30.0), handle(45.0), make_prism_product(prism)});
+  AssessRequest request =
+      request_for({handle(30.0), handle(45.0), product::make_prism_product(prism)});
   // 25 % of the mean of 53.0 and 34.1 kg (Steiber 2016, men and women of 45 to 49 years).
   const double usual = 0.25 * 0.5 * (53.0 + 34.1) * 9.80665;
   const AssessOutcome same = assess_products(request);
-  for (const AssessedProduct& one : same.set.assessments) {
-    const Assessment& held = one.assessment;
-    EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced) << held.balance.message;
-    EXPECT_NEAR(grip_force_of(one), usual, 0.01 * usual) << one.product.name;  // N
+  for (const study::AssessedProduct& one : same.set.assessments) {
+    const study::Assessment& held = one.assessment;
+    EXPECT_EQ(held.balance.status, grasp::BalanceStatus::kBalanced) << held.balance.message;
+    EXPECT_NEAR(study::grip_force_of(one), usual, 0.01 * usual) << one.product.name;  // N
     EXPECT_THAT(held.options.balance.asked_words(held.grasp.grip),
                 HasSubstr("women and men of 45 years"));
   }
@@ -110,10 +112,10 @@ TEST(AssessProducts, DesignsAreComparedAtOneGripForce) {
   request.rest.limit_depths = true;
   const AssessOutcome own = assess_products(request);
   double least = 1e9, most = 0.0;
-  for (const AssessedProduct& one : own.set.assessments) {
+  for (const study::AssessedProduct& one : own.set.assessments) {
     EXPECT_FALSE(one.assessment.options.balance.asked_grip_force(one.assessment.grasp.grip));
-    least = std::min(least, grip_force_of(one));
-    most = std::max(most, grip_force_of(one));
+    least = std::min(least, study::grip_force_of(one));
+    most = std::max(most, study::grip_force_of(one));
   }
   EXPECT_GT(most, 1.05 * least);
 }
@@ -129,7 +131,7 @@ TEST(AssessProducts, HeaviestDesignDecidesHowFirmlyAllAreHeld) {
   // the cylinder by up to 0.1 mm.
   const double weight = std::numbers::pi / 4.0 * 4.5 * 4.5 * 14.0 * 20e-3 * 9.80665;
   ASSERT_EQ(outcome.set.assessments.size(), 2U);
-  for (const AssessedProduct& one : outcome.set.assessments) {
+  for (const study::AssessedProduct& one : outcome.set.assessments) {
     const auto asked = one.assessment.options.balance.asked_grip_force(one.assessment.grasp.grip);
     EXPECT_NEAR(asked.value_or(0.0), 1.4 * weight / 0.4, 0.01 * 1.4 * weight / 0.4);
   }
@@ -141,9 +143,9 @@ TEST(AssessProducts, ForceThatTheHandDoesNotReachIsSaid) {
   AssessRequest request = request_for({handle(40.0)});
   request.rest.grip_force = 1500.0;  // N; the strongest grip measured is below 1000 N
   const AssessOutcome outcome = assess_products(request);
-  const Balance& balance = outcome.set.assessments.front().assessment.balance;
+  const grasp::Balance& balance = outcome.set.assessments.front().assessment.balance;
   EXPECT_LT(balance.grip_force, 1400.0);
-  if (balance.status == BalanceStatus::kBalanced) {
+  if (balance.status == grasp::BalanceStatus::kBalanced) {
     EXPECT_THAT(balance.message, HasSubstr("1500 N were requested, which the hand doesn't reach"));
   } else {
     EXPECT_THAT(balance.message, Not(testing::IsEmpty()));
@@ -153,14 +155,14 @@ TEST(AssessProducts, ForceThatTheHandDoesNotReachIsSaid) {
 TEST(AssessProducts, ValueIsAssessedAsTheFileItCameFrom) {
   const TemporaryFolder folder;
   const std::string path = (folder / "handle.obj").string();
-  write_mesh(path, handle(50.0).mesh);
-  const ProductChoice file(path, {.unit = LengthUnit::kMillimetre});
+  formats::write_mesh(path, handle(50.0).mesh);
+  const ProductChoice file(path, {.unit = geometry::LengthUnit::kMillimetre});
 
   const AssessOutcome of_file = assess_products(request_for({file}));
   const AssessOutcome of_value = assess_products(request_for({load_product(file)}));
 
-  const Assessment& a = of_file.set.assessments.front().assessment;
-  const Assessment& b = of_value.set.assessments.front().assessment;
+  const study::Assessment& a = of_file.set.assessments.front().assessment;
+  const study::Assessment& b = of_value.set.assessments.front().assessment;
   EXPECT_GT(a.contact.total.force, 1.0);  // N
   EXPECT_EQ(a.contact.total.force, b.contact.total.force);
   EXPECT_EQ(a.contact.pressure, b.contact.pressure);
@@ -225,7 +227,7 @@ TEST(AssessProducts, SensorsBearTheForceOfTheContact) {
     AssessRequest request = request_for({handle(44.0)});
     request.sensors = layout;
     const AssessOutcome outcome = assess_products(request);
-    const Assessment& held = outcome.set.assessments.front().assessment;
+    const study::Assessment& held = outcome.set.assessments.front().assessment;
     ASSERT_TRUE(held.sensors);
     const double force = held.contact.total.force;
     EXPECT_NEAR(held.sensors->force + held.sensors->force_beside, force, 1e-9 * force) << layout;
@@ -248,16 +250,17 @@ TEST(AssessProducts, MeasuredPressureStandsBesideTheSimulation) {
   request.measured = request.out + "/sensors.csv";
   request.out = (folder / "second").string();
   const AssessOutcome second = assess_products(request);
-  const Assessment& held = second.set.assessments.front().assessment;
+  const study::Assessment& held = second.set.assessments.front().assessment;
   ASSERT_TRUE(held.measured);
   EXPECT_NEAR(held.measured->pearson.r, 1.0, 1e-9);
   EXPECT_NEAR(held.measured->rms, 0.0, 1e-12);
   EXPECT_NEAR(held.measured->force_measured, held.measured->force_simulated, 1e-9);
-  const std::string page = read_file(folder / "second" / "report.html");
+  const std::string page = formats::read_file(folder / "second" / "report.html");
   EXPECT_THAT(page, HasSubstr("Sensors between hand and product"));
   EXPECT_THAT(page, HasSubstr("Simulated less measured"));
-  EXPECT_THAT(read_file(folder / "second" / "assessment.json"), HasSubstr("\"cell_force_n\""));
-  EXPECT_THAT(read_file(folder / "second" / "sensors.csv"), HasSubstr("measured_force_n"));
+  EXPECT_THAT(formats::read_file(folder / "second" / "assessment.json"),
+              HasSubstr("\"cell_force_n\""));
+  EXPECT_THAT(formats::read_file(folder / "second" / "sensors.csv"), HasSubstr("measured_force_n"));
 }
 
 TEST(AssessRequest, CheckNamesFieldValueAndWhatIsAllowed) {
@@ -276,4 +279,4 @@ TEST(AssessRequest, CheckNamesFieldValueAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

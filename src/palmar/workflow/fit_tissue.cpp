@@ -15,24 +15,24 @@
 #include "palmar/records/tissue_file.h"
 #include "palmar/records/tissue_fit_json.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 /// Regions that the fit is for: a group's, or one.
-std::vector<Region> regions_of(const std::string& name) {
-  std::vector<Region> regions;
-  const auto group = tissue_class_named(name);
-  if (const auto region = region_named(name)) regions.push_back(*region);
+std::vector<hand::Region> regions_of(const std::string& name) {
+  std::vector<hand::Region> regions;
+  const auto group = hand::tissue_class_named(name);
+  if (const auto region = hand::region_named(name)) regions.push_back(*region);
   if (!group && !regions.empty()) return regions;
   regions.clear();
   std::vector<std::string> known;
-  for (int c = 0; c < kTissueClassCount; ++c) {
-    known.emplace_back(name_of(static_cast<TissueClass>(c)));
+  for (int c = 0; c < hand::kTissueClassCount; ++c) {
+    known.emplace_back(name_of(static_cast<hand::TissueClass>(c)));
   }
-  for (int r = 0; r < kRegionCount; ++r) {
-    const auto region = static_cast<Region>(r);
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    const auto region = static_cast<hand::Region>(r);
     known.emplace_back(name_of(region));
-    if (group && tissue_class_of(region) == *group) regions.push_back(region);
+    if (group && hand::tissue_class_of(region) == *group) regions.push_back(region);
   }
   if (group) return regions;
   throw UsageError("setting \"group\": \"" + name + "\" is not known; " +
@@ -40,17 +40,17 @@ std::vector<Region> regions_of(const std::string& name) {
 }
 
 /// The default set with the fitted law in it.
-Tissue fitted_set(const TissueFitRequest& request, const TissueFit& fit,
-                  const std::vector<Region>& regions) {
+hand::Tissue fitted_set(const TissueFitRequest& request, const contact::TissueFit& fit,
+                        const std::vector<hand::Region>& regions) {
   const std::string file = std::filesystem::path(request.curves).filename().string();
-  Tissue tissue = default_tissue();
+  hand::Tissue tissue = hand::default_tissue();
   tissue.source = "Palmar's own set with " +
                   std::string(request.is_layered ? "layered" : "half-space") +
                   " tissue fitted to " + file;
-  for (const Region region : regions) {
-    RegionTissue& one = tissue.region[static_cast<std::size_t>(region)];
+  for (const hand::Region region : regions) {
+    hand::RegionTissue& one = tissue.region[static_cast<std::size_t>(region)];
     (request.is_layered ? one.layered : one.half_space) = fit.stiffness;
-    if (const std::string fault = fault_of(one); !fault.empty()) {
+    if (const std::string fault = hand::fault_of(one); !fault.empty()) {
       throw NumericalError(file + ": the fit gives no tissue that skin can have: " + fault +
                            ". Are the units of the columns right?");
     }
@@ -65,13 +65,13 @@ Tissue fitted_set(const TissueFitRequest& request, const TissueFit& fit,
 }
 
 bool is_of_hand(const TissueFitRequest& request) {
-  return request.test.specimen.kind == PressSpecimen::Kind::kHandRegion;
+  return request.test.specimen.kind == contact::PressSpecimen::Kind::kHandRegion;
 }
 
 std::string group_of(const TissueFitRequest& request) {
   if (!request.group.empty()) return request.group;
   if (!is_of_hand(request)) return "finger";
-  return std::string(name_of(tissue_class_of(request.test.specimen.region)));
+  return std::string(name_of(hand::tissue_class_of(request.test.specimen.region)));
 }
 
 }  // namespace
@@ -84,11 +84,11 @@ void TissueFitRequest::check() const {
 TissueFitOutcome fit_tissue(const TissueFitRequest& request) {
   request.check();
   const std::string group = group_of(request);
-  const MeasuredCurves curves = read_measured_curves(request.curves);
-  PressOptions test = request.test;
+  const records::MeasuredCurves curves = records::read_measured_curves(request.curves);
+  contact::PressOptions test = request.test;
   test.depths.clear();
-  const double deepest = deepest_press(test);
-  for (const MeasuredPoint& point : curves.points) {
+  const double deepest = contact::deepest_press(test);
+  for (const contact::MeasuredPoint& point : curves.points) {
     if (point.depth > deepest) {
       throw InputError(
           fmt::format("{}:{}: depth_mm is {}; at most {} mm is allowed with the indenter {}",
@@ -103,30 +103,31 @@ TissueFitOutcome fit_tissue(const TissueFitRequest& request) {
     note_to(request.note,
             fmt::format("{}: {} rows at depth 0 are left out", request.curves, curves.zero_depths));
   }
-  std::optional<PreparedHand> hand;
+  std::optional<contact::PreparedHand> hand;
   if (is_of_hand(request)) {
-    ContactModel model;
-    if (request.is_layered) model.tissue = TissueModel::kLayered;
+    contact::ContactModel model;
+    if (request.is_layered) model.tissue = contact::TissueModel::kLayered;
     hand.emplace(load_hand(request.hand), model);
   }
   std::vector<double> thickness;
   if (request.is_layer_fitted) {
-    thickness = thicknesses_to_try(*std::max_element(test.depths.begin(), test.depths.end()));
+    thickness =
+        contact::thicknesses_to_try(*std::max_element(test.depths.begin(), test.depths.end()));
   }
   test.check();
-  const SpecimenResponse response =
-      specimen_response(test, test.depths, thickness, hand ? &*hand : nullptr);
+  const contact::SpecimenResponse response =
+      contact::specimen_response(test, test.depths, thickness, hand ? &*hand : nullptr);
   TissueFitOutcome outcome{fit_tissue(curves.points, response, request.fit), group};
-  const TissueFit& fit = outcome.fit;
-  if (fit.status == LeastSquaresStatus::kIterationLimit ||
-      fit.status == LeastSquaresStatus::kBadStart) {
+  const contact::TissueFit& fit = outcome.fit;
+  if (fit.status == geometry::LeastSquaresStatus::kIterationLimit ||
+      fit.status == geometry::LeastSquaresStatus::kBadStart) {
     throw NumericalError(request.curves + ": the fit ended without converging (" +
-                         std::string(name_of(fit.status)) + "); nothing is written");
+                         std::string(records::name_of(fit.status)) + "); nothing is written");
   }
   if (!request.out.empty()) {
-    write_tissue(request.out, fitted_set(request, fit, regions_of(group)));
+    records::write_tissue(request.out, fitted_set(request, fit, regions_of(group)));
   }
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -10,18 +10,18 @@
 #include "palmar/workflow/hand/load_hand.h"
 #include "palmar/workflow/note/note.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Tissue of skin from measured depths and forces of an indentation test.
 struct TissueFitRequest {
   std::string curves;  ///< CSV (read_measured_curves())
   /// Specimen, indenter, tilt, spacing, Poisson's ratio, thickness of the layer if it is known; the
   /// depths are those of the readings.
-  PressOptions test;
+  contact::PressOptions test;
   HandChoice hand;               ///< whose region was pressed
   bool is_layered = false;       ///< skin over bone; else tissue without end
   bool is_layer_fitted = false;  ///< of a plane or ellipsoid: its thickness is fitted as well
-  TissueFitOptions fit;
+  contact::TissueFitOptions fit;
   /// What the tissue file gives the result to: "finger", "palm", "dorsum" or a region; "": the
   /// group of the region that was pressed, "finger" for a plane or ellipsoid.
   std::string group;
@@ -32,7 +32,7 @@ struct TissueFitRequest {
 };
 
 struct TissueFitOutcome {
-  TissueFit fit;
+  contact::TissueFit fit;
   std::string group;
 };
 
@@ -40,4 +40,4 @@ struct TissueFitOutcome {
 /// doesn't converge or gives no tissue that skin can have: then nothing is written.
 TissueFitOutcome fit_tissue(const TissueFitRequest& request);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

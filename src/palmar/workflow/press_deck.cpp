@@ -11,12 +11,12 @@
 #include "palmar/hand/tissue_block.h"
 #include "palmar/records/fe/tetgen.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 /// All but tissue and indenter.
-PressDeck empty_deck(const PressDeckRequest& request) {
-  PressDeck deck;
+records::PressDeck empty_deck(const PressDeckRequest& request) {
+  records::PressDeck deck;
   deck.depths = request.depths;
   deck.shear_modulus = request.shear_modulus;
   deck.poisson = request.poisson;
@@ -33,9 +33,9 @@ std::string indenter_words(const PressDeckRequest& request) {
 }  // namespace
 
 void PressDeckRequest::check() const {
-  TissueBlockOptions{.region = region, .cut_offset = cut_offset, .cut_normal = {}}.check();
+  hand::TissueBlockOptions{.region = region, .cut_offset = cut_offset, .cut_normal = {}}.check();
   empty_deck(*this).check_test();
-  check_largest_tet(largest_tet);
+  records::check_largest_tet(largest_tet);
 }
 
 PressDeckOutcome write_press_deck(const PressDeckRequest& request) {
@@ -43,22 +43,24 @@ PressDeckOutcome write_press_deck(const PressDeckRequest& request) {
   const auto hand = load_hand(request.hand);
   const std::filesystem::path folder(request.out);
   PressDeckOutcome outcome{folder / "press.inp", empty_deck(request)};
-  PressDeck& deck = outcome.deck;
+  records::PressDeck& deck = outcome.deck;
   deck.title = fmt::format("{} of hand {}, {}", name_of(request.region), hand->name,
                            indenter_words(request));
-  PressOptions press;
-  press.specimen = {.kind = PressSpecimen::Kind::kHandRegion, .region = request.region};
+  contact::PressOptions press;
+  press.specimen = {.kind = contact::PressSpecimen::Kind::kHandRegion, .region = request.region};
   press.indenter = request.indenter;
   press.tilt = request.tilt;
   press.depths = request.depths;
-  const Rigid3 frame = indenter_at_first_touch(press, PreparedHand(hand));
-  deck.indenter = indenter_surface(request.indenter, frame);
+  const geometry::Rigid3 frame =
+      contact::indenter_at_first_touch(press, contact::PreparedHand(hand));
+  deck.indenter = records::indenter_surface(request.indenter, frame);
   deck.direction = -(frame.rotation * Vec3::UnitZ());
-  const TissueBlockOptions block{
+  const hand::TissueBlockOptions block{
       .region = request.region, .cut_offset = request.cut_offset, .cut_normal = {}};
-  deck.block = mesh_by_tetgen(make_tissue_block(*hand, block), folder, request.largest_tet);
-  write_file(outcome.file, inp_deck(deck));
+  deck.block =
+      records::mesh_by_tetgen(hand::make_tissue_block(*hand, block), folder, request.largest_tet);
+  formats::write_file(outcome.file, records::inp_deck(deck));
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -15,7 +15,7 @@
 #include "palmar/workflow/hand/workflow_test_hand.h"
 #include "palmar/workflow/press.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using testing::HasSubstr;
@@ -24,15 +24,15 @@ using workflow_test::TemporaryFolder;
 
 TEST(ConvertProduct, CentimetresBecomeMillimetres) {
   const TemporaryFolder folder;
-  TriangleMesh mesh = handle(40.0).mesh;
+  geometry::TriangleMesh mesh = handle(40.0).mesh;
   for (Vec3& vertex : mesh.vertices) vertex /= 10.0;
-  write_mesh(folder / "cm.obj", mesh);
+  formats::write_mesh(folder / "cm.obj", mesh);
   std::string notes;
   convert_product({.file = (folder / "cm.obj").string(),
                    .out = (folder / "mm.stl").string(),
-                   .reading = {.unit = LengthUnit::kCentimetre},
+                   .reading = {.unit = geometry::LengthUnit::kCentimetre},
                    .note = [&](const std::string& text) { notes += text; }});
-  const double volume = signed_volume(read_mesh(folder / "mm.stl").mesh);
+  const double volume = geometry::signed_volume(formats::read_mesh(folder / "mm.stl").mesh);
   const double cylinder = std::numbers::pi * 20.0 * 20.0 * 140.0;
   EXPECT_NEAR(volume, cylinder, 0.02 * cylinder);  // mm^3; the mesh lies inside the cylinder
 }
@@ -48,11 +48,12 @@ TEST(ConvertProduct, MeshHasNoSurfacesForStep) {
 
 TEST(InspectProduct, FileIsJudgedAsItIsBeforeAnyRepair) {
   const TemporaryFolder folder;
-  TriangleMesh mesh = handle(40.0).mesh;
+  geometry::TriangleMesh mesh = handle(40.0).mesh;
   mesh.triangles.pop_back();
-  write_mesh(folder / "open.obj", mesh);
-  const InspectOutcome outcome = inspect_product(
-      {.file = (folder / "open.obj").string(), .reading = {.unit = LengthUnit::kMillimetre}});
+  formats::write_mesh(folder / "open.obj", mesh);
+  const InspectOutcome outcome =
+      inspect_product({.file = (folder / "open.obj").string(),
+                       .reading = {.unit = geometry::LengthUnit::kMillimetre}});
   EXPECT_FALSE(outcome.check.is_closed);
   EXPECT_EQ(outcome.check.boundary_edges, 3);
   EXPECT_FALSE(outcome.cad);
@@ -60,14 +61,14 @@ TEST(InspectProduct, FileIsJudgedAsItIsBeforeAnyRepair) {
 
 TEST(RepairProduct, MissingTriangleIsPutBackAndTheFileStaysAsItWas) {
   const TemporaryFolder folder;
-  TriangleMesh mesh = handle(40.0).mesh;
-  const double whole = signed_volume(mesh);
+  geometry::TriangleMesh mesh = handle(40.0).mesh;
+  const double whole = geometry::signed_volume(mesh);
   mesh.triangles.pop_back();
   const std::string file = (folder / "open.obj").string();
-  write_mesh(file, mesh);
+  formats::write_mesh(file, mesh);
   const auto written = std::filesystem::last_write_time(file);
   const RepairOutcome outcome = repair_product({.file = file,
-                                                .unit = LengthUnit::kMillimetre,
+                                                .unit = geometry::LengthUnit::kMillimetre,
                                                 .out = (folder / "closed.obj").string(),
                                                 .options = {}});
   EXPECT_FALSE(outcome.before.is_closed);
@@ -97,4 +98,4 @@ TEST(RunPress, RigidSphereOnTissueWithoutEndObeysHertz) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

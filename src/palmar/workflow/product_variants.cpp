@@ -18,7 +18,7 @@
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/formats/toml_section.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -69,23 +69,23 @@ std::string study_text(const ProductVariantsRequest& files) {
   const std::string name = fs::path(files.folder + "/.").parent_path().filename().string();
   std::string text = fmt::format(
       "{}:\n# {}\n\n[study]\nname = {}\n\n[[population]]\npreset = \"xie2014\"\nhands = 30\n",
-      kHeading, files.command, toml_string(name.empty() ? "products" : name));
+      kHeading, files.command, formats::toml_string(name.empty() ? "products" : name));
   for (const ProductVariantsRequest::Entry& entry : files.products) {
     const std::string file = fs::path(entry.files.front()).filename().string();
-    text += fmt::format("\n[[product]]\nname = {}\nfile = {}\n", toml_string(entry.name),
-                        toml_string(file));
+    text += fmt::format("\n[[product]]\nname = {}\nfile = {}\n", formats::toml_string(entry.name),
+                        formats::toml_string(file));
     if (!is_step(file)) text += "unit = \"mm\"\n";
-    if (const auto side = thumb_side_of(entry.product)) {
+    if (const auto side = records::thumb_side_of(entry.product)) {
       text += fmt::format("axis = [{:.6g}, {:.6g}, {:.6g}]\n", side->x(), side->y(), side->z());
     }
-    if (!entry.family.empty()) text += "family = " + toml_string(entry.family) + "\n";
+    if (!entry.family.empty()) text += "family = " + formats::toml_string(entry.family) + "\n";
   }
   return text;
 }
 
 /// A study file that somebody has written stays as it is.
 void check_study_file(const fs::path& path) {
-  if (!fs::exists(path) || read_file(path).rfind(kHeading, 0) == 0) return;
+  if (!fs::exists(path) || formats::read_file(path).rfind(kHeading, 0) == 0) return;
   throw UsageError(path.string() +
                    " is there and isn't one that `palmar product make` wrote; another folder, or "
                    "another name for it, is needed");
@@ -100,29 +100,29 @@ Json write_one(const ProductVariantsRequest::Entry& entry, double chordal_error,
                const std::function<void(const std::string&)>& note) {
   const bool step = std::any_of(entry.files.begin(), entry.files.end(), is_step);
   const bool mesh = !std::all_of(entry.files.begin(), entry.files.end(), is_step);
-  const bool is_exact = is_analytic(entry.product);
+  const bool is_exact = records::is_analytic(entry.product);
   Json result = {{"name", entry.name}, {"kind", entry.product.kind}};
   for (const auto& [name, value] : entry.product.given) result["parameters"][name] = value;
-  std::optional<MadeCad> cad;
+  std::optional<records::MadeCad> cad;
   if (step || !is_exact) {
-    cad = make_cad(entry.product,
-                   {.step = step, .mesh = mesh && !is_exact, .chordal_error = chordal_error});
+    cad = records::make_cad(
+        entry.product, {.step = step, .mesh = mesh && !is_exact, .chordal_error = chordal_error});
     for (const std::string& text : cad->notes) note(entry.name + ": " + text);
     result["volume_mm3"] = cad->volume;
   }
-  std::optional<TriangleMesh> triangles;
+  std::optional<geometry::TriangleMesh> triangles;
   if (mesh) {
-    triangles = is_exact ? make_solid(entry.product, {.chordal_error = chordal_error}).mesh
+    triangles = is_exact ? records::make_solid(entry.product, {.chordal_error = chordal_error}).mesh
                          : cad->mesh.mesh;
     result["triangles"] = triangles->triangle_count();
   }
   result["files"] = Json::array();
   for (const std::string& path : entry.files) {
     if (is_step(path)) {
-      write_file(path, cad->step);
+      formats::write_file(path, cad->step);
       note(fmt::format("wrote {} (STEP, {}, unit: mm)", path, volume_words(cad->volume)));
     } else {
-      write_mesh(path, *triangles);
+      formats::write_mesh(path, *triangles);
       note(fmt::format("wrote {} ({} triangles, unit: mm)", path, triangles->triangle_count()));
     }
     result["files"].push_back(path);
@@ -164,7 +164,7 @@ ProductVariantsOutcome write_variants(const ProductVariantsRequest& request,
     outcome.notes.push_back(text);
     if (request.on_note) request.on_note(text);
   };
-  if (!request.folder.empty()) create_folder(request.folder);
+  if (!request.folder.empty()) formats::create_folder(request.folder);
   Json made = Json::array();
   for (const ProductVariantsRequest::Entry& entry : request.products) {
     progress.update(static_cast<double>(made.size()) / static_cast<double>(request.products.size()),
@@ -175,7 +175,7 @@ ProductVariantsOutcome write_variants(const ProductVariantsRequest& request,
   if (!request.folder.empty()) {
     outcome.study = fs::path(request.folder) / kStudyFile;
     const std::string study = outcome.study.string();
-    write_file(outcome.study, study_text(request));
+    formats::write_file(outcome.study, study_text(request));
     note(fmt::format("wrote {}: {} products in 30 hands; continue with\n  palmar study run {}",
                      study, request.products.size(), study));
     result["study"] = study;
@@ -184,4 +184,4 @@ ProductVariantsOutcome write_variants(const ProductVariantsRequest& request,
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

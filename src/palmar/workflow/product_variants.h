@@ -11,18 +11,18 @@
 #include "palmar/product/primitives.h"
 #include "palmar/records/product/made_product.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Products that are to be made, and the files of each.
 struct ProductVariantsRequest {
   struct Entry {
     std::string name;    ///< unique
     std::string family;  ///< what the variants of a sweep share; may be ""
-    MadeProduct product;
+    records::MadeProduct product;
     std::vector<std::string> files;  ///< by suffix: .step, .stp, .stl, .obj, .ply
   };
   std::vector<Entry> products;
-  double chordal_error = MeshFineness{}.chordal_error;  ///< mm, of meshes
+  double chordal_error = product::MeshFineness{}.chordal_error;  ///< mm, of meshes
   std::string folder;  ///< gets study.toml, which lets hands hold the products; "": none is written
   std::string command;  ///< that the study file gives as where it comes from
   /// Called with every note as it arises (what was written); they are in the outcome, too.
@@ -49,4 +49,4 @@ std::vector<std::string> files_in_folder(const std::string& folder, const std::s
 ProductVariantsOutcome write_variants(const ProductVariantsRequest& request,
                                       const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -7,7 +7,7 @@
 #include "palmar/records/validation_json.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 void ValidateRequest::check() const {
   if (!out.empty() && (out.size() < 4 || !out.ends_with(".md")) &&
@@ -17,16 +17,18 @@ void ValidateRequest::check() const {
   options.check();
 }
 
-ValidationReport run_validation(const ValidateRequest& request, const Progress& progress) {
+validation::ValidationReport run_validation(const ValidateRequest& request,
+                                            const Progress& progress) {
   request.check();
   const auto hand = load_hand(request.hand);
-  ValidationOptions options = request.options;
-  options.compliance = tissue_on_bone(*hand, palmar_model(), request.note);
-  const ValidationReport report = validate(hand, options, progress);
+  validation::ValidationOptions options = request.options;
+  options.compliance = tissue_on_bone(*hand, contact::palmar_model(), request.note);
+  const validation::ValidationReport report = validation::validate(hand, options, progress);
   if (request.out.empty()) return report;
-  write_file(request.out, request.out.ends_with(".md") ? validation_markdown(report)
-                                                       : validation_json(report) + "\n");
+  formats::write_file(request.out, request.out.ends_with(".md")
+                                       ? validation::validation_markdown(report)
+                                       : records::validation_json(report) + "\n");
   return report;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -9,11 +9,11 @@
 #include "palmar/workflow/hand/load_hand.h"
 #include "palmar/workflow/note/note.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// The simulator against closed forms and measurements.
 struct ValidateRequest {
-  ValidationOptions options;
+  validation::ValidationOptions options;
   HandChoice hand;
   std::string out;     ///< file to write, .md or .json; "": none
   NoteSink note = {};  ///< when something takes long
@@ -22,6 +22,7 @@ struct ValidateRequest {
 
 /// Runs the cases and writes the table. Misses are rows of the report. Throws UsageError,
 /// InputError, OutputError, Cancelled.
-ValidationReport run_validation(const ValidateRequest& request, const Progress& progress = {});
+validation::ValidationReport run_validation(const ValidateRequest& request,
+                                            const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

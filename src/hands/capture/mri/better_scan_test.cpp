@@ -4,7 +4,7 @@
 
 #include "hands/capture/mri/scan_surfaces.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::HasSubstr;
@@ -30,4 +30,4 @@ TEST(BetterScan, CoarseAndUnknownVoxelsAre) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

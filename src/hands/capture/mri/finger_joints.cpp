@@ -11,16 +11,16 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 // A flexion axis more than this off the model's is a mistake of the registration, not anatomy.
-constexpr double kLargestTilt = 50.0 * kDegree;
+constexpr double kLargestTilt = 50.0 * geometry::kDegree;
 
 // Axes of people's finger joints differ by 5 to 8 degrees: the model's is as good as one with a
 // larger error than that.
-constexpr double kNoBetter = 8.0 * kDegree;
-constexpr double kDoubtful = 4.0 * kDegree;
+constexpr double kNoBetter = 8.0 * geometry::kDegree;
+constexpr double kDoubtful = 4.0 * geometry::kDegree;
 
 std::string in_words(std::string_view name) {
   std::string words(name);
@@ -30,8 +30,8 @@ std::string in_words(std::string_view name) {
 
 /// Motions of the limit postures that turn enough to determine an axis.
 struct Turns {
-  std::vector<Rigid3> motion;
-  std::vector<ScanPosture> posture;
+  std::vector<geometry::Rigid3> motion;
+  std::vector<hand::ScanPosture> posture;
 };
 
 Turns turns_of(const MotionsByPosture& motions, const std::string& proximal,
@@ -39,8 +39,8 @@ Turns turns_of(const MotionsByPosture& motions, const std::string& proximal,
   Turns turns;
   for (const auto& [posture, found] : motions) {
     // What the joints are checked with isn't what they are made from.
-    if (posture == ScanPosture::kReference || posture == ScanPosture::kGrasp) continue;
-    const std::optional<Rigid3> motion = motion_between(found, proximal, distal);
+    if (posture == hand::ScanPosture::kReference || posture == hand::ScanPosture::kGrasp) continue;
+    const std::optional<geometry::Rigid3> motion = motion_between(found, proximal, distal);
     if (!motion || fit_axis(*motion, Vec3::Zero()).angle < kLeastTurn) continue;
     turns.motion.push_back(*motion);
     turns.posture.push_back(posture);
@@ -50,14 +50,15 @@ Turns turns_of(const MotionsByPosture& motions, const std::string& proximal,
 
 std::string source_of(const Turns& turns) {
   std::string text = "axis: measured between scans (reference";
-  for (const ScanPosture posture : turns.posture) text += ", " + std::string(name_of(posture));
+  for (const hand::ScanPosture posture : turns.posture)
+    text += ", " + std::string(name_of(posture));
   return text + ")";
 }
 
 /// Model's degree of freedom with the axis as the scan's bones lie.
-JointDof moved_dof(const ReferenceHand& hand, const Hand& model, Finger finger, std::size_t link,
-                   Dof dof) {
-  JointDof result = model.skeleton.dof(dof);
+hand::JointDof moved_dof(const ReferenceHand& hand, const hand::Hand& model, hand::Finger finger,
+                         std::size_t link, hand::Dof dof) {
+  hand::JointDof result = model.skeleton.dof(dof);
   result.axis = hand.from_model(finger, link, result.axis);
   result.centre = hand.nodes(finger).node[link];
   result.source = "axis: the model's, moved onto the bones (" + result.source + ")";
@@ -73,8 +74,8 @@ Eigen::Matrix3d frame_of(const Vec3& along, const Vec3& other) {
 }
 
 /// The model's abduction axis with the proximal phalanx and its flexion axis as they were found.
-Vec3 carried_axis(const ReferenceHand& hand, const Hand& model, Finger finger, Dof flexion,
-                  const Vec3& flexion_axis, Dof abduction) {
+Vec3 carried_axis(const ReferenceHand& hand, const hand::Hand& model, hand::Finger finger,
+                  hand::Dof flexion, const Vec3& flexion_axis, hand::Dof abduction) {
   const Vec3 drawn = hand.model_ray[index_of(finger)].direction(1);
   const Eigen::Matrix3d from = frame_of(drawn, model.skeleton.dof(flexion).axis);
   const Eigen::Matrix3d to = frame_of(hand.nodes(finger).direction(1), flexion_axis);
@@ -82,22 +83,23 @@ Vec3 carried_axis(const ReferenceHand& hand, const Hand& model, Finger finger, D
 }
 
 /// Whether the axis is better than the model's. Notes what is doubtful, or not used.
-bool is_better(Dof dof, double error, JointMeasures& measures) {
+bool is_better(hand::Dof dof, double error, JointMeasures& measures) {
   if (error <= kDoubtful) return true;
   const bool is_used = error <= kNoBetter;
   measures.notes.push_back(fmt::format(
       "The motions show the axis of {} with a standard error of {:.0f} degrees only{}",
-      in_words(name_of(dof)), error / kDegree,
+      in_words(name_of(dof)), error / geometry::kDegree,
       is_used ? ": it is doubtful. A posture that turns this joint further would show it."
               : ", which is no better than the model's: that is used."));
   return is_used;
 }
 
-void measure_hinge(ReferenceHand& hand, const Hand& model, Finger finger, std::size_t link,
-                   JointId id, Dof dof, const MotionsByPosture& motions, JointMeasures& measures) {
+void measure_hinge(ReferenceHand& hand, const hand::Hand& model, hand::Finger finger,
+                   std::size_t link, hand::JointId id, hand::Dof dof,
+                   const MotionsByPosture& motions, JointMeasures& measures) {
   const std::vector<std::string> ray = ray_of(finger);
   Vec3& node = hand.ray[index_of(finger)].node[link];
-  JointDof result = moved_dof(hand, model, finger, link, dof);
+  hand::JointDof result = moved_dof(hand, model, finger, link, dof);
   const auto bone = hand.bones.find(ray[link]);
   const Turns turns = turns_of(motions, ray[link - 1], ray[link]);
   if (bone != hand.bones.end() && !turns.motion.empty()) {
@@ -114,26 +116,27 @@ void measure_hinge(ReferenceHand& hand, const Hand& model, Finger finger, std::s
       measures.notes.push_back(
           fmt::format("The motion of the {} turns about an axis {:.0f} degrees off the one that a "
                       "{} can have; it isn't used.",
-                      in_words(ray[link]), tilt / kDegree, in_words(name_of(id))));
+                      in_words(ray[link]), tilt / geometry::kDegree, in_words(name_of(id))));
     }
   }
   measures.skeleton.joints[index_of(id)] = {id, result.centre, {result}};
 }
 
-void measure_mcp(ReferenceHand& hand, const Hand& model, Finger finger, JointId id, Dof flexion,
-                 Dof abduction, const MotionsByPosture& motions, JointMeasures& measures) {
+void measure_mcp(ReferenceHand& hand, const hand::Hand& model, hand::Finger finger,
+                 hand::JointId id, hand::Dof flexion, hand::Dof abduction,
+                 const MotionsByPosture& motions, JointMeasures& measures) {
   const std::vector<std::string> ray = ray_of(finger);
   Vec3& node = hand.ray[index_of(finger)].node[1];
-  JointDof bends = moved_dof(hand, model, finger, 1, flexion);
-  JointDof spreads = moved_dof(hand, model, finger, 1, abduction);
+  hand::JointDof bends = moved_dof(hand, model, finger, 1, flexion);
+  hand::JointDof spreads = moved_dof(hand, model, finger, 1, abduction);
   const auto bone = hand.bones.find(ray[1]);
   const Turns turns = turns_of(motions, "", ray[1]);
   if (bone != hand.bones.end() && !turns.motion.empty()) {
     std::vector<MainAxis> main;
-    for (const ScanPosture posture : turns.posture) {
-      main.push_back(posture == ScanPosture::kFingerFlexion     ? MainAxis::kFirst
-                     : posture == ScanPosture::kFingerAbduction ? MainAxis::kSecond
-                                                                : MainAxis::kEither);
+    for (const hand::ScanPosture posture : turns.posture) {
+      main.push_back(posture == hand::ScanPosture::kFingerFlexion     ? MainAxis::kFirst
+                     : posture == hand::ScanPosture::kFingerAbduction ? MainAxis::kSecond
+                                                                      : MainAxis::kEither);
     }
     TwoAxisPrior prior;
     prior.near = node;
@@ -168,12 +171,12 @@ void measure_mcp(ReferenceHand& hand, const Hand& model, Finger finger, JointId 
 
 /// Angles of the reference posture, from the directions of the bones. The model's own angle shows
 /// where zero is: measured on the model's bones, the same way gives its reference posture.
-void set_reference_angles(const ReferenceHand& hand, const Hand& model, Finger finger, JointId id,
-                          std::size_t link, JointMeasures& measures) {
+void set_reference_angles(const ReferenceHand& hand, const hand::Hand& model, hand::Finger finger,
+                          hand::JointId id, std::size_t link, JointMeasures& measures) {
   const RayNodes& ray = hand.nodes(finger);
   const RayNodes& drawn = hand.model_ray[index_of(finger)];
-  for (JointDof& dof : measures.skeleton.joints[index_of(id)].dofs) {
-    const JointDof& of_model = model.skeleton.dof(dof.dof);
+  for (hand::JointDof& dof : measures.skeleton.joints[index_of(id)].dofs) {
+    const hand::JointDof& of_model = model.skeleton.dof(dof.dof);
     const double zero = of_model.reference - angle_about(of_model.axis, drawn.direction(link - 1),
                                                          drawn.direction(link));
     dof.reference = zero + angle_about(dof.axis, ray.direction(link - 1), ray.direction(link));
@@ -189,8 +192,9 @@ void set_reference_angles(const ReferenceHand& hand, const Hand& model, Finger f
 
 }  // namespace
 
-std::optional<Rigid3> motion_between(const PostureMotions& motions, const std::string& proximal,
-                                     const std::string& distal) {
+std::optional<geometry::Rigid3> motion_between(const PostureMotions& motions,
+                                               const std::string& proximal,
+                                               const std::string& distal) {
   const auto moved = motions.bone.find(distal);
   if (moved == motions.bone.end()) return {};
   if (proximal.empty()) return moved->second;
@@ -205,28 +209,30 @@ double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
   return std::atan2(axis.dot(a.cross(b)), a.dot(b));
 }
 
-void measure_finger_joints(ReferenceHand& hand, const Hand& model, const MotionsByPosture& motions,
-                           JointMeasures& measures) {
-  measure_hinge(hand, model, Finger::kThumb, 1, JointId::kThumbMp, Dof::kThumbMpFlexion, motions,
-                measures);
-  measure_hinge(hand, model, Finger::kThumb, 2, JointId::kThumbIp, Dof::kThumbIpFlexion, motions,
-                measures);
-  set_reference_angles(hand, model, Finger::kThumb, JointId::kThumbMp, 1, measures);
-  set_reference_angles(hand, model, Finger::kThumb, JointId::kThumbIp, 2, measures);
-  for (const Finger finger : {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
+void measure_finger_joints(ReferenceHand& hand, const hand::Hand& model,
+                           const MotionsByPosture& motions, JointMeasures& measures) {
+  measure_hinge(hand, model, hand::Finger::kThumb, 1, hand::JointId::kThumbMp,
+                hand::Dof::kThumbMpFlexion, motions, measures);
+  measure_hinge(hand, model, hand::Finger::kThumb, 2, hand::JointId::kThumbIp,
+                hand::Dof::kThumbIpFlexion, motions, measures);
+  set_reference_angles(hand, model, hand::Finger::kThumb, hand::JointId::kThumbMp, 1, measures);
+  set_reference_angles(hand, model, hand::Finger::kThumb, hand::JointId::kThumbIp, 2, measures);
+  for (const hand::Finger finger :
+       {hand::Finger::kIndex, hand::Finger::kMiddle, hand::Finger::kRing, hand::Finger::kLittle}) {
     const int f = static_cast<int>(finger) - 1;
-    const int joint = static_cast<int>(JointId::kIndexMcp) + 3 * f;
-    const int dof = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * f;
-    measure_mcp(hand, model, finger, static_cast<JointId>(joint), static_cast<Dof>(dof),
-                static_cast<Dof>(dof + 1), motions, measures);
+    const int joint = static_cast<int>(hand::JointId::kIndexMcp) + 3 * f;
+    const int dof = static_cast<int>(hand::Dof::kIndexMcpFlexion) + 4 * f;
+    measure_mcp(hand, model, finger, static_cast<hand::JointId>(joint), static_cast<hand::Dof>(dof),
+                static_cast<hand::Dof>(dof + 1), motions, measures);
     for (int k = 1; k < 3; ++k) {
-      measure_hinge(hand, model, finger, k + 1, static_cast<JointId>(joint + k),
-                    static_cast<Dof>(dof + 1 + k), motions, measures);
+      measure_hinge(hand, model, finger, k + 1, static_cast<hand::JointId>(joint + k),
+                    static_cast<hand::Dof>(dof + 1 + k), motions, measures);
     }
     for (int k = 0; k < 3; ++k) {
-      set_reference_angles(hand, model, finger, static_cast<JointId>(joint + k), k + 1, measures);
+      set_reference_angles(hand, model, finger, static_cast<hand::JointId>(joint + k), k + 1,
+                           measures);
     }
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 
 #include "hands/imaging/connected_parts.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kDeepestSkin = 5.0;    // mm from the air to something bright
@@ -21,28 +21,29 @@ constexpr double kThinnest = 1.2;       // mm, half of what the fixture is thick
 
 }  // namespace
 
-Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelMask& air,
-                     double bright, double skin, double noise) {
-  const VolumeGrid& grid = smooth.grid;
+Fixture find_fixture(const imaging::Volume& smooth, const imaging::VoxelMask& tissue,
+                     const imaging::VoxelMask& air, double bright, double skin, double noise) {
+  const imaging::VolumeGrid& grid = smooth.grid;
   const std::size_t count = tissue.size();
-  VoxelMask fat(count);
+  imaging::VoxelMask fat(count);
   for (std::size_t v = 0; v < count; ++v) {
     fat[v] = tissue[v] != 0 && static_cast<double>(smooth.value[v]) > kFat * bright ? 1 : 0;
   }
   // Single bright voxels are noise; the fat of a slender finger is a film of one or two.
-  const ConnectedParts fat_parts = connected_parts(grid, fat, Neighbourhood::kCorners);
+  const imaging::ConnectedParts fat_parts =
+      imaging::connected_parts(grid, fat, imaging::Neighbourhood::kCorners);
   for (std::size_t v = 0; v < count; ++v) {
     if (fat[v] != 0 && fat_parts.voxels[fat_parts.part[v]] < kLeastFat) {
       fat[v] = 0;
     }
   }
-  const std::vector<float> to_fat = distance_transform(grid, fat);
-  VoxelMask far(count);
+  const std::vector<float> to_fat = imaging::distance_transform(grid, fat);
+  imaging::VoxelMask far(count);
   for (std::size_t v = 0; v < count; ++v) {
     far[v] = tissue[v] != 0 && static_cast<double>(to_fat[v]) > kDeepestSkin ? 1 : 0;
   }
-  const std::vector<float> to_air = distance_transform(grid, air);
-  const ConnectedParts parts = connected_parts(grid, far);
+  const std::vector<float> to_air = imaging::distance_transform(grid, air);
+  const imaging::ConnectedParts parts = imaging::connected_parts(grid, far);
   struct Part {
     double open = 0.0, farthest = 0.0, squares = 0.0;
     double shallow = 0.0, shallow_voxels = 0.0, deep = 0.0, deep_voxels = 0.0;
@@ -67,7 +68,7 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
     }
   }
   Fixture fixture;
-  VoxelMask seed(count, 0);
+  imaging::VoxelMask seed(count, 0);
   std::vector<char> is_fixture(parts.voxels.size(), 0);
   double total = 0.0, voxels = 0.0;
   int largest = -1;
@@ -108,25 +109,26 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
   fixture.signal = total / voxels;
   const bool is_distinct = skin - fixture.signal > std::max(2.0 * noise, 0.1 * bright);
   fixture.boundary = is_distinct ? 0.5 * (skin + fixture.signal) : bright;
-  VoxelMask alike(count);
+  imaging::VoxelMask alike(count);
   for (std::size_t v = 0; v < count; ++v) {
     const bool is_alike = static_cast<double>(smooth.value[v]) < fixture.boundary &&
                           (is_distinct || static_cast<double>(to_fat[v]) > 2.0);
     alike[v] = tissue[v] != 0 && is_alike ? 1 : 0;
   }
-  const ConnectedParts thick = connected_parts(grid, opened(grid, alike, kThinnest));
+  const imaging::ConnectedParts thick =
+      imaging::connected_parts(grid, imaging::opened(grid, alike, kThinnest));
   std::vector<char> is_seeded(thick.voxels.size(), 0);
   for (std::size_t v = 0; v < count; ++v) {
     if (seed[v] != 0 && thick.part[v] >= 0) {
       is_seeded[thick.part[v]] = 1;
     }
   }
-  VoxelMask mask(count);
+  imaging::VoxelMask mask(count);
   for (std::size_t v = 0; v < count; ++v) {
     const std::int32_t p = thick.part[v];
     mask[v] = p >= 0 && is_seeded[p] != 0 ? 1 : 0;
   }
-  const std::vector<float> to_mask = distance_transform(grid, mask);
+  const std::vector<float> to_mask = imaging::distance_transform(grid, mask);
   for (std::size_t v = 0; v < count; ++v) {
     const auto away = static_cast<double>(to_mask[v]);
     mask[v] = (alike[v] != 0 && away <= kThinnest + step) ? 1 : 0;
@@ -136,4 +138,4 @@ Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelM
   return fixture;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -5,14 +5,14 @@
 #include "hands/imaging/distance_transform.h"
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// What holds the hand in the scanner and shows in the image.
 struct Fixture {
-  VoxelMask mask;         ///< its voxels; empty if there is none
-  double signal = 0.0;    ///< its mean
-  double boundary = 0.0;  ///< signal that parts it from skin
-  double volume = 0.0;    ///< mm^3
+  imaging::VoxelMask mask;  ///< its voxels; empty if there is none
+  double signal = 0.0;      ///< its mean
+  double boundary = 0.0;    ///< signal that parts it from skin
+  double volume = 0.0;      ///< mm^3
 };
 
 /// Finds paper clay, foam or the like that touches a hand. It is known by five things together:
@@ -27,7 +27,7 @@ struct Fixture {
 /// 2 mm from the fat.
 ///
 /// `tissue`: hand and fixture; `air`: what is round it; `bright`, `skin`, `noise`: signals.
-Fixture find_fixture(const Volume& smooth, const VoxelMask& tissue, const VoxelMask& air,
-                     double bright, double skin, double noise);
+Fixture find_fixture(const imaging::Volume& smooth, const imaging::VoxelMask& tissue,
+                     const imaging::VoxelMask& air, double bright, double skin, double noise);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -14,32 +14,32 @@
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// Distance of the nearest of the points from a solid, mm; up to `range`.
-double nearest(const std::vector<Vec3>& points, const TriangleMesh& solid, double range) {
-  std::vector<DistanceSample> samples(points.size());
-  MeshDistance(solid).sample(points, range, samples);
+double nearest(const std::vector<Vec3>& points, const geometry::TriangleMesh& solid, double range) {
+  std::vector<geometry::DistanceSample> samples(points.size());
+  geometry::MeshDistance(solid).sample(points, range, samples);
   double least = std::numeric_limits<double>::infinity();
-  for (const DistanceSample& s : samples) least = std::min(least, s.distance);
+  for (const geometry::DistanceSample& s : samples) least = std::min(least, s.distance);
   return least;
 }
 
 /// From NIfTI's axes (right, front, head) to DICOM's.
-TriangleMesh in_other_axes(TriangleMesh mesh) {
+geometry::TriangleMesh in_other_axes(geometry::TriangleMesh mesh) {
   for (Vec3& v : mesh.vertices) v = Vec3(-v.x(), -v.y(), v.z());
   return mesh;
 }
 
 }  // namespace
 
-ScanContact grasp_contact(const ScanRecord& record, const TriangleMesh& product,
+ScanContact grasp_contact(const ScanRecord& record, const geometry::TriangleMesh& product,
                           const std::string& name) {
-  const auto scan =
-      std::find_if(record.scans.begin(), record.scans.end(),
-                   [](const RecordedScan& one) { return one.posture == ScanPosture::kGrasp; });
-  const auto angles = record.joints.postures.find(ScanPosture::kGrasp);
+  const auto scan = std::find_if(
+      record.scans.begin(), record.scans.end(),
+      [](const RecordedScan& one) { return one.posture == hand::ScanPosture::kGrasp; });
+  const auto angles = record.joints.postures.find(hand::ScanPosture::kGrasp);
   if (scan == record.scans.end() || angles == record.joints.postures.end()) {
     throw InputError(name + ": there is no scan of the posture grasp in which it was held");
   }
@@ -60,10 +60,11 @@ ScanContact grasp_contact(const ScanRecord& record, const TriangleMesh& product,
         is_turned ? "; with x and y negated it is in the hand, so the file has the axes of NIfTI"
                   : ""));
   }
-  const Rigid3 patient_from_hand = *moved_palm * record.made.patient_from_hand;
-  TriangleMesh posed{pose_skin(record.made.hand, angles->second), record.made.hand.skin.triangles};
+  const geometry::Rigid3 patient_from_hand = *moved_palm * record.made.patient_from_hand;
+  geometry::TriangleMesh posed{hand::pose_skin(record.made.hand, angles->second),
+                               record.made.hand.skin.triangles};
   for (Vec3& v : posed.vertices) v = patient_from_hand * v;
   return {name, kRange, contact_overlap(posed, scan->surfaces.skin, product, kRange)};
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "hands/capture/mri/bones/image_registration.h"
-#include "palmar/hand/person/scan_posture.h"
 #include "hands/capture/mri/scan_surfaces.h"
 #include "palmar/core/progress.h"
 #include "palmar/geometry/registration/icp.h"
+#include "palmar/hand/person/scan_posture.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// The fixed axis that describes a rigid motion best: R u = u, (E - R) p = t with the component of
 /// t along u dropped (Xie 2014, eq. 2-2 to 2-4).
@@ -27,14 +27,14 @@ struct AxisFit {
   bool is_observed = false;  ///< the angle is large enough to determine an axis
 };
 /// `motion` of the distal part relative to the proximal one; `near`: where the joint is, mm.
-AxisFit fit_axis(const Rigid3& motion, const Vec3& near);
+AxisFit fit_axis(const geometry::Rigid3& motion, const Vec3& near);
 
 /// A bone of the reference scan found again in the scan of another posture.
 struct BoneMotion {
   std::string bone;
-  std::string counterpart;        ///< its name in the other scan: another one if labels disagree
-  Rigid3 posture_from_reference;  ///< patient frame of one scan to that of the other
-  IcpResult fit;                  ///< surface to surface; 0 without is_cut_out
+  std::string counterpart;  ///< its name in the other scan: another one if labels disagree
+  geometry::Rigid3 posture_from_reference;       ///< patient frame of one scan to that of the other
+  geometry::IcpResult fit;                       ///< surface to surface; 0 without is_cut_out
   std::optional<ImageFit> image = std::nullopt;  ///< what the motion is from, if images show it
   bool is_cut_out = true;                        ///< the other scan has a surface for it
 };
@@ -59,7 +59,7 @@ std::vector<BoneMotion> track_bones(const ScanSurfaces& reference, const ScanSur
 /// Mean distance of a bone's vertices moved by the model to where the scan shows them (Xie 2014,
 /// tables 2-2 to 2-4), mm.
 struct BoneError {
-  ScanPosture posture{};
+  hand::ScanPosture posture{};
   std::string bone;
   double icp = 0.0;                        ///< free rigid motion: the lower limit
   double single_axis = 0.0;                ///< every joint a fixed axis
@@ -68,15 +68,15 @@ struct BoneError {
 
 /// Joints of a person from bones in several postures.
 struct MeasuredJoints {
-  Skeleton skeleton;         ///< hand frame of the reference scan
-  Rigid3 patient_from_hand;  ///< where that frame is
-  std::array<bool, kDofCount>
+  hand::Skeleton skeleton;             ///< hand frame of the reference scan
+  geometry::Rigid3 patient_from_hand;  ///< where that frame is
+  std::array<bool, hand::kDofCount>
       is_measured{};  ///< axis and range come from the scans; others from the model
   /// Standard errors of measured axes (HingeFit::axis_error), rad; nothing where there is none.
-  std::array<std::optional<double>, kDofCount> axis_error{};
-  std::map<ScanPosture, Posture> postures;  ///< angles of every posture
+  std::array<std::optional<double>, hand::kDofCount> axis_error{};
+  std::map<hand::ScanPosture, hand::Posture> postures;  ///< angles of every posture
   /// Where the palm is in other scans, as far as something else than its bones showed.
-  std::map<ScanPosture, Rigid3> patient_from_hand_in = {};
+  std::map<hand::ScanPosture, geometry::Rigid3> patient_from_hand_in = {};
   std::vector<BoneError> errors;
   std::vector<std::string> notes;  ///< what is lost for want of a posture or bone: sentences
 };
@@ -85,8 +85,8 @@ struct MeasuredJoints {
 /// scanned. `model`: joints that the scans don't show are taken over from it, fitted to the bones.
 /// Throws InputError if the reference scan lacks, or shows too few bones to determine where the
 /// hand is.
-MeasuredJoints measure_joints(const std::map<ScanPosture, ScanSurfaces>& scans,
-                              const std::map<ScanPosture, std::vector<BoneMotion>>& motions,
-                              const Hand& model);
+MeasuredJoints measure_joints(const std::map<hand::ScanPosture, ScanSurfaces>& scans,
+                              const std::map<hand::ScanPosture, std::vector<BoneMotion>>& motions,
+                              const hand::Hand& model);
 
-}  // namespace palmar
+}  // namespace palmar::capture

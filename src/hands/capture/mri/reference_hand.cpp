@@ -16,29 +16,31 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/rotation.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-constexpr std::array<Finger, kFingerCount> kFingers = {
-    Finger::kThumb, Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle};
+constexpr std::array<hand::Finger, hand::kFingerCount> kFingers = {
+    hand::Finger::kThumb, hand::Finger::kIndex, hand::Finger::kMiddle, hand::Finger::kRing,
+    hand::Finger::kLittle};
 
-using Meshes = std::map<std::string, TriangleMesh>;
+using Meshes = std::map<std::string, geometry::TriangleMesh>;
 
 Meshes named_meshes(const ScanSurfaces& scan) {
   Meshes meshes;
   for (const ScannedBone& bone : scan.bones) {
-    if (!bone.name.empty() && surface_area(bone.mesh) > 0.0) meshes.emplace(bone.name, bone.mesh);
+    if (!bone.name.empty() && geometry::surface_area(bone.mesh) > 0.0)
+      meshes.emplace(bone.name, bone.mesh);
   }
   return meshes;
 }
 
-Meshes named_meshes(const Hand& model) {
+Meshes named_meshes(const hand::Hand& model) {
   Meshes meshes;
-  for (const Bone& bone : model.bones) meshes.emplace(bone.name, bone.mesh);
+  for (const hand::Bone& bone : model.bones) meshes.emplace(bone.name, bone.mesh);
   return meshes;
 }
 
-const TriangleMesh* find(const Meshes& meshes, const std::string& name) {
+const geometry::TriangleMesh* find(const Meshes& meshes, const std::string& name) {
   const auto found = meshes.find(name);
   return found == meshes.end() ? nullptr : &found->second;
 }
@@ -46,12 +48,13 @@ const TriangleMesh* find(const Meshes& meshes, const std::string& name) {
 /// A point farther out along the ray than the bone: the next bone, or away from the palm.
 Vec3 beyond(const Meshes& meshes, const std::vector<std::string>& ray, std::size_t k) {
   for (std::size_t j = k + 1; j < ray.size(); ++j) {
-    if (const TriangleMesh* next = find(meshes, ray[j])) return centre_of_volume(*next);
+    if (const geometry::TriangleMesh* next = find(meshes, ray[j]))
+      return geometry::centre_of_volume(*next);
   }
-  const Vec3 here = centre_of_volume(meshes.at(ray[k]));
+  const Vec3 here = geometry::centre_of_volume(meshes.at(ray[k]));
   for (std::size_t j = k; j-- > 0;) {
-    if (const TriangleMesh* last = find(meshes, ray[j])) {
-      return here + (here - centre_of_volume(*last));
+    if (const geometry::TriangleMesh* last = find(meshes, ray[j])) {
+      return here + (here - geometry::centre_of_volume(*last));
     }
   }
   // A metacarpal alone: its head is farther from the carpus than its base.
@@ -59,7 +62,7 @@ Vec3 beyond(const Meshes& meshes, const std::vector<std::string>& ray, std::size
   int count = 0;
   for (const auto& [name, mesh] : meshes) {
     if (name == ray[k] || !is_palm_bone(name)) continue;
-    carpus += centre_of_volume(mesh);
+    carpus += geometry::centre_of_volume(mesh);
     ++count;
   }
   return count > 0 ? (2.0 * here - carpus / count).eval() : here;
@@ -67,7 +70,7 @@ Vec3 beyond(const Meshes& meshes, const std::vector<std::string>& ray, std::size
 
 /// The skin farthest out along the last bone of a finger, as fingertip() of hand_frame.h has it;
 /// the bone's own end without skin.
-Vec3 skin_tip(const TriangleMesh& skin, const std::array<Vec3, 2>& ends) {
+Vec3 skin_tip(const geometry::TriangleMesh& skin, const std::array<Vec3, 2>& ends) {
   constexpr double kFingerRadius = 12.0, kTissue = 10.0;  // mm; more than a fingertip has
   const Vec3 along = (ends[1] - ends[0]).normalized();
   Vec3 best = ends[1];
@@ -80,18 +83,19 @@ Vec3 skin_tip(const TriangleMesh& skin, const std::array<Vec3, 2>& ends) {
 }
 
 /// What is seen of a ray's nodes; the rest is left out.
-std::vector<std::optional<Vec3>> seen_nodes(const Meshes& meshes, const TriangleMesh& skin,
-                                            Finger finger) {
+std::vector<std::optional<Vec3>> seen_nodes(const Meshes& meshes,
+                                            const geometry::TriangleMesh& skin,
+                                            hand::Finger finger) {
   const std::vector<std::string> ray = ray_of(finger);
   std::vector<std::optional<Vec3>> nodes(ray.size() + 1);
   for (std::size_t k = 0; k < ray.size(); ++k) {
-    const TriangleMesh* bone = find(meshes, ray[k]);
+    const geometry::TriangleMesh* bone = find(meshes, ray[k]);
     if (bone == nullptr) continue;
     const std::array<Vec3, 2> ends = ends_of(*bone, beyond(meshes, ray, k));
     if (!nodes[k]) nodes[k] = ends[0];
     if (k + 1 == ray.size()) {
       nodes[k + 1] = skin_tip(skin, ends);
-    } else if (const TriangleMesh* next = find(meshes, ray[k + 1])) {
+    } else if (const geometry::TriangleMesh* next = find(meshes, ray[k + 1])) {
       nodes[k + 1] = head_centre(*bone, *next);
     } else {
       nodes[k + 1] = ends[1];
@@ -101,31 +105,31 @@ std::vector<std::optional<Vec3>> seen_nodes(const Meshes& meshes, const Triangle
 }
 
 /// `has_skin`: the finger ends at its skin, else at its last bone.
-std::vector<Vec3> model_nodes(const Hand& model, const Meshes& meshes, Finger finger,
+std::vector<Vec3> model_nodes(const hand::Hand& model, const Meshes& meshes, hand::Finger finger,
                               bool has_skin) {
-  const std::vector<std::optional<Segment>> chain = [&] {
-    std::vector<std::optional<Segment>> list;
-    for (const auto& s : segments_of(finger)) {
+  const std::vector<std::optional<hand::Segment>> chain = [&] {
+    std::vector<std::optional<hand::Segment>> list;
+    for (const auto& s : hand::segments_of(finger)) {
       if (s) list.push_back(s);
     }
     return list;
   }();
   std::vector<Vec3> nodes;
-  const Vec3 first = model.skeleton.joint(joint_of(*chain.front())).centre;
-  if (finger == Finger::kThumb) {
-    nodes.push_back(model.skeleton.joint(JointId::kThumbCmc).centre);
-  } else if (const TriangleMesh* metacarpal = find(meshes, ray_of(finger).front())) {
+  const Vec3 first = model.skeleton.joint(hand::joint_of(*chain.front())).centre;
+  if (finger == hand::Finger::kThumb) {
+    nodes.push_back(model.skeleton.joint(hand::JointId::kThumbCmc).centre);
+  } else if (const geometry::TriangleMesh* metacarpal = find(meshes, ray_of(finger).front())) {
     nodes.push_back(ends_of(*metacarpal, first)[0]);
   } else {
-    const Vec3& wrist = model.skeleton.joint(JointId::kWrist).centre;
+    const Vec3& wrist = model.skeleton.joint(hand::JointId::kWrist).centre;
     nodes.push_back(wrist + 0.35 * (first - wrist));
   }
   for (const auto& segment : chain)
-    nodes.push_back(model.skeleton.joint(joint_of(*segment)).centre);
+    nodes.push_back(model.skeleton.joint(hand::joint_of(*segment)).centre);
   const Vec3& skin_tip = model.skeleton.fingertips[index_of(finger)];
   nodes.push_back(skin_tip);
   if (has_skin) return nodes;
-  if (const TriangleMesh* last = find(meshes, ray_of(finger).back())) {
+  if (const geometry::TriangleMesh* last = find(meshes, ray_of(finger).back())) {
     nodes.back() = ends_of(*last, skin_tip)[1];
   }
   return nodes;
@@ -134,7 +138,7 @@ std::vector<Vec3> model_nodes(const Hand& model, const Meshes& meshes, Finger fi
 /// Similarity that places the model's palm on the scan's.
 struct Similarity {
   double scale = 1.0;
-  Rigid3 motion;
+  geometry::Rigid3 motion;
   Vec3 operator*(const Vec3& p) const { return motion * (scale * p); }
 };
 
@@ -157,17 +161,17 @@ Similarity palm_similarity(const Meshes& scan, const Meshes& model) {
   std::vector<Vec3> from, to;
   int bones = 0;
   for (const auto& [name, mesh] : scan) {
-    const TriangleMesh* other = find(model, name);
+    const geometry::TriangleMesh* other = find(model, name);
     if (other == nullptr || !is_palm_bone(name)) continue;
-    from.push_back(centre_of_volume(*other));
-    to.push_back(centre_of_volume(mesh));
+    from.push_back(geometry::centre_of_volume(*other));
+    to.push_back(geometry::centre_of_volume(mesh));
     ++bones;
   }
-  for (const Finger finger : kFingers) {
-    if (finger == Finger::kThumb) continue;
+  for (const hand::Finger finger : kFingers) {
+    if (finger == hand::Finger::kThumb) continue;
     const std::vector<std::string> ray = ray_of(finger);
-    const TriangleMesh* a = find(model, ray.front());
-    const TriangleMesh* b = find(scan, ray.front());
+    const geometry::TriangleMesh* a = find(model, ray.front());
+    const geometry::TriangleMesh* b = find(scan, ray.front());
     if (a == nullptr || b == nullptr) continue;
     const std::array<Vec3, 2> ends_a = ends_of(*a, beyond(model, ray, 0));
     const std::array<Vec3, 2> ends_b = ends_of(*b, beyond(scan, ray, 0));
@@ -200,7 +204,7 @@ Similarity palm_similarity(const Meshes& scan, const Meshes& model) {
 RayNodes completed(const std::vector<std::optional<Vec3>>& seen, const std::vector<Vec3>& model,
                    const Similarity& hand_from_model) {
   RayNodes ray;
-  Rigid3 turn;  // of the last link known both in the scan and in the model
+  geometry::Rigid3 turn;  // of the last link known both in the scan and in the model
   turn.rotation = hand_from_model.motion.rotation;
   for (std::size_t k = 0; k < model.size(); ++k) {
     ray.is_seen.push_back(seen[k].has_value());
@@ -214,7 +218,8 @@ RayNodes completed(const std::vector<std::optional<Vec3>>& seen, const std::vect
     }
     if (k > 0 && seen[k] && seen[k - 1]) {
       const Vec3 link = turn.rotation * (model[k] - model[k - 1]);
-      turn.rotation = shortest_rotation(link, ray.node[k] - ray.node[k - 1]) * turn.rotation;
+      turn.rotation =
+          geometry::shortest_rotation(link, ray.node[k] - ray.node[k - 1]) * turn.rotation;
     }
   }
   return ray;
@@ -222,7 +227,7 @@ RayNodes completed(const std::vector<std::optional<Vec3>>& seen, const std::vect
 
 }  // namespace
 
-std::array<Vec3, 2> ends_of(const TriangleMesh& bone, const Vec3& distal) {
+std::array<Vec3, 2> ends_of(const geometry::TriangleMesh& bone, const Vec3& distal) {
   constexpr double kLong = 1.5;  // over the second extent; a distal phalanx of which only the tuft
                                  // is found is broader than long
   const std::array<Vec3, 6> points = moment_points(bone);
@@ -244,8 +249,8 @@ std::array<Vec3, 2> ends_of(const TriangleMesh& bone, const Vec3& distal) {
   return {centre + lowest * axis, centre + highest * axis};
 }
 
-Vec3 head_centre(const TriangleMesh& bone, const TriangleMesh& distal) {
-  const std::array<Vec3, 2> ends = ends_of(bone, centre_of_volume(distal));
+Vec3 head_centre(const geometry::TriangleMesh& bone, const geometry::TriangleMesh& distal) {
+  const std::array<Vec3, 2> ends = ends_of(bone, geometry::centre_of_volume(distal));
   const Vec3 axis = (ends[1] - ends[0]).normalized();
   const double length = (ends[1] - ends[0]).norm();
   // Head: the last fifth. Its thickness is the smaller of two extents perpendicular to each other.
@@ -260,7 +265,7 @@ Vec3 head_centre(const TriangleMesh& bone, const TriangleMesh& distal) {
   radius = std::min(radius, 0.3 * length);
   const Vec3 plain = ends[1] - radius * axis + middle.x() * e1 + middle.y() * e2;
 
-  const ClosestPointQuery query(distal);
+  const geometry::ClosestPointQuery query(distal);
   std::vector<double> gap;
   for (const Vec3& v : bone.vertices) gap.push_back(query.closest(v)->distance);
   constexpr double kBand = 2.5;  // mm; cartilage covers more, the gap's rim curves away
@@ -288,31 +293,31 @@ Vec3 head_centre(const TriangleMesh& bone, const TriangleMesh& distal) {
   return is_head ? (plain + centre).eval() : plain;
 }
 
-Vec3 ReferenceHand::from_model(Finger finger, std::size_t link, const Vec3& direction) const {
-  const Quat turn = shortest_rotation(model_ray[index_of(finger)].direction(link),
-                                      ray[index_of(finger)].direction(link));
+Vec3 ReferenceHand::from_model(hand::Finger finger, std::size_t link, const Vec3& direction) const {
+  const Quat turn = geometry::shortest_rotation(model_ray[index_of(finger)].direction(link),
+                                                ray[index_of(finger)].direction(link));
   return turn * direction;
 }
 
-ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model) {
+ReferenceHand place_reference(const ScanSurfaces& reference, const hand::Hand& model) {
   const Meshes scan = named_meshes(reference), drawn = named_meshes(model);
   const Similarity patient_from_model = palm_similarity(scan, drawn);
   ReferenceHand hand;
   hand.scale = patient_from_model.scale;
 
-  std::array<std::vector<std::optional<Vec3>>, kFingerCount> seen;
-  for (const Finger finger : kFingers)
+  std::array<std::vector<std::optional<Vec3>>, hand::kFingerCount> seen;
+  for (const hand::Finger finger : kFingers)
     seen[index_of(finger)] = seen_nodes(scan, reference.skin, finger);
-  const auto mcp = [&](Finger finger) -> Vec3 {
+  const auto mcp = [&](hand::Finger finger) -> Vec3 {
     const std::optional<Vec3>& node = seen[index_of(finger)][1];
     return node ? *node
                 : patient_from_model *
-                      model.skeleton.joint(joint_of(*segments_of(finger)[0])).centre;
+                      model.skeleton.joint(hand::joint_of(*hand::segments_of(finger)[0])).centre;
   };
-  const Vec3 wrist = patient_from_model * model.skeleton.joint(JointId::kWrist).centre;
-  const Vec3 y = (mcp(Finger::kMiddle) - wrist).normalized();
-  const double radial = model.side == Side::kLeft ? -1.0 : 1.0;  // x of a left hand is ulnar
-  const Vec3 across = radial * (mcp(Finger::kIndex) - mcp(Finger::kLittle));
+  const Vec3 wrist = patient_from_model * model.skeleton.joint(hand::JointId::kWrist).centre;
+  const Vec3 y = (mcp(hand::Finger::kMiddle) - wrist).normalized();
+  const double radial = model.side == hand::Side::kLeft ? -1.0 : 1.0;  // x of a left hand is ulnar
+  const Vec3 across = radial * (mcp(hand::Finger::kIndex) - mcp(hand::Finger::kLittle));
   const Vec3 x = (across - across.dot(y) * y).normalized();
   Eigen::Matrix3d axes;
   axes << x, y, x.cross(y);
@@ -320,7 +325,7 @@ ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model) 
     throw InputError("reference scan: wrist and knuckles coincide; no hand frame can be made");
   }
   hand.patient_from_hand = {Quat(axes).normalized(), wrist};
-  const Rigid3 hand_from_patient = hand.patient_from_hand.inverse();
+  const geometry::Rigid3 hand_from_patient = hand.patient_from_hand.inverse();
 
   for (const auto& [name, mesh] : scan) {
     ReferenceBone bone{mesh, {}};
@@ -330,7 +335,7 @@ ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model) 
   }
   Similarity hand_from_model = patient_from_model;
   hand_from_model.motion = hand_from_patient * patient_from_model.motion;
-  for (const Finger finger : kFingers) {
+  for (const hand::Finger finger : kFingers) {
     for (std::optional<Vec3>& node : seen[index_of(finger)]) {
       if (node) node = hand_from_patient * *node;
     }
@@ -343,8 +348,8 @@ ReferenceHand place_reference(const ScanSurfaces& reference, const Hand& model) 
 }
 
 PostureMotions motions_in_hand(const ReferenceHand& hand, const std::vector<BoneMotion>& motions,
-                               ScanPosture posture) {
-  const Rigid3 hand_from_patient = hand.patient_from_hand.inverse();
+                               hand::ScanPosture posture) {
+  const geometry::Rigid3 hand_from_patient = hand.patient_from_hand.inverse();
   std::vector<Vec3> from, to;
   for (const BoneMotion& motion : motions) {
     const auto bone = hand.bones.find(motion.bone);
@@ -367,7 +372,7 @@ PostureMotions motions_in_hand(const ReferenceHand& hand, const std::vector<Bone
   }
   PostureMotions result;
   constexpr double kTolerance = 0.7;  // mm; a bone that moves farther doesn't count as the palm
-  Rigid3 palm = align_points(from, to);
+  geometry::Rigid3 palm = align_points(from, to);
   for (int pass = 0; pass < 10; ++pass) {
     // Weights that a few bones on the move don't pull: (1 + (d / c)^2)^-2.
     std::vector<double> weight;
@@ -378,11 +383,11 @@ PostureMotions motions_in_hand(const ReferenceHand& hand, const std::vector<Bone
     palm = align_points(from, to, weight);
   }
   result.posture_from_reference = palm;
-  const Rigid3 back = hand_from_patient * palm.inverse();
+  const geometry::Rigid3 back = hand_from_patient * palm.inverse();
   for (const BoneMotion& motion : motions) {
     result.bone[motion.bone] = back * motion.posture_from_reference * hand.patient_from_hand;
   }
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

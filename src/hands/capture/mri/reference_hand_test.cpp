@@ -7,13 +7,13 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 // An ellipsoid with its half axes along x, y and z.
-TriangleMesh ellipsoid(const Vec3& half) {
+geometry::TriangleMesh ellipsoid(const Vec3& half) {
   constexpr int kRound = 24, kDown = 12;
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (int k = 0; k <= kDown; ++k) {
     for (int i = 0; i < kRound; ++i) {
       const double down = std::numbers::pi * k / kDown, turn = 2.0 * std::numbers::pi * i / kRound;
@@ -47,4 +47,4 @@ TEST(EndsOf, ABroadOneThatOfItsFinger) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,8 +9,6 @@
 #include <cmath>
 
 #include "hands/capture/mri/surface_markers.h"
-#include "palmar/core/error.h"
-#include "palmar/core/progress_part.h"
 #include "hands/imaging/air_threshold.h"
 #include "hands/imaging/bias_field.h"
 #include "hands/imaging/connected_parts.h"
@@ -18,9 +16,11 @@
 #include "hands/imaging/gaussian_filter.h"
 #include "hands/imaging/noise_floor.h"
 #include "hands/imaging/tissue_noise.h"
+#include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kMargin = 8.0;          // mm of air kept round the hand
@@ -31,21 +31,22 @@ constexpr double kDeep = 2.0;            // mm below the skin: no edge of it
 
 /// Air round the tissue: what reaches the outside through openings wider than 3 mm, and 4 mm into
 /// narrower ones. Dark tissue (tendons, cortical bone) that comes close to the skin is none.
-VoxelMask air_round(const VolumeGrid& grid, const VoxelMask& tissue) {
-  VoxelMask dark(tissue.size());
+imaging::VoxelMask air_round(const imaging::VolumeGrid& grid, const imaging::VoxelMask& tissue) {
+  imaging::VoxelMask dark(tissue.size());
   for (std::size_t v = 0; v < tissue.size(); ++v) dark[v] = tissue[v] == 0 ? 1 : 0;
-  const ConnectedParts wide = connected_parts(grid, opened(grid, dark, 1.5));
-  VoxelMask air = mask_of(wide, wide.largest());
-  const std::vector<float> from_air = distance_transform(grid, air);
+  const imaging::ConnectedParts wide =
+      imaging::connected_parts(grid, imaging::opened(grid, dark, 1.5));
+  imaging::VoxelMask air = imaging::mask_of(wide, wide.largest());
+  const std::vector<float> from_air = imaging::distance_transform(grid, air);
   for (std::size_t v = 0; v < air.size(); ++v) air[v] = dark[v] != 0 && from_air[v] <= 4.0F ? 1 : 0;
   // What lies behind a wall isn't reached.
-  const ConnectedParts reached = connected_parts(grid, air);
-  return mask_of(reached, reached.largest());
+  const imaging::ConnectedParts reached = imaging::connected_parts(grid, air);
+  return imaging::mask_of(reached, reached.largest());
 }
 
 /// Tissue and everything that it encloses.
-VoxelMask filled(const VolumeGrid& grid, const VoxelMask& tissue) {
-  VoxelMask whole = air_round(grid, tissue);
+imaging::VoxelMask filled(const imaging::VolumeGrid& grid, const imaging::VoxelMask& tissue) {
+  imaging::VoxelMask whole = air_round(grid, tissue);
   for (std::uint8_t& v : whole) v = v == 0 ? 1 : 0;
   return whole;
 }
@@ -54,7 +55,7 @@ VoxelMask filled(const VolumeGrid& grid, const VoxelMask& tissue) {
 struct VoxelBox {
   std::array<int, 3> low, size;
 };
-VoxelBox box_of(const VolumeGrid& grid, const VoxelMask& mask, double margin) {
+VoxelBox box_of(const imaging::VolumeGrid& grid, const imaging::VoxelMask& mask, double margin) {
   std::array<int, 3> low = grid.size, high = {-1, -1, -1};
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
@@ -79,7 +80,8 @@ VoxelBox box_of(const VolumeGrid& grid, const VoxelMask& mask, double margin) {
 }
 
 template <typename T>
-std::vector<T> cut_out(const VolumeGrid& grid, const std::vector<T>& values, const VoxelBox& box) {
+std::vector<T> cut_out(const imaging::VolumeGrid& grid, const std::vector<T>& values,
+                       const VoxelBox& box) {
   std::vector<T> part;
   part.reserve(static_cast<std::size_t>(box.size[0]) * box.size[1] * box.size[2]);
   for (int k = 0; k < box.size[2]; ++k) {
@@ -92,8 +94,8 @@ std::vector<T> cut_out(const VolumeGrid& grid, const std::vector<T>& values, con
   return part;
 }
 
-Volume cut_out(const Volume& image, const VoxelBox& box) {
-  Volume part;
+imaging::Volume cut_out(const imaging::Volume& image, const VoxelBox& box) {
+  imaging::Volume part;
   part.grid = image.grid;
   part.grid.size = box.size;
   part.grid.origin = image.grid.to_patient(Vec3(box.low[0], box.low[1], box.low[2]));
@@ -147,7 +149,7 @@ void find_bone_levels(ScanImage& scan, double given) {
     if (static_cast<double>(v) < low) below.push_back(v);
   }
   const double muscle = three_classes(below)[0];
-  VoxelMask is_dark(scan.depth.size(), 0);
+  imaging::VoxelMask is_dark(scan.depth.size(), 0);
   for (std::size_t v = 0; v < scan.depth.size(); ++v) {
     if (scan.depth[v] <= 2.5F) continue;
     const float value = scan.smooth.value[v];
@@ -156,20 +158,21 @@ void find_bone_levels(ScanImage& scan, double given) {
   }
   // Thin shells never reach their own signal; what is dark all round does: thick ones and tendons.
   // Muscle lies between.
-  const VolumeGrid& grid = scan.smooth.grid;
-  const VoxelMask thick = eroded(grid, is_dark, 1.01 * grid.spacing.minCoeff());
+  const imaging::VolumeGrid& grid = scan.smooth.grid;
+  const imaging::VoxelMask thick = imaging::eroded(grid, is_dark, 1.01 * grid.spacing.minCoeff());
   std::vector<float> dark;
   for (std::size_t v = 0; v < thick.size(); ++v) {
     if (thick[v] != 0) dark.push_back(scan.smooth.value[v]);
   }
   ScanLevels& levels = scan.levels;
-  levels.bright = median(bright);
-  levels.dark = median(dark);
+  levels.bright = statistics::median(bright);
+  levels.dark = statistics::median(dark);
   levels.bone_threshold = given > 0.0 ? given : 0.5 * (levels.dark + levels.bright);
 }
 
 /// Pieces of tissue that may be a hand: large enough, and bright in parts.
-std::vector<int> hands_among(const ConnectedParts& parts, const Volume& rough, double threshold) {
+std::vector<int> hands_among(const imaging::ConnectedParts& parts, const imaging::Volume& rough,
+                             double threshold) {
   const double voxel = rough.grid.spacing.prod();
   std::vector<float> values;
   for (std::size_t v = 0; v < rough.value.size(); ++v) {
@@ -193,7 +196,7 @@ std::vector<int> hands_among(const ConnectedParts& parts, const Volume& rough, d
   return hands;
 }
 
-Vec3 middle_of(const VolumeGrid& grid, const ConnectedParts& parts, int part) {
+Vec3 middle_of(const imaging::VolumeGrid& grid, const imaging::ConnectedParts& parts, int part) {
   Vec3 sum = Vec3::Zero();
   for (int k = 0; k < grid.size[2]; ++k) {
     for (int j = 0; j < grid.size[1]; ++j) {
@@ -206,12 +209,13 @@ Vec3 middle_of(const VolumeGrid& grid, const ConnectedParts& parts, int part) {
 }
 
 /// The piece of tissue that is the hand. Throws InputError for none and for two.
-VoxelMask the_hand(const Volume& rough, double threshold, const std::string& name) {
-  VoxelMask tissue(rough.value.size());
+imaging::VoxelMask the_hand(const imaging::Volume& rough, double threshold,
+                            const std::string& name) {
+  imaging::VoxelMask tissue(rough.value.size());
   for (std::size_t v = 0; v < tissue.size(); ++v) {
     tissue[v] = static_cast<double>(rough.value[v]) > threshold ? 1 : 0;
   }
-  const ConnectedParts parts = connected_parts(rough.grid, tissue);
+  const imaging::ConnectedParts parts = imaging::connected_parts(rough.grid, tissue);
   const std::vector<int> hands = hands_among(parts, rough, threshold);
   const double voxel = rough.grid.spacing.prod() / 1e3;
   const auto volume = [&](int part) { return static_cast<double>(parts.voxels[part]) * voxel; };
@@ -231,69 +235,70 @@ VoxelMask the_hand(const Volume& rough, double threshold, const std::string& nam
         "the one that is wanted",
         name, volume(hands[0]), a.x(), a.y(), a.z(), volume(hands[1]), b.x(), b.y(), b.z()));
   }
-  return mask_of(parts, hands.front());
+  return imaging::mask_of(parts, hands.front());
 }
 
 /// How deep voxels lie in a mask, mm.
-std::vector<float> depth_in(const VolumeGrid& grid, const VoxelMask& mask) {
-  VoxelMask outside(mask.size());
+std::vector<float> depth_in(const imaging::VolumeGrid& grid, const imaging::VoxelMask& mask) {
+  imaging::VoxelMask outside(mask.size());
   for (std::size_t v = 0; v < mask.size(); ++v) outside[v] = mask[v] == 0 ? 1 : 0;
-  return distance_transform(grid, outside);
+  return imaging::distance_transform(grid, outside);
 }
 
 /// A threshold of the user's in the numbers of an image without noise floor; 0: none is given.
 double given_threshold(double threshold, double noise) {
-  return threshold > 0.0 ? without_noise_floor(threshold, noise) : 0.0;
+  return threshold > 0.0 ? imaging::without_noise_floor(threshold, noise) : 0.0;
 }
 
 /// From what the air shows: the median of Rayleigh's distribution. 0 where the scanner masked it.
 double air_noise(std::vector<float> air) {
-  return static_cast<double>(median(std::move(air))) / std::sqrt(2.0 * std::log(2.0));
+  return static_cast<double>(statistics::median(std::move(air))) / std::sqrt(2.0 * std::log(2.0));
 }
 
 struct MeasuredScan {
-  ScanImage scan;    ///< without body, markers and fixture
-  VoxelMask tissue;  ///< of the hand, roughly
-  Volume rough;
+  ScanImage scan;             ///< without body, markers and fixture
+  imaging::VoxelMask tissue;  ///< of the hand, roughly
+  imaging::Volume rough;
 };
 
 /// Cuts out, cleans and measures the signals.
-MeasuredScan measured_scan(const Volume& image, const std::string& name,
+MeasuredScan measured_scan(const imaging::Volume& image, const std::string& name,
                            const SurfaceOptions& options, const Progress& progress) {
   progress.update(0.0, "finding the hand in the image");
-  Volume rough = gaussian_filtered(image, kRoughly);
-  const VoxelMask whole = the_hand(rough, 0.7 * air_threshold(rough), name);
+  imaging::Volume rough = imaging::gaussian_filtered(image, kRoughly);
+  const imaging::VoxelMask whole = the_hand(rough, 0.7 * imaging::air_threshold(rough), name);
   const VoxelBox box = box_of(image.grid, whole, kMargin);
 
   ScanImage scan;
   scan.image = cut_out(image, box);
-  const VolumeGrid& grid = scan.image.grid;
-  VoxelMask tissue = cut_out(image.grid, whole, box);
+  const imaging::VolumeGrid& grid = scan.image.grid;
+  imaging::VoxelMask tissue = cut_out(image.grid, whole, box);
   if (options.corrects_bias) {
     progress.update(0.1, "taking the coil's field out");
-    scan.image = corrected_for_bias(scan.image, tissue, {}, part_of(progress, 0.1, 0.8));
+    scan.image = imaging::corrected_for_bias(scan.image, tissue, {}, part_of(progress, 0.1, 0.8));
   }
   progress.update(0.8, "measuring the tissues' signals");
   ScanLevels& levels = scan.levels;
   std::vector<float> air;
-  const std::vector<float> from_tissue = distance_transform(grid, tissue);
+  const std::vector<float> from_tissue = imaging::distance_transform(grid, tissue);
   for (std::size_t v = 0; v < tissue.size(); ++v) {
     if (from_tissue[v] > 3.0F) air.push_back(scan.image.value[v]);
   }
   levels.floor = air_noise(std::move(air));
-  levels.noise =
-      levels.floor > 0.0 ? levels.floor : tissue_noise(scan.image, depth_in(grid, tissue), kDeep);
-  scan.image = without_noise_floor(std::move(scan.image), levels.floor);
-  scan.smooth = gaussian_filtered(scan.image, kSmoothing);
-  rough = gaussian_filtered(scan.image, kRoughly);
+  levels.noise = levels.floor > 0.0
+                     ? levels.floor
+                     : imaging::tissue_noise(scan.image, depth_in(grid, tissue), kDeep);
+  scan.image = imaging::without_noise_floor(std::move(scan.image), levels.floor);
+  scan.smooth = imaging::gaussian_filtered(scan.image, kSmoothing);
+  rough = imaging::gaussian_filtered(scan.image, kRoughly);
 
-  const auto median_at_depth = [&](const VoxelMask& mask) {
+  const auto median_at_depth = [&](const imaging::VoxelMask& mask) {
     const std::vector<float> depth = depth_in(grid, mask);
     std::vector<float> values;
     for (std::size_t v = 0; v < mask.size(); ++v) {
       if (depth[v] > 1.0F && depth[v] < 1.8F) values.push_back(scan.image.value[v]);
     }
-    return median(values);
+    return statistics::median(values);
   };
   tissue = filled(grid, tissue);
   scan.depth = depth_in(grid, tissue);
@@ -311,18 +316,18 @@ MeasuredScan measured_scan(const Volume& image, const std::string& name,
 
 }  // namespace
 
-ScanLevels scan_levels(const Volume& image, const std::string& name, const SurfaceOptions& options,
-                       const Progress& progress) {
+ScanLevels scan_levels(const imaging::Volume& image, const std::string& name,
+                       const SurfaceOptions& options, const Progress& progress) {
   return measured_scan(image, name, options, progress).scan.levels;
 }
 
-ScanImage prepare_scan(const Volume& image, const std::string& name, const SurfaceOptions& options,
-                       const Progress& progress) {
+ScanImage prepare_scan(const imaging::Volume& image, const std::string& name,
+                       const SurfaceOptions& options, const Progress& progress) {
   auto [scan, tissue, rough] = measured_scan(image, name, options, part_of(progress, 0.0, 0.6));
-  const VolumeGrid& grid = scan.image.grid;
+  const imaging::VolumeGrid& grid = scan.image.grid;
   ScanLevels& levels = scan.levels;
   progress.update(0.6, "markers and fixture");
-  VoxelMask taken(tissue.size(), 0);
+  imaging::VoxelMask taken(tissue.size(), 0);
   if (options.marker_diameter > 0.0) {
     SurfaceMarkers markers = find_surface_markers(scan.image, filled(grid, tissue),
                                                   0.7 * levels.bright, options.marker_diameter);
@@ -347,16 +352,16 @@ ScanImage prepare_scan(const Volume& image, const std::string& name, const Surfa
     tissue[v] = is_tissue ? 1 : 0;
   }
   scan.covered = std::move(taken);
-  const ConnectedParts pieces = connected_parts(grid, tissue);
+  const imaging::ConnectedParts pieces = imaging::connected_parts(grid, tissue);
   // Closed over what is narrower than 3 mm (dark tendons below the skin), opened where the fixture
   // leaves scraps.
-  scan.body = filled(grid, closed(grid, mask_of(pieces, pieces.largest()), 1.5));
-  scan.body = opened(grid, scan.body, 1.2);
-  const ConnectedParts whole_parts = connected_parts(grid, scan.body);
-  scan.body = mask_of(whole_parts, whole_parts.largest());
+  scan.body = filled(grid, imaging::closed(grid, imaging::mask_of(pieces, pieces.largest()), 1.5));
+  scan.body = imaging::opened(grid, scan.body, 1.2);
+  const imaging::ConnectedParts whole_parts = imaging::connected_parts(grid, scan.body);
+  scan.body = imaging::mask_of(whole_parts, whole_parts.largest());
   scan.depth = depth_in(grid, scan.body);
   find_bone_levels(scan, given_threshold(options.bone_threshold, levels.floor));
   return scan;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

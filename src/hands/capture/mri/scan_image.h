@@ -11,7 +11,7 @@
 #include "hands/imaging/distance_transform.h"
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Signals of a T1-weighted image without bias and noise floor; air has 0.
 struct ScanLevels {
@@ -28,11 +28,11 @@ struct ScanLevels {
 
 /// The part of an image that shows the hand, made ready for finding surfaces.
 struct ScanImage {
-  Volume image;              ///< free of bias and noise floor, cut to the hand's surroundings
-  Volume smooth;             ///< the same with less noise
-  VoxelMask body;            ///< the hand: without markers and fixture, what is inside filled
-  std::vector<float> depth;  ///< below the body's surface, mm; 0 outside
-  VoxelMask covered;         ///< markers and fixture
+  imaging::Volume image;       ///< free of bias and noise floor, cut to the hand's surroundings
+  imaging::Volume smooth;      ///< the same with less noise
+  imaging::VoxelMask body;     ///< the hand: without markers and fixture, what is inside filled
+  std::vector<float> depth;    ///< below the body's surface, mm; 0 outside
+  imaging::VoxelMask covered;  ///< markers and fixture
   std::vector<Vec3> markers;
   Fixture fixture;
   ScanLevels levels;
@@ -47,11 +47,11 @@ struct ScanImage {
 /// - marrow from cortical bone: half way between the medians of the dark and of the bright class
 ///   of the inner tissue (three classes, Otsu 1979).
 /// Throws InputError, naming `name`: no hand, two hands.
-ScanImage prepare_scan(const Volume& image, const std::string& name, const SurfaceOptions& options,
-                       const Progress& progress = {});
+ScanImage prepare_scan(const imaging::Volume& image, const std::string& name,
+                       const SurfaceOptions& options, const Progress& progress = {});
 
 /// The signals alone, as prepare_scan() measures them, in half of its time. Throws likewise.
-ScanLevels scan_levels(const Volume& image, const std::string& name,
+ScanLevels scan_levels(const imaging::Volume& image, const std::string& name,
                        const SurfaceOptions& options = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

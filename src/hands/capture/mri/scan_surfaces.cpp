@@ -13,17 +13,17 @@
 #include "hands/capture/mri/bones/fat_shift.h"
 #include "hands/capture/mri/bones/shell_fit.h"
 #include "hands/capture/mri/scan_image.h"
+#include "hands/imaging/gaussian_filter.h"
+#include "hands/imaging/noise_floor.h"
+#include "hands/imaging/simple_body.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/remesh/remesh.h"
 #include "palmar/geometry/remesh/smooth.h"
-#include "hands/imaging/gaussian_filter.h"
-#include "hands/imaging/noise_floor.h"
-#include "hands/imaging/simple_body.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kCoarsest = 2.5;  // mm; a distal phalanx is 5 mm wide
@@ -33,24 +33,24 @@ constexpr double kErrorPerVoxel = 0.27;
 constexpr double kErrorPerNoise = 3.0;  // per share of the contrast
 constexpr double kDoubtful = 0.4;       // mm: from there on names may be wrong as well
 
-TriangleMesh skin_surface(const ScanImage& scan, double edge_length,
-                          std::vector<std::string>& notes) {
-  Volume field = gaussian_filtered(scan.image, 0.4);
-  const std::vector<float> outside = distance_transform(field.grid, scan.body);
+geometry::TriangleMesh skin_surface(const ScanImage& scan, double edge_length,
+                                    std::vector<std::string>& notes) {
+  imaging::Volume field = imaging::gaussian_filtered(scan.image, 0.4);
+  const std::vector<float> outside = imaging::distance_transform(field.grid, scan.body);
   const auto inside = static_cast<float>(scan.levels.bright);
   for (std::size_t v = 0; v < field.value.size(); ++v) {
     if (scan.depth[v] > 1.2F) field.value[v] = inside;
     if (outside[v] > 1.2F || scan.covered[v] != 0) field.value[v] = std::min(field.value[v], 0.0F);
   }
-  SimpleSurface surface =
-      simple_surface(std::move(field), scan.levels.air_threshold, scan.levels.skin);
+  imaging::SimpleSurface surface =
+      imaging::simple_surface(std::move(field), scan.levels.air_threshold, scan.levels.skin);
   if (surface.handles > 0) {
     notes.push_back(fmt::format(
         "skin touches skin, or is too thin to be seen, in {} {}: it was separated there",
         surface.handles, surface.handles == 1 ? "place" : "places"));
   }
-  const TriangleMesh mesh = smooth_taubin(surface.mesh, {.rounds = 8});
-  return remesh(mesh, {.edge_length = edge_length, .rounds = 8}).mesh;
+  const geometry::TriangleMesh mesh = geometry::smooth_taubin(surface.mesh, {.rounds = 8});
+  return geometry::remesh(mesh, {.edge_length = edge_length, .rounds = 8}).mesh;
 }
 
 /// Where fat is shown off water, the skin is moved to the bones, and what is left of that makes
@@ -105,8 +105,9 @@ std::string better_scan(const ScanSurfaces& surfaces) {
   return "a finer scan with less noise (pixels of 0.8 mm, slices of 1 mm)";
 }
 
-ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const Hand& model,
-                           const SurfaceOptions& options, const Progress& progress) {
+ScanSurfaces find_surfaces(const imaging::Volume& image, const std::string& name,
+                           const hand::Hand& model, const SurfaceOptions& options,
+                           const Progress& progress) {
   options.check();
   const auto share = [&](double from, double to) {
     Progress part = progress;
@@ -128,8 +129,9 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   ScanSurfaces surfaces;
   surfaces.markers = scan.markers;
   surfaces.notes = scan.notes;
-  surfaces.air_threshold = with_noise_floor(scan.levels.air_threshold, scan.levels.floor);
-  surfaces.bone_threshold = with_noise_floor(scan.levels.bone_threshold, scan.levels.floor);
+  surfaces.air_threshold = imaging::with_noise_floor(scan.levels.air_threshold, scan.levels.floor);
+  surfaces.bone_threshold =
+      imaging::with_noise_floor(scan.levels.bone_threshold, scan.levels.floor);
   surfaces.noise = scan.levels.noise;
   surfaces.voxel = image.grid.spacing;
 
@@ -137,7 +139,7 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   surfaces.skin = skin_surface(scan, options.edge_length, surfaces.notes);
 
   progress.update(0.5, "marrow");
-  VoxelMask inner(scan.body.size());
+  imaging::VoxelMask inner(scan.body.size());
   for (std::size_t v = 0; v < inner.size(); ++v) inner[v] = scan.depth[v] > 1.0F ? 1 : 0;
   const double contrast = scan.levels.bright - scan.levels.dark;
   const MarrowRegions regions = marrow_regions(scan, inner);
@@ -177,11 +179,12 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
     ScannedBone& found = surfaces.bones[b];
     found.name = names.name[b];
     found.is_cut = names.bones[b].is_cut;
-    TriangleMesh mesh = marrow_surface(scan, names.bones[b], options.edge_length);
+    geometry::TriangleMesh mesh = marrow_surface(scan, names.bones[b], options.edge_length);
     for (int round = 0; round < 2; ++round) {
       shells[b] = fit_shell(mesh, b, shell);
       mesh = shells[b].mesh;
-      mesh = smooth_tangentially(smooth_taubin(mesh, {.rounds = 4}), {.rounds = 4});
+      mesh = geometry::smooth_tangentially(geometry::smooth_taubin(mesh, {.rounds = 4}),
+                                           {.rounds = 4});
     }
     found.mesh = std::move(mesh);
   });
@@ -194,4 +197,4 @@ ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const H
   return surfaces;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "hands/imaging/volume.h"
 #include "palmar/core/progress.h"
 #include "palmar/geometry/types.h"
 #include "palmar/hand/hand.h"
-#include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// One bone in a scan. Closed, 2-manifold, oriented outwards; patient frame, mm.
 struct ScannedBone {
   std::string name;  ///< as Hand::bones has it ("index_middle_phalanx", "thumb_metacarpal",
                      ///< "capitate", "radius"); "" for one that couldn't be named
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   bool is_cut = false;  ///< by the edge of the image
 };
 
@@ -25,11 +25,11 @@ struct ScannedBone {
 /// the image shows fat, and the skin, which is water, where it would be if it were shown like fat:
 /// `fat_shift` off its place.
 struct ScanSurfaces {
-  TriangleMesh skin;  ///< closed (capped where the image cuts the forearm), 2-manifold
+  geometry::TriangleMesh skin;  ///< closed (capped where the image cuts the forearm), 2-manifold
   std::vector<ScannedBone> bones;
-  std::vector<Vec3> markers;   ///< centres of the spots stuck on the skin
-  Side side = Side::kRight;    ///< from the anatomy
-  double air_threshold = 0.0;  ///< intensities used, after bias correction
+  std::vector<Vec3> markers;             ///< centres of the spots stuck on the skin
+  hand::Side side = hand::Side::kRight;  ///< from the anatomy
+  double air_threshold = 0.0;            ///< intensities used, after bias correction
   double bone_threshold = 0.0;
   double noise = 0.0;                ///< standard deviation of the intensity in tissue
   Vec3 fat_shift = Vec3::Zero();     ///< by which the skin was moved, mm
@@ -50,8 +50,8 @@ struct SurfaceOptions {
   double marker_diameter = 5.0;  ///< mm; 0: no markers are looked for
   /// How far the scanner's settings show fat off water, mm, but for the sign (ImageFile).
   Vec3 fat_shift = Vec3::Zero();
-  bool is_fat_side_known = false;  ///< the sign is right, too: another scan with it showed it
-  std::optional<Side> side = {};   ///< which hand it is, if that is known
+  bool is_fat_side_known = false;       ///< the sign is right, too: another scan with it showed it
+  std::optional<hand::Side> side = {};  ///< which hand it is, if that is known
   /// Bones that fit the other hand with less than this share of the misfit show that `side` is
   /// wrong after all; 0: it is certain.
   double doubted_below = 0.0;
@@ -61,7 +61,8 @@ struct SurfaceOptions {
 /// Finds skin, bones and markers in a T1-weighted MR image of one hand. `model`: any hand, for
 /// names: which bones there are and how they follow each other. See docs/method/mri.md.
 /// Throws InputError, naming `name` (the series): no hand, two hands, an image too coarse.
-ScanSurfaces find_surfaces(const Volume& image, const std::string& name, const Hand& model,
-                           const SurfaceOptions& options = {}, const Progress& progress = {});
+ScanSurfaces find_surfaces(const imaging::Volume& image, const std::string& name,
+                           const hand::Hand& model, const SurfaceOptions& options = {},
+                           const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,14 +8,15 @@
 
 #include "hands/imaging/connected_parts.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 double normal_distribution(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 /// Visits the voxels within `reach` [mm] of a point: index and position in the patient frame.
 template <typename Visit>
-void each_voxel_near(const VolumeGrid& grid, const Vec3& point, double reach, const Visit& visit) {
+void each_voxel_near(const imaging::VolumeGrid& grid, const Vec3& point, double reach,
+                     const Visit& visit) {
   const Vec3 voxel = grid.to_voxel(point);
   std::array<int, 3> low{}, high{};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -35,8 +36,8 @@ void each_voxel_near(const VolumeGrid& grid, const Vec3& point, double reach, co
 }
 
 /// Gauss-Newton with damping on the centre and the brightness.
-Vec3 fitted_centre(const Volume& image, const VoxelMask& body, const Vec3& start, double bright,
-                   double radius) {
+Vec3 fitted_centre(const imaging::Volume& image, const imaging::VoxelMask& body, const Vec3& start,
+                   double bright, double radius) {
   const double blur = 0.5 * std::cbrt(image.grid.spacing.prod());
   Eigen::Vector4d x(start.x(), start.y(), start.z(), bright);
   for (int iteration = 0; iteration < 12; ++iteration) {
@@ -68,19 +69,20 @@ Vec3 fitted_centre(const Volume& image, const VoxelMask& body, const Vec3& start
 
 }  // namespace
 
-SurfaceMarkers find_surface_markers(const Volume& image, const VoxelMask& tissue, double least,
-                                    double diameter) {
-  const VolumeGrid& grid = image.grid;
+SurfaceMarkers find_surface_markers(const imaging::Volume& image, const imaging::VoxelMask& tissue,
+                                    double least, double diameter) {
+  const imaging::VolumeGrid& grid = image.grid;
   const double radius = 0.5 * diameter;
   SurfaceMarkers markers;
   markers.mask.assign(tissue.size(), 0);
-  const VoxelMask body = opened(grid, tissue, 1.2 * radius + 0.3 * grid.spacing.maxCoeff());
-  VoxelMask thin(tissue.size());
+  const imaging::VoxelMask body =
+      imaging::opened(grid, tissue, 1.2 * radius + 0.3 * grid.spacing.maxCoeff());
+  imaging::VoxelMask thin(tissue.size());
   for (std::size_t v = 0; v < thin.size(); ++v) {
     thin[v] =
         tissue[v] != 0 && body[v] == 0 && static_cast<double>(image.value[v]) > 0.5 * least ? 1 : 0;
   }
-  const ConnectedParts parts = connected_parts(grid, thin);
+  const imaging::ConnectedParts parts = imaging::connected_parts(grid, thin);
   struct Moments {
     double sum = 0.0, squares = 0.0, brightest = 0.0;
     Vec3 first = Vec3::Zero();
@@ -121,4 +123,4 @@ SurfaceMarkers find_surface_markers(const Volume& image, const VoxelMask& tissue
   return markers;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,12 +7,12 @@
 #include "hands/imaging/distance_transform.h"
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Bright balls stuck on the skin.
 struct SurfaceMarkers {
   std::vector<Vec3> centre;  ///< patient frame, mm
-  VoxelMask mask;            ///< their voxels
+  imaging::VoxelMask mask;   ///< their voxels
 };
 
 /// Finds balls of a known diameter [mm] that stick out of the tissue: parts of the mask `tissue`
@@ -23,7 +23,7 @@ struct SurfaceMarkers {
 ///     I(x) = A P((D / 2 - |x - c|) / h),
 ///
 /// P the normal distribution, h half a voxel, over the voxels that the opening left no tissue in.
-SurfaceMarkers find_surface_markers(const Volume& image, const VoxelMask& tissue, double least,
-                                    double diameter);
+SurfaceMarkers find_surface_markers(const imaging::Volume& image, const imaging::VoxelMask& tissue,
+                                    double least, double diameter);
 
-}  // namespace palmar
+}  // namespace palmar::capture

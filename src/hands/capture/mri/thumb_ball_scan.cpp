@@ -17,7 +17,7 @@
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/skin/thumb_ball.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// A point of the skin in the reference posture.
@@ -79,41 +79,41 @@ void ThumbBallScanOptions::check() const {
   }
 }
 
-std::vector<int> thumb_ball_skin(const Hand& hand) {
+std::vector<int> thumb_ball_skin(const hand::Hand& hand) {
   constexpr double kMoved = 0.05, kBeyond = 12.0;
-  const JointWeights* cmc = nullptr;
-  for (const JointWeights& weights : hand.weights) {
-    if (weights.joint == JointId::kThumbCmc) cmc = &weights;
+  const hand::JointWeights* cmc = nullptr;
+  for (const hand::JointWeights& weights : hand.weights) {
+    if (weights.joint == hand::JointId::kThumbCmc) cmc = &weights;
   }
   if (cmc == nullptr) return {};
-  const Vec3& mp = hand.skeleton.joint(JointId::kThumbMp).centre;
+  const Vec3& mp = hand.skeleton.joint(hand::JointId::kThumbMp).centre;
   std::vector<int> result;
   for (std::size_t k = 0; k < cmc->vertex.size(); ++k) {
     if (cmc->w1[k] * cmc->w2[k] < kMoved) continue;
     const int v = cmc->vertex[k];
-    const Segment segment = hand.segment[v];
+    const hand::Segment segment = hand.segment[v];
     const bool is_near = (hand.skin.vertices[v] - mp).norm() < 2.0 * kBeyond;
-    if (segment == Segment::kPalm || (segment == Segment::kThumbProximal && is_near)) {
+    if (segment == hand::Segment::kPalm || (segment == hand::Segment::kThumbProximal && is_near)) {
       result.push_back(v);
     }
   }
   return result;
 }
 
-ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& markers,
+ThumbBallFit fit_scanned_thumb_ball(const hand::Hand& hand, const std::vector<Vec3>& markers,
                                     const std::array<std::optional<ThumbLimitScan>, 4>& limits,
                                     const ThumbBallScanOptions& options, const Progress& progress) {
   options.check();
   ThumbBallFit fit;
-  Hand bare = hand;
+  hand::Hand bare = hand;
   bare.thumb_ball = {};
-  const ClosestPointQuery query(hand.skin);
+  const geometry::ClosestPointQuery query(hand.skin);
   std::vector<SkinPoint> marked;
-  std::vector<HandPoint> glued;
+  std::vector<hand::HandPoint> glued;
   for (const Vec3& marker : markers) {
-    const ClosestPoint foot = *query.closest(marker);
+    const geometry::ClosestPoint foot = *query.closest(marker);
     marked.push_back({hand.skin.triangles[foot.triangle], foot.weights, foot.point, foot.distance});
-    glued.push_back(skin_point_near(hand, marker));
+    glued.push_back(hand::skin_point_near(hand, marker));
   }
 
   // Markers found again, and how many times each.
@@ -126,9 +126,9 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
     ++scanned;
     const SkinScan& scan = limits[l]->skin;
     if (markers.empty() || scan.markers.empty()) continue;
-    const std::vector<Vec3> normal = vertex_normals(scan.skin);
+    const std::vector<Vec3> normal = geometry::vertex_normals(scan.skin);
     const auto match =
-        match_markers(PosablePoints(bare, glued).pose(limits[l]->posture), scan.markers);
+        match_markers(hand::PosablePoints(bare, glued).pose(limits[l]->posture), scan.markers);
     for (std::size_t i = 0; i < match.size(); ++i) {
       if (!match[i]) continue;
       const Vec3& centre = scan.markers[*match[i]];
@@ -160,7 +160,7 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
     if (!limits[l]) continue;
     progress.update(0.25 * static_cast<double>(l),
                     fmt::format("bending the thumb ball onto the scan of {}", kLimitName[l]));
-    posed[l] = pose_skin(bare, limits[l]->posture);
+    posed[l] = hand::pose_skin(bare, limits[l]->posture);
     std::vector<FitPin> pins;
     for (const std::size_t i : kept) {
       if (seen[l][i]) pins.push_back({marked[i].vertex, marked[i].share, *seen[l][i]});
@@ -168,7 +168,7 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
     bent[l] = bend_posed_skin(bare, limits[l]->posture, limits[l]->skin, pins);
   }
 
-  ThumbBallMarkers known;
+  hand::ThumbBallMarkers known;
   for (const std::size_t i : kept) {
     known.reference.push_back(marked[i].place);
     for (std::size_t l = 0; l < 4; ++l) {
@@ -180,7 +180,7 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
       known.missing[l].push_back(missing);
     }
   }
-  if (!kept.empty()) fit.by_markers = fit_thumb_ball(hand.skin, known);
+  if (!kept.empty()) fit.by_markers = hand::fit_thumb_ball(hand.skin, known);
   const std::vector<int> more =
       spread_points(hand.skin.vertices, thumb_ball_skin(hand), known.reference, options.spacing);
   fit.skin_points = static_cast<int>(more.size());
@@ -191,10 +191,10 @@ ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& m
     }
   }
   // phi = 1/2 at the points' spacing.
-  ThumbBallOptions kernel;
+  hand::ThumbBallOptions kernel;
   kernel.beta = std::numbers::ln2 / (options.spacing * options.spacing);
-  fit.correction = fit_thumb_ball(hand.skin, known, kernel);
+  fit.correction = hand::fit_thumb_ball(hand.skin, known, kernel);
   return fit;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

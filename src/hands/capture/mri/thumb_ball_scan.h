@@ -11,11 +11,11 @@
 #include "palmar/core/progress.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// One limit posture of the thumb as it was scanned, in the hand frame.
 struct ThumbLimitScan {
-  Posture posture;
+  hand::Posture posture;
   SkinScan skin;
 };
 
@@ -26,8 +26,8 @@ struct ThumbBallScanOptions {
 
 /// A correction and what it stands on.
 struct ThumbBallFit {
-  ThumbBallCorrection correction;
-  std::optional<ThumbBallCorrection> by_markers;  ///< by these alone, as in the thesis
+  hand::ThumbBallCorrection correction;
+  std::optional<hand::ThumbBallCorrection> by_markers;  ///< by these alone, as in the thesis
   int markers = 0;      ///< found in the reference and most limit postures
   int skin_points = 0;  ///< taken from the scanned skin besides
   std::vector<std::string> notes;
@@ -39,13 +39,13 @@ struct ThumbBallFit {
 /// in a limit posture it lies as far below the marker found there. Beyond the thesis: points of the
 /// skin between and around the markers, taken from the posed skin bent onto the scan, are met as
 /// well.
-ThumbBallFit fit_scanned_thumb_ball(const Hand& hand, const std::vector<Vec3>& markers,
+ThumbBallFit fit_scanned_thumb_ball(const hand::Hand& hand, const std::vector<Vec3>& markers,
                                     const std::array<std::optional<ThumbLimitScan>, 4>& limits,
                                     const ThumbBallScanOptions& options = {},
                                     const Progress& progress = {});
 
 /// Vertices round the thumb ball: skin of the palm that the CMC joint moves by a twentieth or more,
 /// and up to 12 mm beyond on the thumb's first phalanx.
-std::vector<int> thumb_ball_skin(const Hand& hand);
+std::vector<int> thumb_ball_skin(const hand::Hand& hand);
 
-}  // namespace palmar
+}  // namespace palmar::capture

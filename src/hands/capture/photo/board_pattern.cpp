@@ -6,7 +6,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 void BoardPattern::check() const {
   constexpr int kMost = 21;
@@ -23,4 +23,4 @@ void BoardPattern::check() const {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// A chessboard with a marker in every white square, by which its inner corners are distinguished.
 /// Its middle is the origin of the world; x along the rows of the print, y up its columns, z
@@ -41,4 +41,4 @@ struct BoardPicture {
   std::vector<std::uint8_t> grey;
 };
 
-}  // namespace palmar
+}  // namespace palmar::capture

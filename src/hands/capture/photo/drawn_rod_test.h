@@ -18,7 +18,7 @@
 
 // Drawn photographs of a round rod, for tests.
 
-namespace palmar {
+namespace palmar::capture {
 
 /// An upright rod as thick as a finger with a half ball on top, on z = 0 before a blue backdrop:
 /// uneven skin, two lamps, noise of a sensor. Rays are cut with it in closed form.
@@ -92,8 +92,8 @@ struct DrawnRod {
     return own * Eigen::Vector3d(215.0, 165.0, 140.0) + Eigen::Vector3d::Constant(shine);
   }
 
-  RgbImage taken(const PhotoCamera& camera, std::uint32_t number) const {
-    RgbImage image{camera.lens.width, camera.lens.height, {}};
+  geometry::RgbImage taken(const PhotoCamera& camera, std::uint32_t number) const {
+    geometry::RgbImage image{camera.lens.width, camera.lens.height, {}};
     image.rgb.resize(3 * static_cast<std::size_t>(image.width) * image.height);
     const Vec3 eye = camera.centre();
     parallel_for(image.height, [&](int y) {
@@ -148,4 +148,4 @@ struct DrawnRod {
   }
 };
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -16,7 +16,7 @@
 
 // Drawn photographs of a flat hand, for tests.
 
-namespace palmar {
+namespace palmar::capture {
 
 /// A flat hand made of strips with round ends on an A4 sheet, seen by a pinhole: what it measures
 /// is what it is drawn with.
@@ -84,10 +84,10 @@ struct Scene {
                    std::abs(q.y()) - 0.5 * card_size[1] + kCorner);
     return out.maxCoeff() < kCorner && out.cwiseMax(0.0).norm() < kCorner;
   }
-  RgbImage taken() const {
+  geometry::RgbImage taken() const {
     const PhotoCamera at = camera();
     const Vec3 eye = at.centre();
-    RgbImage image{width, height, {}};
+    geometry::RgbImage image{width, height, {}};
     image.rgb.resize(3 * static_cast<std::size_t>(width) * height);
     parallel_for(height, [&](int y) {
       for (int x = 0; x < width; ++x) {
@@ -123,4 +123,4 @@ inline OutlineProportions flat_proportions() {
   return p;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/rotation.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using Corners = std::vector<BoardCorner>;
@@ -54,7 +54,7 @@ std::optional<Eigen::Matrix3d> homography(const Corners& corners, const std::vec
   return Eigen::Matrix3d(b.inverse() * matrix * a);
 }
 
-std::optional<Rigid3> first_pose(const PhotoLens& lens, const Corners& corners) {
+std::optional<geometry::Rigid3> first_pose(const PhotoLens& lens, const Corners& corners) {
   std::vector<Vec2> directions;
   for (const BoardCorner& corner : corners) directions.push_back(lens.direction_of(corner.pixel));
   const auto h = homography(corners, directions);
@@ -63,7 +63,7 @@ std::optional<Rigid3> first_pose(const PhotoLens& lens, const Corners& corners) 
   if (m(2, 2) < 0.0) m = -m;  // the board lies in front
   Eigen::Matrix3d r;
   r << m.col(0), m.col(1), m.col(0).cross(m.col(1));
-  return Rigid3{Quat(fit_rotation(r)).normalized(), m.col(2)};
+  return geometry::Rigid3{Quat(geometry::fit_rotation(r)).normalized(), m.col(2)};
 }
 
 /// The lens and the places that make the residuals of corners least; Levenberg-Marquardt, the lens
@@ -71,7 +71,7 @@ std::optional<Rigid3> first_pose(const PhotoLens& lens, const Corners& corners) 
 class Adjustment {
  public:
   PhotoLens lens;
-  std::vector<Rigid3> poses;
+  std::vector<geometry::Rigid3> poses;
   std::vector<Corners> corners;  ///< per pose
   bool lens_is_free = false;
   Eigen::MatrixXd lens_information;  ///< of the last solve, 6 x 6
@@ -87,7 +87,7 @@ class Adjustment {
     r.resize(2 * n);
     if (by_lens != nullptr) by_lens->resize(2 * n, kLensSize);
     if (by_pose != nullptr) by_pose->resize(2 * n, 6);
-    const Rigid3& pose = poses[v];
+    const geometry::Rigid3& pose = poses[v];
     for (long i = 0; i < n; ++i) {
       const BoardCorner& corner = corners[v][i];
       const Vec3 turned = pose.rotation * corner.world;
@@ -353,4 +353,4 @@ LensCalibration calibrate_lens(int width, int height,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

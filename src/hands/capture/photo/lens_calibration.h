@@ -9,11 +9,11 @@
 #include "hands/capture/photo/board_pattern.h"
 #include "hands/capture/photo/photo_camera.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Where a camera stands to the board that it sees.
 struct BoardPose {
-  Rigid3 camera_from_world;
+  geometry::Rigid3 camera_from_world;
   double rms = 0.0;  ///< of the corners' residuals, per coordinate, pixels
   int used = 0;      ///< corners; the others were more than a few times the rms off
 };
@@ -53,4 +53,4 @@ LensCalibration calibrate_lens(int width, int height,
                                const std::vector<std::vector<BoardCorner>>& photographs,
                                const std::string& name, const LensExpectation& expected = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

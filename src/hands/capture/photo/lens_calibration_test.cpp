@@ -11,7 +11,7 @@
 #include "palmar/core/random.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 PhotoLens true_lens() {
@@ -45,10 +45,11 @@ std::vector<BoardCorner> seen(const PhotoCamera& camera, double noise, RandomStr
 }
 
 PhotoCamera camera_at(double azimuth, double elevation, double far, double roll) {
-  const double a = azimuth * kDegree, e = elevation * kDegree;
+  const double a = azimuth * geometry::kDegree, e = elevation * geometry::kDegree;
   const Vec3 centre = far * Vec3(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e));
-  return {true_lens(), Rigid3::about_axis(Vec3::UnitZ(), Vec3::Zero(), roll * kDegree) *
-                           looking_at(centre, Vec3(10, -15, 0))};
+  return {true_lens(),
+          geometry::Rigid3::about_axis(Vec3::UnitZ(), Vec3::Zero(), roll * geometry::kDegree) *
+              looking_at(centre, Vec3(10, -15, 0))};
 }
 
 std::vector<std::vector<BoardCorner>> tilted_shots(double noise) {
@@ -136,4 +137,4 @@ TEST(FindBoardPose, FindsTheCameraDespiteWrongCorners) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

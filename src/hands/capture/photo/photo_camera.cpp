@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 void PhotoLens::check(const std::string& name) const {
   constexpr int kLeast = 64, kMost = 16384;
@@ -64,7 +64,7 @@ Vec3 PhotoCamera::ray(const Eigen::Vector2d& pixel) const {
          lens.direction_of(pixel).homogeneous().normalized();
 }
 
-Rigid3 looking_at(const Vec3& centre, const Vec3& target) {
+geometry::Rigid3 looking_at(const Vec3& centre, const Vec3& target) {
   const Vec3 z = (target - centre).normalized();
   Vec3 x = z.cross(Vec3::UnitZ());
   if (x.norm() < 1e-9) x = Vec3::UnitX();  // from straight above
@@ -75,4 +75,4 @@ Rigid3 looking_at(const Vec3& centre, const Vec3& target) {
   return {rotation, -(rotation * centre)};
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

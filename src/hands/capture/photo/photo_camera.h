@@ -9,7 +9,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Lens and sensor of a camera. A point (x, y, z) of the camera's frame (x to the right of the
 /// picture, y down, z forward; mm) falls on the pixel
@@ -35,7 +35,7 @@ struct PhotoLens {
 /// A lens at a place. The world is that of the board: its plane z = 0, z up, mm.
 struct PhotoCamera {
   PhotoLens lens;
-  Rigid3 camera_from_world;
+  geometry::Rigid3 camera_from_world;
 
   Vec3 centre() const { return camera_from_world.inverse().translation; }
   /// The pixel of a point; nothing if it lies behind the camera. May lie outside of the picture.
@@ -45,6 +45,6 @@ struct PhotoCamera {
 };
 
 /// A camera at `centre` that looks at `target`, the picture's x axis parallel to the board.
-Rigid3 looking_at(const Vec3& centre, const Vec3& target);
+geometry::Rigid3 looking_at(const Vec3& centre, const Vec3& target);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 PhotoLens make_lens() {
@@ -69,4 +69,4 @@ TEST(PhotoLens, NamesWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

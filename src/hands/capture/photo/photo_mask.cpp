@@ -8,26 +8,26 @@
 #include <array>
 #include <cmath>
 
-#include "palmar/core/error.h"
-#include "palmar/geometry/convex_hull.h"
 #include "hands/imaging/connected_parts.h"
 #include "hands/imaging/distance_transform.h"
+#include "palmar/core/error.h"
+#include "palmar/geometry/convex_hull.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using Points = std::vector<Eigen::Vector2d>;
 
 /// Pixels within the outline of points of the world; everything if one lies behind the camera.
-VoxelMask region_of(const PhotoView& view, const std::vector<Vec3>& points) {
-  VoxelMask region(view.grey.size(), 1);
+imaging::VoxelMask region_of(const PhotoView& view, const std::vector<Vec3>& points) {
+  imaging::VoxelMask region(view.grey.size(), 1);
   Points projected;
   for (const Vec3& point : points) {
     const auto pixel = view.camera.project(point);
     if (!pixel) return region;
     projected.push_back(*pixel);
   }
-  const Points outline = convex_hull(projected);
+  const Points outline = geometry::convex_hull(projected);
   for (int y = 0; y < view.height(); ++y) {
     double from = view.width(), to = -1.0;  // where the row crosses the outline
     for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -54,7 +54,7 @@ std::vector<Vec3> corners_of(const Box3& box) {
 }
 
 /// Means of 3 x 3 pixels.
-std::vector<Eigen::Vector3f> blurred(const RgbImage& image) {
+std::vector<Eigen::Vector3f> blurred(const geometry::RgbImage& image) {
   std::vector<Eigen::Vector3f> result(image.rgb.size() / 3);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -73,8 +73,8 @@ std::vector<Eigen::Vector3f> blurred(const RgbImage& image) {
 }
 
 /// Pixels of the board, whose half edge is `half` mm; none without a board.
-VoxelMask board_region(const PhotoView& view, double half) {
-  if (half <= 0.0) return VoxelMask(view.grey.size(), 0);
+imaging::VoxelMask board_region(const PhotoView& view, double half) {
+  if (half <= 0.0) return imaging::VoxelMask(view.grey.size(), 0);
   return region_of(
       view, {{-half, -half, 0.0}, {half, -half, 0.0}, {half, half, 0.0}, {-half, half, 0.0}});
 }
@@ -82,10 +82,10 @@ VoxelMask board_region(const PhotoView& view, double half) {
 /// Colour of the board's paper: mean of the brighter third of its pixels outside of the box; white
 /// if it isn't seen.
 Eigen::Vector3f paper_of(const PhotoView& view, const std::vector<Eigen::Vector3f>& colour,
-                         const VoxelMask& box, double half) {
+                         const imaging::VoxelMask& box, double half) {
   const Eigen::Vector3f white = Eigen::Vector3f::Constant(255.0F);
   if (half <= 0.0) return white;
-  const VoxelMask board = board_region(view, half);
+  const imaging::VoxelMask board = board_region(view, half);
   std::vector<std::pair<float, std::size_t>> seen;
   for (std::size_t p = 0; p < colour.size(); ++p) {
     if (board[p] != 0 && box[p] == 0) seen.emplace_back(colour[p].sum(), p);
@@ -101,17 +101,17 @@ Eigen::Vector3f paper_of(const PhotoView& view, const std::vector<Eigen::Vector3
 }
 
 /// The view as an image one voxel thick.
-VolumeGrid flat_grid(const PhotoView& view) {
-  VolumeGrid grid;
+imaging::VolumeGrid flat_grid(const PhotoView& view) {
+  imaging::VolumeGrid grid;
   grid.size = {view.width(), view.height(), 1};
   return grid;
 }
 
 /// Fills parts of the outside with at most `most` pixels.
-void fill_holes(const VolumeGrid& grid, VoxelMask& mask, double most) {
-  VoxelMask outside(mask.size());
+void fill_holes(const imaging::VolumeGrid& grid, imaging::VoxelMask& mask, double most) {
+  imaging::VoxelMask outside(mask.size());
   for (std::size_t p = 0; p < mask.size(); ++p) outside[p] = mask[p] == 0 ? 1 : 0;
-  const ConnectedParts parts = connected_parts(grid, outside);
+  const imaging::ConnectedParts parts = imaging::connected_parts(grid, outside);
   for (std::size_t p = 0; p < mask.size(); ++p) {
     if (parts.part[p] >= 0 && static_cast<double>(parts.voxels[parts.part[p]]) <= most) {
       mask[p] = 1;
@@ -120,9 +120,9 @@ void fill_holes(const VolumeGrid& grid, VoxelMask& mask, double most) {
 }
 
 /// Forgets specks.
-void drop_specks(const VolumeGrid& grid, VoxelMask& mask) {
+void drop_specks(const imaging::VolumeGrid& grid, imaging::VoxelMask& mask) {
   constexpr std::size_t kShare = 100;  // of the largest part
-  const ConnectedParts parts = connected_parts(grid, mask);
+  const imaging::ConnectedParts parts = imaging::connected_parts(grid, mask);
   if (parts.count() == 0) return;
   const std::size_t least = parts.voxels[parts.largest()] / kShare;
   for (std::size_t p = 0; p < mask.size(); ++p) {
@@ -165,13 +165,13 @@ PhotoMask mask_hand(const PhotoView& view, const Box3& box, double board_half,
   PhotoMask result;
   result.pixel_size =
       (view.camera.camera_from_world * box.center()).norm() / view.camera.lens.focal_x;
-  const VoxelMask region = region_of(view, corners_of(box));
+  const imaging::VoxelMask region = region_of(view, corners_of(box));
   const std::vector<Eigen::Vector3f> colour = blurred(view.colour);
   result.paper = paper_of(view, colour, region, board_half);
 
-  VoxelMask mask(view.grey.size(), 0);
+  imaging::VoxelMask mask(view.grey.size(), 0);
   // The board is neutral, so it shows nothing of what is behind the hand.
-  const VoxelMask board = board_region(view, board_half);
+  const imaging::VoxelMask board = board_region(view, board_half);
   std::size_t region_size = 0, outside = 0, around = 0;
   for (std::size_t p = 0; p < mask.size(); ++p) {
     if (region[p] == 0 && board[p] != 0) continue;
@@ -190,11 +190,11 @@ PhotoMask mask_hand(const PhotoView& view, const Box3& box, double board_half,
   }
   // In pixels; the flat grid has a spacing of 1.
   const double pixel = result.pixel_size;
-  const VolumeGrid grid = flat_grid(view);
+  const imaging::VolumeGrid grid = flat_grid(view);
   drop_specks(grid, mask);
-  if (options.close > 0.0) mask = closed(grid, mask, options.close / pixel);
+  if (options.close > 0.0) mask = imaging::closed(grid, mask, options.close / pixel);
   fill_holes(grid, mask, options.fill / (pixel * pixel));
-  if (options.grow > 0.0) mask = dilated(grid, mask, options.grow / pixel);
+  if (options.grow > 0.0) mask = imaging::dilated(grid, mask, options.grow / pixel);
   std::size_t inside = 0;
   for (std::size_t p = 0; p < mask.size(); ++p) {
     if (region[p] == 0) mask[p] = 0;
@@ -206,4 +206,4 @@ PhotoMask mask_hand(const PhotoView& view, const Box3& box, double board_half,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

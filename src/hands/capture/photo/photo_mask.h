@@ -7,7 +7,7 @@
 
 #include "hands/capture/photo/photo_view.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 struct PhotoMaskOptions {
   /// Chromaticities (red and blue over the sum of the three channels) so near to those of the
@@ -38,4 +38,4 @@ struct PhotoMask {
 PhotoMask mask_hand(const PhotoView& view, const Box3& box, double board_half,
                     const PhotoMaskOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
@@ -62,4 +62,4 @@ TEST(PhotoMask, IsTheHandAndAMillimetreMore) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

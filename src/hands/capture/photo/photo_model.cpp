@@ -12,6 +12,8 @@
 #include "hands/capture/photo/surface/flat_patches.h"
 #include "hands/capture/photo/surface/over_views.h"
 #include "hands/capture/sheet/outline_by_depth.h"
+#include "hands/imaging/distance_transform.h"
+#include "hands/imaging/iso_surface.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/progress_part.h"
@@ -19,11 +21,9 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/plane_cut.h"
 #include "palmar/geometry/repair/weld.h"
-#include "hands/imaging/distance_transform.h"
-#include "hands/imaging/iso_surface.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr std::size_t kFewest = 6;  // photographs
@@ -42,40 +42,40 @@ double usual_cost(const std::vector<DepthMap>& maps) {
     std::copy_if(map.cost.begin(), map.cost.end(), std::back_inserter(costs),
                  [](float cost) { return cost < kNoCost; });
   }
-  return static_cast<double>(median(std::move(costs)));
+  return static_cast<double>(statistics::median(std::move(costs)));
 }
 
 /// Which of the parts that triangles belong to has the largest area.
-int largest(const TriangleMesh& mesh, const std::vector<int>& part) {
+int largest(const geometry::TriangleMesh& mesh, const std::vector<int>& part) {
   std::vector<double> area(1, 0.0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto p = static_cast<std::size_t>(std::max(0, part[t]));
     if (p >= area.size()) area.resize(p + 1, 0.0);
     const auto& [a, b, c] = mesh.triangles[t];
-    area[p] += triangle_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+    area[p] += geometry::triangle_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
   }
   return static_cast<int>(std::max_element(area.begin(), area.end()) - area.begin());
 }
 
-TriangleMesh largest_part(const TriangleMesh& mesh) {
-  const std::vector<int> part = triangle_components(mesh, build_topology(mesh));
+geometry::TriangleMesh largest_part(const geometry::TriangleMesh& mesh) {
+  const std::vector<int> part = geometry::triangle_components(mesh, geometry::build_topology(mesh));
   if (std::all_of(part.begin(), part.end(), [](int p) { return p <= 0; })) return mesh;
   const int best = largest(mesh, part);
-  TriangleMesh kept{mesh.vertices, {}};
+  geometry::TriangleMesh kept{mesh.vertices, {}};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (part[t] == best) kept.triangles.push_back(mesh.triangles[t]);
   }
-  return weld(kept, {.drops_duplicates = false}).mesh;
+  return geometry::weld(kept, {.drops_duplicates = false}).mesh;
 }
 
 /// Leaves out what is a guess, and pieces that then hang loose: what is behind a hand makes
 /// surfaces of its own where it isn't distinguished from the hand.
 void keep_measured(PhotoModel& model) {
-  TriangleMesh& mesh = model.skin.mesh;
+  geometry::TriangleMesh& mesh = model.skin.mesh;
   const auto is_measured = [&model](int v) { return model.measured[v] != 0; };
   std::erase_if(mesh.triangles,
                 [&](const Triangle& t) { return !std::all_of(t.begin(), t.end(), is_measured); });
-  const std::vector<int> part = triangle_components(mesh, build_topology(mesh));
+  const std::vector<int> part = geometry::triangle_components(mesh, geometry::build_topology(mesh));
   const int best = largest(mesh, part);
   std::vector<int> renumbered(mesh.vertices.size(), -1);
   std::vector<Triangle> kept;
@@ -104,12 +104,13 @@ void keep_measured(PhotoModel& model) {
 }
 
 /// What lies above a height; a little higher where the plane grazes the surface.
-TriangleMesh cut_above(const TriangleMesh& mesh, double height) {
+geometry::TriangleMesh cut_above(const geometry::TriangleMesh& mesh, double height) {
   constexpr int kTries = 12;
   constexpr double kShift = 0.23, kSnap = 0.05;  // mm
   for (int i = 0;; ++i) {
     try {
-      return cut_by_plane(mesh, Vec3(0, 0, height + i * kShift), Vec3::UnitZ(), kSnap).mesh;
+      return geometry::cut_by_plane(mesh, Vec3(0, 0, height + i * kShift), Vec3::UnitZ(), kSnap)
+          .mesh;
     } catch (const InputError&) {
       if (i == kTries) throw;
     }
@@ -137,11 +138,12 @@ std::vector<PhotoOutline> outlines_of(const std::vector<PhotoView>& views,
   constexpr double kMixed = 0.5;  // mm
   std::vector<PhotoOutline> outlines(views.size());
   parallel_for(static_cast<int>(views.size()), [&](int i) {
-    VolumeGrid grid;
+    imaging::VolumeGrid grid;
     grid.size = {views[i].width(), views[i].height(), 1};
-    outlines[i] = {views[i].camera,
-                   eroded(grid, masks[i].inside, (options.grow + kMixed) / masks[i].pixel_size),
-                   masks[i].paper};
+    outlines[i] = {
+        views[i].camera,
+        imaging::eroded(grid, masks[i].inside, (options.grow + kMixed) / masks[i].pixel_size),
+        masks[i].paper};
   });
   return outlines;
 }
@@ -224,7 +226,8 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   }
   // A narrow box may be full of hand before a plain backdrop, which shows beside it.
   constexpr double kShowsLittle = 0.5, kLittleAround = 0.15;
-  model.has_background = median(shares) > kShowsLittle && median(around) > kLittleAround;
+  model.has_background =
+      statistics::median(shares) > kShowsLittle && statistics::median(around) > kLittleAround;
   double begin = 0.12;  // of the fine stereo
   if (model.has_background) {
     begin = 0.4;
@@ -236,8 +239,8 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   }
   progress.update(model.has_background ? begin : 0.09, "carving the outline");
   const VisualHull hull = make_visual_hull(views, masks, options.box, options.hull);
-  model.hull_volume = signed_volume(hull.surface);
-  const Box3 filled = bounding_box(hull.surface);
+  model.hull_volume = geometry::signed_volume(hull.surface);
+  const Box3 filled = geometry::bounding_box(hull.surface);
   const double edge = 1.5 * options.hull.spacing;
   if (filled.max().z() > options.box.max().z() - edge ||
       (filled.min().head<2>().array() < options.box.min().head<2>().array() + edge).any() ||
@@ -246,7 +249,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
         "something reaches the border of the space that is searched, which cuts it off there; a "
         "larger one may be needed (setting \"box\"), or a plain backdrop");
   }
-  const Vec3 centre = bounding_box(hull.surface).center();
+  const Vec3 centre = geometry::bounding_box(hull.surface).center();
   const std::vector<std::vector<int>> sources = choose_sources(views, centre, options.stereo);
   const auto lonely = static_cast<std::size_t>(std::count_if(
       sources.begin(), sources.end(), [](const std::vector<int>& s) { return s.size() < 2; }));
@@ -266,7 +269,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
         "many photographs again from 15 to 25 degrees {}",
         model.heights.usual, model.heights.usual < 35.0 ? "higher" : "lower"));
   }
-  const RayQuery bound(hull.surface);
+  const geometry::RayQuery bound(hull.surface);
   std::vector<DepthMap> maps(count);
   PatchMatchOptions stereo = options.stereo;
   const auto match = [&](std::size_t v) {
@@ -306,7 +309,7 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   model.points = fused.points.size();
   std::vector<double> glare;
   for (const PhotoUse& use : model.photographs) glare.push_back(use.glare_share);
-  const double usual_glare = median(glare);
+  const double usual_glare = statistics::median(glare);
   constexpr double kMuchGlare = 0.003;
   if (usual_glare > kMuchGlare) {
     model.warnings.push_back(fmt::format(
@@ -336,7 +339,8 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   progress.update(0.93, "covering it with triangles");
   const PointCells cells(fused.points);
   fused = {};
-  TriangleMesh mesh = without_flat_patches(largest_part(iso_surface(field.field, 0.0)), cells);
+  geometry::TriangleMesh mesh =
+      without_flat_patches(largest_part(imaging::iso_surface(field.field, 0.0)), cells);
   mesh = largest_part(cut_above(mesh, options.cut));
   progress.update(0.95, "colouring it");
   VertexColours colours = colour_vertices(mesh, photographs, outlines, options.colours);
@@ -346,10 +350,10 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
 
   std::vector<float> density(mesh.vertices.size());
   for (std::size_t i = 0; i < density.size(); ++i) {
-    density[i] = value_at(field.density, field.density.grid.to_voxel(mesh.vertices[i]));
+    density[i] = imaging::value_at(field.density, field.density.grid.to_voxel(mesh.vertices[i]));
   }
   model.measured = measured_vertices(mesh, cells, density, colours.views, model.heights.are_one);
-  const std::vector<double> areas = vertex_areas(mesh);
+  const std::vector<double> areas = geometry::vertex_areas(mesh);
   double area = 0.0, measured = 0.0;
   for (std::size_t i = 0; i < density.size(); ++i) {
     area += areas[i];
@@ -369,4 +373,4 @@ PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
   return model;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -15,7 +15,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 struct PhotoModelOptions {
   /// Where the hand is: above the middle of the board, mm.
@@ -44,8 +44,8 @@ struct PhotoUse {
 
 /// A hand as the photographs show it, in the board's frame, mm.
 struct PhotoModel {
-  ColouredMesh skin;       ///< open below
-  std::vector<int> views;  ///< per vertex: photographs that see it
+  geometry::ColouredMesh skin;  ///< open below
+  std::vector<int> views;       ///< per vertex: photographs that see it
   std::vector<char>
       measured;  ///< per vertex: 0 where too few photographs agreed and the surface is a guess
   std::vector<PhotoUse> photographs;
@@ -66,4 +66,4 @@ struct PhotoModel {
 PhotoModel make_photo_model(const std::vector<Photograph>& photographs,
                             const PhotoModelOptions& options = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 
 #include "hands/capture/photo/drawn_rod_test.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::Contains;
@@ -77,4 +77,4 @@ TEST(PhotoModel, SkinThatHardlyShowsTextureIsComparedInLargerPatches) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,9 +9,9 @@
 #include "palmar/core/parallel.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 
-Eigen::Vector3f pixel_colour(const RgbImage& image, const Eigen::Vector2d& pixel) {
+Eigen::Vector3f pixel_colour(const geometry::RgbImage& image, const Eigen::Vector2d& pixel) {
   const double x = std::clamp(pixel.x(), 0.0, image.width - 1.0);
   const double y = std::clamp(pixel.y(), 0.0, image.height - 1.0);
   const int x0 = std::min(static_cast<int>(x), std::max(0, image.width - 2));
@@ -85,7 +85,8 @@ int reduction_for(const std::vector<Photograph>& photographs, const Vec3& point,
   }
   if (sizes.empty()) return 1;
   constexpr double kMost = 16.0;
-  return static_cast<int>(std::clamp(std::round(wanted / median(std::move(sizes))), 1.0, kMost));
+  return static_cast<int>(
+      std::clamp(std::round(wanted / statistics::median(std::move(sizes))), 1.0, kMost));
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

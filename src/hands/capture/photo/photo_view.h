@@ -8,20 +8,20 @@
 #include "hands/capture/photo/photo_camera.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Where a pixel's three bytes begin.
-inline std::size_t pixel_offset(const RgbImage& image, int x, int y) {
+inline std::size_t pixel_offset(const geometry::RgbImage& image, int x, int y) {
   return 3 * (static_cast<std::size_t>(y) * image.width + x);
 }
 
 /// Colour between pixels, bilinear, 0 to 255; beyond the border that of the border.
-Eigen::Vector3f pixel_colour(const RgbImage& image, const Eigen::Vector2d& pixel);
+Eigen::Vector3f pixel_colour(const geometry::RgbImage& image, const Eigen::Vector2d& pixel);
 
 /// One photograph of a set, its camera known.
 struct Photograph {
   std::string name;
-  RgbImage image;
+  geometry::RgbImage image;
   PhotoCamera camera;
   /// Photographs of one position of the rig were taken together: the hand did not move between.
   int position = 0;
@@ -31,7 +31,7 @@ struct Photograph {
 /// 0.
 struct PhotoView {
   PhotoCamera camera;
-  RgbImage colour;
+  geometry::RgbImage colour;
   std::vector<float> grey;  ///< mean of the three channels, 0 to 255, per pixel
   int width() const { return colour.width; }
   int height() const { return colour.height; }
@@ -46,4 +46,4 @@ PhotoView make_view(const Photograph& photograph, int reduction);
 /// at least 1.
 int reduction_for(const std::vector<Photograph>& photographs, const Vec3& point, double wanted);
 
-}  // namespace palmar
+}  // namespace palmar::capture

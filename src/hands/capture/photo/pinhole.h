@@ -6,7 +6,7 @@
 
 #include "hands/capture/photo/photo_camera.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// A camera without distortion in single precision, for loops over many points: q = K (R X + t);
 /// the pixel is (q_x, q_y) / q_z, the depth q_z.
@@ -30,4 +30,4 @@ struct Pinhole {
   }
 };
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 float level_at(std::vector<float>& values, double share) {
@@ -77,4 +77,4 @@ SkinLight judge_skin_light(const std::vector<std::vector<SkinSample>>& spots) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-namespace palmar {
+namespace palmar::capture {
 
 /// What one photograph shows of a spot of the skin.
 struct SkinSample {
@@ -40,4 +40,4 @@ struct SkinLight {
 /// "Using color to separate reflection components".
 SkinLight judge_skin_light(const std::vector<std::vector<SkinSample>>& spots);
 
-}  // namespace palmar
+}  // namespace palmar::capture

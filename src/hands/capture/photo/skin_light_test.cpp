@@ -9,7 +9,7 @@
 
 #include "palmar/core/random.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using Spots = std::vector<std::vector<SkinSample>>;
@@ -79,4 +79,4 @@ TEST(SkinLight, GreyDeterminesNothing) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

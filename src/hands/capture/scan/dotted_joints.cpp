@@ -13,14 +13,14 @@
 #include "palmar/geometry/least_squares.h"
 #include "palmar/geometry/numeric_jacobian.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 double noise_of_dots(std::span<const DotGroup> groups) {
   double squares = 0.0, freedom = 0.0;
   for (const DotGroup& group : groups) {
     constexpr std::size_t kFewest = 3;  // two dots keep their distance only
     if (group.before.size() < kFewest) continue;
-    const Rigid3 moved = align_points(group.before, group.after);
+    const geometry::Rigid3 moved = align_points(group.before, group.after);
     for (std::size_t i = 0; i < group.before.size(); ++i) {
       squares += (moved * group.before[i] - group.after[i]).squaredNorm();
     }
@@ -47,30 +47,30 @@ class DotProblem {
     h.turn = x[4];
     return h;
   }
-  LeastSquaresSolution solve(double dot_sd, double axis_sd) const {
+  geometry::LeastSquaresSolution solve(double dot_sd, double axis_sd) const {
     const auto residual = [this, dot_sd, axis_sd](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
       const DotHinge h = hinge(x);
-      const Rigid3 turn = Rigid3::about_axis(h.axis, h.point, h.turn);
+      const geometry::Rigid3 turn = geometry::Rigid3::about_axis(h.axis, h.point, h.turn);
       r.resize(static_cast<Eigen::Index>(3 * before_.size() + 4));
       for (std::size_t i = 0; i < before_.size(); ++i) {
         r.segment<3>(static_cast<Eigen::Index>(3 * i)) = (turn * before_[i] - after_[i]) / dot_sd;
       }
       r.tail<4>() << x[0] / axis_sd, x[1] / axis_sd, x[2] / prior_.point_sd, x[3] / prior_.point_sd;
     };
-    LeastSquaresProblem problem;
+    geometry::LeastSquaresProblem problem;
     problem.lower = Eigen::VectorXd::Constant(5, -20.0);
     problem.upper = Eigen::VectorXd::Constant(5, 20.0);
     problem.lower.head<2>().setConstant(-1.0);
     problem.upper.head<2>().setConstant(1.0);
     problem.lower[4] = -std::numbers::pi;
     problem.upper[4] = std::numbers::pi;
-    problem.evaluate = with_numeric_jacobian(residual);
+    problem.evaluate = geometry::with_numeric_jacobian(residual);
     Eigen::VectorXd start = Eigen::VectorXd::Zero(5);
     start[4] = prior_.turn;
-    return solve_least_squares(problem, start, {.max_iterations = 60});
+    return geometry::solve_least_squares(problem, start, {.max_iterations = 60});
   }
   /// Sum of the dots' squared distances, mm^2.
-  double left_over(const LeastSquaresSolution& found, double dot_sd) const {
+  double left_over(const geometry::LeastSquaresSolution& found, double dot_sd) const {
     return dot_sd * dot_sd * found.residual.head(found.residual.size() - 4).squaredNorm();
   }
 
@@ -81,7 +81,7 @@ class DotProblem {
 };
 
 /// Covariance of the two tilts.
-Eigen::Matrix2d tilt_covariance(const LeastSquaresSolution& found) {
+Eigen::Matrix2d tilt_covariance(const geometry::LeastSquaresSolution& found) {
   const Eigen::MatrixXd normal = found.jacobian.transpose() * found.jacobian;
   return normal.ldlt().solve(Eigen::MatrixXd::Identity(5, 5)).topLeftCorner<2, 2>();
 }
@@ -100,20 +100,21 @@ DotHinge fit_dot_hinge(std::span<const Vec3> before, std::span<const Vec3> after
   constexpr double kOpen = 10.0;  // rad
   constexpr double kPriorSamples = 8.0, kUnknowns = 5.0;
   constexpr double kBeyond95 = 5.991;  // of chi squared with two degrees of freedom
-  const LeastSquaresSolution first = problem.solve(prior.dot_sd, kOpen);
+  const geometry::LeastSquaresSolution first = problem.solve(prior.dot_sd, kOpen);
   const double freedom = std::max(0.0, 3.0 * static_cast<double>(before.size()) - kUnknowns);
   const double variance =
       (kPriorSamples * prior.dot_sd * prior.dot_sd + problem.left_over(first, prior.dot_sd)) /
       (kPriorSamples + freedom);
   const double dot_sd = std::sqrt(variance);
-  const LeastSquaresSolution alone = problem.solve(dot_sd, kOpen);
+  const geometry::LeastSquaresSolution alone = problem.solve(dot_sd, kOpen);
   const Eigen::Matrix2d by_dots = tilt_covariance(alone);
   const Eigen::Vector2d tilt = alone.x.head<2>();
   const Eigen::Matrix2d both =
       by_dots + prior.axis_sd * prior.axis_sd * Eigen::Matrix2d::Identity();
   const bool is_conflict = tilt.dot(both.ldlt().solve(tilt)) > kBeyond95;
   const bool is_alone = is_conflict && error_of(by_dots) < prior.axis_sd;
-  const LeastSquaresSolution found = is_alone ? alone : problem.solve(dot_sd, prior.axis_sd);
+  const geometry::LeastSquaresSolution found =
+      is_alone ? alone : problem.solve(dot_sd, prior.axis_sd);
   DotHinge best = problem.hinge(found.x);
   best.residual = std::sqrt(problem.left_over(found, dot_sd) / static_cast<double>(before.size()));
   best.axis_error = error_of(tilt_covariance(found));
@@ -123,4 +124,4 @@ DotHinge fit_dot_hinge(std::span<const Vec3> before, std::span<const Vec3> after
   return best;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

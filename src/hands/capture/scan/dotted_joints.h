@@ -9,7 +9,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// What is known of a hinge before any dot is looked at.
 struct HingePrior {
@@ -54,4 +54,4 @@ struct DotHinge {
 DotHinge fit_dot_hinge(std::span<const Vec3> before, std::span<const Vec3> after,
                        const HingePrior& prior);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 const Vec3 kHinge = Vec3(1.0, 0.05, -0.08).normalized();
@@ -20,7 +20,7 @@ std::vector<Vec3> turned(double angle, double noise = 0.0) {
   RandomStream random(7, 1);
   std::vector<Vec3> after;
   for (const Vec3& p : kDotsPerBone) {
-    after.push_back(Rigid3::about_axis(kHinge, kPoint, angle) * p +
+    after.push_back(geometry::Rigid3::about_axis(kHinge, kPoint, angle) * p +
                     noise * Vec3(random.normal(), random.normal(), random.normal()));
   }
   return after;
@@ -87,7 +87,7 @@ MeanErrors mean_errors(double off_degrees, double noise, double turn, double dot
     std::vector<Vec3> before, after;
     for (const Vec3& p : kDotsPerBone) {
       before.push_back(p);
-      after.push_back(Rigid3::about_axis(kHinge, kPoint, turn) * p +
+      after.push_back(geometry::Rigid3::about_axis(kHinge, kPoint, turn) * p +
                       noise * Vec3(random.normal(), random.normal(), random.normal()));
     }
     HingePrior open = prior;
@@ -135,7 +135,8 @@ TEST(DottedJoints, TheDotsNoiseIsThatOfAllPartsTogether) {
     RandomStream random(5, 2);
     std::vector<DotGroup> groups(14);
     for (DotGroup& group : groups) {
-      const Rigid3 motion = Rigid3::about_axis(kHinge, kPoint, 0.3 + 0.1 * random.normal());
+      const geometry::Rigid3 motion =
+          geometry::Rigid3::about_axis(kHinge, kPoint, 0.3 + 0.1 * random.normal());
       for (const Vec3& p : kDotsPerBone) {
         group.before.push_back(p);
         group.after.push_back(motion * p +
@@ -156,4 +157,4 @@ TEST(DottedJoints, RefusesListsThatDontMatch) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

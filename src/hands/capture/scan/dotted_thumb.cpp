@@ -14,14 +14,14 @@
 #include "palmar/geometry/least_squares.h"
 #include "palmar/geometry/numeric_jacobian.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-constexpr double kDotSd = 1.0, kBaseSd = 1.5;  // mm
-constexpr double kTurnSd = 8.0 * kDegree;      // rad
+constexpr double kDotSd = 1.0, kBaseSd = 1.5;        // mm
+constexpr double kTurnSd = 8.0 * geometry::kDegree;  // rad
 
-Rigid3 hinge(const JointDof& dof, double angle) {
-  return Rigid3::about_axis(dof.axis, dof.centre, angle - dof.reference);
+geometry::Rigid3 hinge(const hand::JointDof& dof, double angle) {
+  return geometry::Rigid3::about_axis(dof.axis, dof.centre, angle - dof.reference);
 }
 
 Quat turn_of(const Vec3& rotation) {
@@ -29,12 +29,12 @@ Quat turn_of(const Vec3& rotation) {
   return angle < 1e-12 ? Quat::Identity() : Quat(Eigen::AngleAxisd(angle, rotation / angle));
 }
 
-std::array<Vec3, 6> metacarpal_points(const Hand& hand) {
-  for (const Bone& bone : hand.bones) {
+std::array<Vec3, 6> metacarpal_points(const hand::Hand& hand) {
+  for (const hand::Bone& bone : hand.bones) {
     if (bone.is_thumb_metacarpal) return moment_points(bone.mesh);
   }
-  const Vec3& base = hand.skeleton.joint(JointId::kThumbCmc).centre;
-  const Vec3& head = hand.skeleton.joint(JointId::kThumbMp).centre;
+  const Vec3& base = hand.skeleton.joint(hand::JointId::kThumbCmc).centre;
+  const Vec3& head = hand.skeleton.joint(hand::JointId::kThumbMp).centre;
   return {base,
           head,
           base + Vec3(5, 0, 0),
@@ -44,17 +44,18 @@ std::array<Vec3, 6> metacarpal_points(const Hand& hand) {
 }
 
 /// The four limit transforms, the joint's axes and ranges.
-void measure_limits(const Hand& hand, const std::map<ScanPosture, ThumbReading>& readings,
+void measure_limits(const hand::Hand& hand,
+                    const std::map<hand::ScanPosture, ThumbReading>& readings,
                     MeasuredJoints& joints) {
   // The person's own hand is its own model: what isn't given stays.
   ReferenceHand reference;
-  const auto of = [&](JointId id) { return joints.skeleton.joint(id).centre; };
-  reference.ray[0] = {{of(JointId::kThumbCmc), of(JointId::kThumbMp), of(JointId::kThumbIp),
-                       joints.skeleton.fingertips[0]},
+  const auto of = [&](hand::JointId id) { return joints.skeleton.joint(id).centre; };
+  reference.ray[0] = {{of(hand::JointId::kThumbCmc), of(hand::JointId::kThumbMp),
+                       of(hand::JointId::kThumbIp), joints.skeleton.fingertips[0]},
                       {true, true, true, true}};
   reference.model_ray = reference.ray;
   reference.bones["thumb_metacarpal"].points = metacarpal_points(hand);
-  Hand model;
+  hand::Hand model;
   model.skeleton = joints.skeleton;
   MotionsByPosture motions;
   for (const auto& [posture, reading] : readings) {
@@ -63,52 +64,57 @@ void measure_limits(const Hand& hand, const std::map<ScanPosture, ThumbReading>&
   JointMeasures measures;
   measures.skeleton = joints.skeleton;
   measure_cmc(reference, model, motions, measures);
-  const Joint& cmc = measures.skeleton.joint(JointId::kThumbCmc);
-  for (const JointDof& dof : cmc.dofs) {
+  const hand::Joint& cmc = measures.skeleton.joint(hand::JointId::kThumbCmc);
+  for (const hand::JointDof& dof : cmc.dofs) {
     const double change = dof.reference - joints.skeleton.dof(dof.dof).reference;
     for (auto& [name, posture] : joints.postures) posture[dof.dof] += change;
     joints.is_measured[index_of(dof.dof)] = measures.measured(dof.dof);
   }
-  joints.skeleton.joints[index_of(JointId::kThumbCmc)] = cmc;
+  joints.skeleton.joints[index_of(hand::JointId::kThumbCmc)] = cmc;
   joints.skeleton.thumb_cmc = measures.skeleton.thumb_cmc;
   joints.notes.insert(joints.notes.end(), measures.notes.begin(), measures.notes.end());
 }
 
 /// The two angles of the joint that carry the metacarpal nearest to where a motion does.
-void carry_metacarpal(const Skeleton& skeleton, const std::array<Vec3, 6>& points,
-                      const Rigid3& motion, Posture& posture) {
+void carry_metacarpal(const hand::Skeleton& skeleton, const std::array<Vec3, 6>& points,
+                      const geometry::Rigid3& motion, hand::Posture& posture) {
   const auto residual = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
-    Posture tried = posture;
-    tried[Dof::kThumbCmcFlexion] = x[0];
-    tried[Dof::kThumbCmcAbduction] = x[1];
-    const Rigid3 own = cmc_displacement(skeleton, cmc_share(skeleton, tried));
+    hand::Posture tried = posture;
+    tried[hand::Dof::kThumbCmcFlexion] = x[0];
+    tried[hand::Dof::kThumbCmcAbduction] = x[1];
+    const geometry::Rigid3 own = hand::cmc_displacement(skeleton, hand::cmc_share(skeleton, tried));
     r.resize(18);
     for (std::size_t k = 0; k < points.size(); ++k) {
       r.segment<3>(static_cast<Eigen::Index>(3 * k)) = own * points[k] - motion * points[k];
     }
   };
-  LeastSquaresProblem problem;
+  geometry::LeastSquaresProblem problem;
   problem.lower = Eigen::VectorXd::Constant(2, -std::numbers::pi / 2.0);
   problem.upper = Eigen::VectorXd::Constant(2, std::numbers::pi / 2.0);
-  problem.evaluate = with_numeric_jacobian(residual);
-  const Eigen::VectorXd start{{posture[Dof::kThumbCmcFlexion], posture[Dof::kThumbCmcAbduction]}};
-  const LeastSquaresSolution found = solve_least_squares(problem, start, {.max_iterations = 40});
-  posture[Dof::kThumbCmcFlexion] = found.x[0];
-  posture[Dof::kThumbCmcAbduction] = found.x[1];
+  problem.evaluate = geometry::with_numeric_jacobian(residual);
+  const Eigen::VectorXd start{
+      {posture[hand::Dof::kThumbCmcFlexion], posture[hand::Dof::kThumbCmcAbduction]}};
+  const geometry::LeastSquaresSolution found =
+      geometry::solve_least_squares(problem, start, {.max_iterations = 40});
+  posture[hand::Dof::kThumbCmcFlexion] = found.x[0];
+  posture[hand::Dof::kThumbCmcAbduction] = found.x[1];
 }
 
 }  // namespace
 
-bool is_thumb_limit(ScanPosture posture) {
-  return posture == ScanPosture::kThumbFlexion || posture == ScanPosture::kThumbExtension ||
-         posture == ScanPosture::kThumbAbduction || posture == ScanPosture::kThumbAdduction;
+bool is_thumb_limit(hand::ScanPosture posture) {
+  return posture == hand::ScanPosture::kThumbFlexion ||
+         posture == hand::ScanPosture::kThumbExtension ||
+         posture == hand::ScanPosture::kThumbAbduction ||
+         posture == hand::ScanPosture::kThumbAdduction;
 }
 
-ThumbReading read_thumb(const ThumbDots& dots, const Skeleton& skeleton, const Posture& by_skin) {
-  const JointDof& mp = skeleton.dof(Dof::kThumbMpFlexion);
-  const JointDof& ip = skeleton.dof(Dof::kThumbIpFlexion);
-  const Vec3& base = skeleton.joint(JointId::kThumbCmc).centre;
-  const Rigid3 start = pose_skeleton(skeleton, by_skin).thumb_metacarpal;
+ThumbReading read_thumb(const ThumbDots& dots, const hand::Skeleton& skeleton,
+                        const hand::Posture& by_skin) {
+  const hand::JointDof& mp = skeleton.dof(hand::Dof::kThumbMpFlexion);
+  const hand::JointDof& ip = skeleton.dof(hand::Dof::kThumbIpFlexion);
+  const Vec3& base = skeleton.joint(hand::JointId::kThumbCmc).centre;
+  const geometry::Rigid3 start = hand::pose_skeleton(skeleton, by_skin).thumb_metacarpal;
   const auto reading = [&](const Eigen::VectorXd& x) {
     ThumbReading r;
     const Quat turn = start.rotation * turn_of(x.segment<3>(3));
@@ -120,7 +126,8 @@ ThumbReading read_thumb(const ThumbDots& dots, const Skeleton& skeleton, const P
   const std::size_t proximal = dots.x_proximal.size(), distal = dots.x_distal.size();
   const auto residual = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
     const ThumbReading now = reading(x);
-    const Rigid3 first = now.metacarpal * hinge(mp, now.mp), last = first * hinge(ip, now.ip);
+    const geometry::Rigid3 first = now.metacarpal * hinge(mp, now.mp),
+                           last = first * hinge(ip, now.ip);
     r.resize(static_cast<Eigen::Index>(3 * (proximal + distal) + 8));
     Eigen::Index row = 0;
     for (std::size_t k = 0; k < proximal; ++k, row += 3) {
@@ -132,14 +139,14 @@ ThumbReading read_thumb(const ThumbDots& dots, const Skeleton& skeleton, const P
     r.segment<3>(row) = x.head<3>() / kBaseSd;
     r.tail<5>() = x.tail<5>() / kTurnSd;
   };
-  LeastSquaresProblem problem;
+  geometry::LeastSquaresProblem problem;
   problem.lower = Eigen::VectorXd::Constant(8, -1.5);
   problem.upper = Eigen::VectorXd::Constant(8, 1.5);
   problem.lower.head<3>().setConstant(-10.0);
   problem.upper.head<3>().setConstant(10.0);
-  problem.evaluate = with_numeric_jacobian(residual);
-  const LeastSquaresSolution found =
-      solve_least_squares(problem, Eigen::VectorXd::Zero(8), {.max_iterations = 60});
+  problem.evaluate = geometry::with_numeric_jacobian(residual);
+  const geometry::LeastSquaresSolution found =
+      geometry::solve_least_squares(problem, Eigen::VectorXd::Zero(8), {.max_iterations = 60});
   ThumbReading result = reading(found.x);
   result.dots = static_cast<int>(proximal + distal);
   if (result.dots > 0) {
@@ -149,27 +156,28 @@ ThumbReading read_thumb(const ThumbDots& dots, const Skeleton& skeleton, const P
   return result;
 }
 
-void take_thumb_readings(const Hand& hand, const std::map<ScanPosture, ThumbReading>& readings,
+void take_thumb_readings(const hand::Hand& hand,
+                         const std::map<hand::ScanPosture, ThumbReading>& readings,
                          MeasuredJoints& joints) {
   const std::array<Vec3, 6> points = metacarpal_points(hand);
   if (std::any_of(readings.begin(), readings.end(),
                   [](const auto& r) { return is_thumb_limit(r.first); })) {
     measure_limits(hand, readings, joints);
   }
-  const Skeleton& skeleton = joints.skeleton;
+  const hand::Skeleton& skeleton = joints.skeleton;
   for (const auto& [name, reading] : readings) {
-    Posture& posture = joints.postures[name];
-    if (is_thumb_limit(name)) posture = reference_posture(skeleton);
-    posture[Dof::kThumbMpFlexion] = reading.mp;
-    posture[Dof::kThumbIpFlexion] = reading.ip;
-    const JointDof& flexion = skeleton.dof(Dof::kThumbCmcFlexion);
-    const JointDof& abduction = skeleton.dof(Dof::kThumbCmcAbduction);
-    if (name == ScanPosture::kThumbFlexion) posture[flexion.dof] = flexion.upper;
-    if (name == ScanPosture::kThumbExtension) posture[flexion.dof] = flexion.lower;
-    if (name == ScanPosture::kThumbAbduction) posture[abduction.dof] = abduction.upper;
-    if (name == ScanPosture::kThumbAdduction) posture[abduction.dof] = abduction.lower;
+    hand::Posture& posture = joints.postures[name];
+    if (is_thumb_limit(name)) posture = hand::reference_posture(skeleton);
+    posture[hand::Dof::kThumbMpFlexion] = reading.mp;
+    posture[hand::Dof::kThumbIpFlexion] = reading.ip;
+    const hand::JointDof& flexion = skeleton.dof(hand::Dof::kThumbCmcFlexion);
+    const hand::JointDof& abduction = skeleton.dof(hand::Dof::kThumbCmcAbduction);
+    if (name == hand::ScanPosture::kThumbFlexion) posture[flexion.dof] = flexion.upper;
+    if (name == hand::ScanPosture::kThumbExtension) posture[flexion.dof] = flexion.lower;
+    if (name == hand::ScanPosture::kThumbAbduction) posture[abduction.dof] = abduction.upper;
+    if (name == hand::ScanPosture::kThumbAdduction) posture[abduction.dof] = abduction.lower;
     if (!is_thumb_limit(name)) carry_metacarpal(skeleton, points, reading.metacarpal, posture);
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

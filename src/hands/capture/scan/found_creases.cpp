@@ -13,7 +13,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kBaseReach = 10.0, kWristReach = 18.0, kAside = 28.0;  // mm
@@ -32,39 +32,39 @@ struct Ink {
 /// What is drawn and belongs together.
 struct Line {
   std::vector<Ink> ink;
-  std::optional<Finger> finger;
+  std::optional<hand::Finger> finger;
   double along = 0.0;    // mean, mm
   double breadth = 0.0;  // across the finger, mm
-  std::optional<Segment> crease;
+  std::optional<hand::Segment> crease;
   bool is_no_crease = false;
   std::string labelled_at;  // place of the label that decided
 };
 
 /// A crease with what is needed to measure on it.
 struct Frame {
-  CreasePlane plane;
+  hand::CreasePlane plane;
   Vec3 aside;  // across the finger, unit
 };
 
-Frame frame_of(const HandCreases& creases, Segment segment) {
-  if (segment == Segment::kPalm) {
+Frame frame_of(const hand::HandCreases& creases, hand::Segment segment) {
+  if (segment == hand::Segment::kPalm) {
     return {creases.wrist(), creases.wrist().normal.cross(Vec3::UnitZ())};
   }
-  const Finger finger = *finger_of(segment);
-  int node = finger == Finger::kThumb ? 2 : 1;
-  for (const auto& s : segments_of(finger)) {
+  const hand::Finger finger = *hand::finger_of(segment);
+  int node = finger == hand::Finger::kThumb ? 2 : 1;
+  for (const auto& s : hand::segments_of(finger)) {
     if (s == segment) break;
     ++node;
   }
-  const CreasePlane& plane = creases.proximal_crease(segment);
+  const hand::CreasePlane& plane = creases.proximal_crease(segment);
   return {plane, plane.normal.cross(creases.palmar_direction(finger, node)).normalized()};
 }
 
 /// The creases suggested on one finger, base first, and places along it.
 class FingerScale {
  public:
-  FingerScale(const HandCreases& creases, Finger finger) {
-    for (const auto& s : segments_of(finger)) {
+  FingerScale(const hand::HandCreases& creases, hand::Finger finger) {
+    for (const auto& s : hand::segments_of(finger)) {
       if (!s) continue;
       segment.push_back(*s);
       plane_.push_back(creases.proximal_crease(*s));
@@ -80,27 +80,27 @@ class FingerScale {
     }
     return place.back() + plane_.back().value(p);
   }
-  std::vector<Segment> segment;
+  std::vector<hand::Segment> segment;
   std::vector<double> place;  // mm from the base crease
 
  private:
-  std::vector<CreasePlane> plane_;
+  std::vector<hand::CreasePlane> plane_;
 };
 
 /// The finger or wrist whose crease a drawn point may be part of.
 struct Owner {
   bool is_wrist = false;
-  std::optional<Finger> finger;
+  std::optional<hand::Finger> finger;
 };
-Owner owner_of(const Vec3& p, const HandCreases& creases) {
-  const SkinLabel label = creases.label(p);
-  if (label.segment != Segment::kPalm) return {false, finger_of(label.segment)};
+Owner owner_of(const Vec3& p, const hand::HandCreases& creases) {
+  const hand::SkinLabel label = creases.label(p);
+  if (label.segment != hand::Segment::kPalm) return {false, hand::finger_of(label.segment)};
   if (std::abs(creases.wrist().value(p)) < kWristReach) return {true, {}};
   Owner owner;
   double nearest = kAside;
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
-    const CreasePlane& base = creases.proximal_crease(*segments_of(finger)[0]);
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
+    const hand::CreasePlane& base = creases.proximal_crease(*hand::segments_of(finger)[0]);
     const double distance = (p - base.point).norm();
     if (std::abs(base.value(p)) > kBaseReach || distance > nearest) continue;
     nearest = distance;
@@ -109,7 +109,7 @@ Owner owner_of(const Vec3& p, const HandCreases& creases) {
   return owner;
 }
 
-void measure(Line& line, const HandCreases& creases, const FingerScale& scale) {
+void measure(Line& line, const hand::HandCreases& creases, const FingerScale& scale) {
   double weights = 0.0, low = 1e9, high = -1e9;
   line.along = 0.0;
   for (const Ink& ink : line.ink) {
@@ -133,7 +133,8 @@ void measure(Line& line, const HandCreases& creases, const FingerScale& scale) {
 }
 
 /// Lines of one finger, from its base on.
-std::vector<Line> lines_along(std::vector<Ink> ink, Finger finger, const HandCreases& creases) {
+std::vector<Line> lines_along(std::vector<Ink> ink, hand::Finger finger,
+                              const hand::HandCreases& creases) {
   const FingerScale scale(creases, finger);
   for (Ink& one : ink) one.along = scale.along(one.point);
   std::stable_sort(ink.begin(), ink.end(),
@@ -152,8 +153,8 @@ std::vector<Line> lines_along(std::vector<Ink> ink, Finger finger, const HandCre
 
 /// Lines near the wrist; the crease is the nearest to where the joints suggest it of those at least
 /// half as broad as the broadest.
-std::vector<Line> wrist_lines(std::vector<Ink> ink, const HandCreases& creases) {
-  const Frame frame = frame_of(creases, Segment::kPalm);
+std::vector<Line> wrist_lines(std::vector<Ink> ink, const hand::HandCreases& creases) {
+  const Frame frame = frame_of(creases, hand::Segment::kPalm);
   for (Ink& one : ink) one.along = frame.plane.value(one.point);
   std::stable_sort(ink.begin(), ink.end(),
                    [](const Ink& a, const Ink& b) { return a.along < b.along; });
@@ -181,15 +182,15 @@ std::vector<Line> wrist_lines(std::vector<Ink> ink, const HandCreases& creases) 
     if (line.breadth < 0.5 * broadest) continue;
     if (nearest == nullptr || std::abs(line.along) < std::abs(nearest->along)) nearest = &line;
   }
-  if (nearest != nullptr) nearest->crease = Segment::kPalm;
+  if (nearest != nullptr) nearest->crease = hand::Segment::kPalm;
   return lines;
 }
 
 /// All that is drawn: wrist, fingers, then what lies near no crease.
-std::vector<Line> gather(const SkinMarks& marks, const Rigid3& hand_from_scan,
-                         const HandCreases& creases) {
+std::vector<Line> gather(const SkinMarks& marks, const geometry::Rigid3& hand_from_scan,
+                         const hand::HandCreases& creases) {
   std::vector<Ink> of_wrist;
-  std::array<std::vector<Ink>, kFingerCount> of_finger;
+  std::array<std::vector<Ink>, hand::kFingerCount> of_finger;
   std::vector<Line> strays, lines;
   for (const InkLine& piece : marks.lines) {
     Line stray;
@@ -204,8 +205,8 @@ std::vector<Line> gather(const SkinMarks& marks, const Rigid3& hand_from_scan,
     if (!stray.ink.empty()) strays.push_back(std::move(stray));
   }
   lines = wrist_lines(std::move(of_wrist), creases);
-  for (int f = 0; f < kFingerCount; ++f) {
-    for (Line& line : lines_along(std::move(of_finger[f]), static_cast<Finger>(f), creases)) {
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    for (Line& line : lines_along(std::move(of_finger[f]), static_cast<hand::Finger>(f), creases)) {
       lines.push_back(std::move(line));
     }
   }
@@ -214,7 +215,8 @@ std::vector<Line> gather(const SkinMarks& marks, const Rigid3& hand_from_scan,
 }
 
 /// What a hand wrote about lines that were found.
-void take_labels(const SkinMarks& marks, const Rigid3& hand_from_scan, std::vector<Line>& lines) {
+void take_labels(const SkinMarks& marks, const geometry::Rigid3& hand_from_scan,
+                 std::vector<Line>& lines) {
   for (const CreaseLabel& label : marks.crease_labels) {
     const Vec3 p = hand_from_scan * label.point;
     Line* nearest = nullptr;
@@ -287,7 +289,7 @@ bool pair_in_order(const std::vector<Line*>& candidates, const FingerScale& scal
 
 /// Pairs the lines of a finger with its creases (dynamic programming, where their number doesn't
 /// decide).
-void pair_lines(std::vector<Line>& lines, const HandCreases& creases, Finger finger) {
+void pair_lines(std::vector<Line>& lines, const hand::HandCreases& creases, hand::Finger finger) {
   const FingerScale scale(creases, finger);
   std::vector<std::size_t> open;  // creases that no label took
   for (std::size_t k = 0; k < scale.segment.size(); ++k) {
@@ -338,8 +340,8 @@ void pair_lines(std::vector<Line>& lines, const HandCreases& creases, Finger fin
 }
 
 /// The plane through a crease's ink; nothing if that is too narrow.
-void fit_crease_plane(const std::vector<const Line*>& lines, const Frame& frame, Segment segment,
-                      FoundCreases& found) {
+void fit_crease_plane(const std::vector<const Line*>& lines, const Frame& frame,
+                      hand::Segment segment, FoundCreases& found) {
   struct Sample {
     double value, aside, weight;
   };
@@ -384,24 +386,26 @@ void fit_crease_plane(const std::vector<const Line*>& lines, const Frame& frame,
 
 }  // namespace
 
-FoundCreases find_creases(const SkinMarks& marks, const Rigid3& hand_from_scan,
-                          const HandCreases& creases) {
+FoundCreases find_creases(const SkinMarks& marks, const geometry::Rigid3& hand_from_scan,
+                          const hand::HandCreases& creases) {
   std::vector<Line> lines = gather(marks, hand_from_scan, creases);
   take_labels(marks, hand_from_scan, lines);
-  for (int f = 0; f < kFingerCount; ++f) pair_lines(lines, creases, static_cast<Finger>(f));
+  for (int f = 0; f < hand::kFingerCount; ++f)
+    pair_lines(lines, creases, static_cast<hand::Finger>(f));
   FoundCreases found;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const auto segment = static_cast<Segment>(s);
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    const auto segment = static_cast<hand::Segment>(s);
     std::vector<const Line*> own;
     for (const Line& line : lines) {
       if (line.crease == segment) own.push_back(&line);
     }
     fit_crease_plane(own, frame_of(creases, segment), segment, found);
   }
-  const Rigid3 scan_from_hand = hand_from_scan.inverse();
-  const Frame wrist = frame_of(creases, Segment::kPalm);
-  const auto of_wrist = std::find_if(
-      lines.begin(), lines.end(), [](const Line& line) { return line.crease == Segment::kPalm; });
+  const geometry::Rigid3 scan_from_hand = hand_from_scan.inverse();
+  const Frame wrist = frame_of(creases, hand::Segment::kPalm);
+  const auto of_wrist = std::find_if(lines.begin(), lines.end(), [](const Line& line) {
+    return line.crease == hand::Segment::kPalm;
+  });
   const double breadth = of_wrist == lines.end() ? 0.0 : of_wrist->breadth;
   for (const Line& line : lines) {
     const bool is_near = !line.finger && !line.crease && !line.is_no_crease && line.breadth > 0.0 &&
@@ -413,4 +417,4 @@ FoundCreases find_creases(const SkinMarks& marks, const Rigid3& hand_from_scan,
   return found;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -10,21 +10,22 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/skin/drawn_creases.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// One drawn line across a finger, or what else is drawn in the creases' ink.
 struct CreaseMark {
-  Vec3 point = Vec3::Zero();      ///< on it, in its middle; scan, mm
-  std::optional<Segment> crease;  ///< taken for the proximal crease of this; palm: the wrist's
+  Vec3 point = Vec3::Zero();            ///< on it, in its middle; scan, mm
+  std::optional<hand::Segment> crease;  ///< taken for the proximal crease of this; palm: the
+                                        ///< wrist's
 };
 
 /// Creases of a person found in a scan.
 struct FoundCreases {
-  DrawnCreases plane;
-  std::map<Segment, double>
-      shift;                     ///< distal of where the joints would put them, at the middle, mm
-  std::vector<Segment> missing;  ///< not drawn, or not found
-  int stray = 0;                 ///< drawn vertices that no crease is near
+  hand::DrawnCreases plane;
+  std::map<hand::Segment, double> shift;  ///< distal of where the joints would put them, at the
+                                          ///< middle, mm
+  std::vector<hand::Segment> missing;     ///< not drawn, or not found
+  int stray = 0;                          ///< drawn vertices that no crease is near
   /// Other lines near the wrist, as broad as a crease: distal of where the joints would put it, mm.
   std::vector<double> other_wrist;
   std::vector<CreaseMark> marks;
@@ -46,7 +47,7 @@ struct FoundCreases {
 ///   offset and slope across the finger by least squares.
 /// What `marks` labels by hand comes first. `creases`: where the joints suggest them. Throws
 /// InputError "file:line: ..." for labels that contradict each other.
-FoundCreases find_creases(const SkinMarks& marks, const Rigid3& hand_from_scan,
-                          const HandCreases& creases);
+FoundCreases find_creases(const SkinMarks& marks, const geometry::Rigid3& hand_from_scan,
+                          const hand::HandCreases& creases);
 
-}  // namespace palmar
+}  // namespace palmar::capture

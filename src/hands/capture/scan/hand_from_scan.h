@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "palmar/hand/person/scan_posture.h"
 #include "hands/capture/scan/dotted_thumb.h"
 #include "hands/capture/scan/mark_labels.h"
 #include "hands/capture/scan/placed_skeleton.h"
@@ -16,39 +15,41 @@
 #include "palmar/core/progress.h"
 #include "palmar/hand/dimensions/tape_measures.h"
 #include "palmar/hand/hand.h"
+#include "palmar/hand/person/scan_posture.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// A surface scan of one posture.
 struct SurfaceScan {
-  std::string name;   ///< of its file, for messages
-  TriangleMesh skin;  ///< mm, oriented outwards; may have holes; any frame
-  SkinMarks marks;    ///< in the same frame; empty without colours
+  std::string name;             ///< of its file, for messages
+  geometry::TriangleMesh skin;  ///< mm, oriented outwards; may have holes; any frame
+  SkinMarks marks;              ///< in the same frame; empty without colours
 };
 
 /// What the dots show of one joint.
 struct DottedJoint {
-  Segment segment{};           ///< distal of it
-  ScanPosture posture{};       ///< against the reference posture
-  double turn = 0.0;           ///< rad, from the reference
-  double residual = 0.0;       ///< rms of the dots that a fixed axis leaves, mm
-  double axis_change = 0.0;    ///< of the axis against that found from the skin, rad
-  double axis_error = 0.0;     ///< standard error of the axis' tilt in either direction, rad
-  double centre_change = 0.0;  ///< of the joint's centre, mm
+  hand::Segment segment{};      ///< distal of it
+  hand::ScanPosture posture{};  ///< against the reference posture
+  double turn = 0.0;            ///< rad, from the reference
+  double residual = 0.0;        ///< rms of the dots that a fixed axis leaves, mm
+  double axis_change = 0.0;     ///< of the axis against that found from the skin, rad
+  double axis_error = 0.0;      ///< standard error of the axis' tilt in either direction, rad
+  double centre_change = 0.0;   ///< of the joint's centre, mm
   int dots = 0;
 };
 
 struct HandFromScan {
-  ScannedHand scanned;           ///< its dimensions are those between the person's creases
-  FoundCreases creases;          ///< hand frame
-  HandTape tape;                 ///< along the skin between these creases
-  std::map<Segment, int> dots;   ///< seen in the reference scan
-  std::vector<TakenMark> marks;  ///< of all scans
+  ScannedHand scanned;                ///< its dimensions are those between the person's creases
+  FoundCreases creases;               ///< hand frame
+  hand::HandTape tape;                ///< along the skin between these creases
+  std::map<hand::Segment, int> dots;  ///< seen in the reference scan
+  std::vector<TakenMark> marks;       ///< of all scans
   std::vector<DottedJoint> joints;
-  std::map<ScanPosture, ThumbReading> thumb;     ///< in every other scan
-  std::map<ScanPosture, MeshFit> fits;           ///< of the hand in the other scans
-  std::map<ScanPosture, Posture> postures;       ///< angles of every scan
-  std::map<ScanPosture, Rigid3> scan_from_hand;  ///< where the palm lies in every scan
+  std::map<hand::ScanPosture, ThumbReading> thumb;               ///< in every other scan
+  std::map<hand::ScanPosture, hand::MeshFit> fits;               ///< of the hand in the other scans
+  std::map<hand::ScanPosture, hand::Posture> postures;           ///< angles of every scan
+  std::map<hand::ScanPosture, geometry::Rigid3> scan_from_hand;  ///< where the palm lies in every
+                                                                 ///< scan
   std::vector<double> distance;  ///< per skin vertex: to the reference scan, mm; -1: no scan there
   std::vector<std::string> notes;
 };
@@ -58,12 +59,12 @@ struct PlacedJoints {
   struct Place {
     Vec3 axis = Vec3::UnitX(), centre = Vec3::Zero();  ///< of flexion
   };
-  std::map<Segment, Place> joint;     ///< the one proximal of it
-  std::map<Segment, Vec3> fingertip;  ///< of the last segments
+  std::map<hand::Segment, Place> joint;     ///< the one proximal of it
+  std::map<hand::Segment, Vec3> fingertip;  ///< of the last segments
 };
 /// The hand's joints as it was fitted to a scan, in that scan's frame. `posture`: one of
 /// made.postures.
-PlacedJoints joints_in_scan(const HandFromScan& made, ScanPosture posture);
+PlacedJoints joints_in_scan(const HandFromScan& made, hand::ScanPosture posture);
 
 /// Makes a person's hand of surface scans: the reference posture (natural, fingers apart) at least;
 /// finger_flexion and finger_abduction show joints if dots were drawn (Xie 2014, chapter 4).
@@ -85,8 +86,9 @@ PlacedJoints joints_in_scan(const HandFromScan& made, ScanPosture posture);
 /// `model` may be of either side; `side`: as for place_skeleton(). Creases and dots that lack are
 /// named and done without, a scan in which this hand isn't found as well. Throws InputError without
 /// a reference scan, or if no hand is found in it.
-HandFromScan make_hand_from_scans(const Hand& model,
-                                  const std::map<ScanPosture, SurfaceScan>& scans,
-                                  std::optional<Side> side = {}, const Progress& progress = {});
+HandFromScan make_hand_from_scans(const hand::Hand& model,
+                                  const std::map<hand::ScanPosture, SurfaceScan>& scans,
+                                  std::optional<hand::Side> side = {},
+                                  const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kReach = 3.0;  // mm
@@ -18,15 +18,15 @@ std::string place_text(const Vec3& p) {
   return fmt::format("{:.1f}, {:.1f}, {:.1f}", p.x(), p.y(), p.z());
 }
 
-[[noreturn]] void fail_none_there(const MarkLabel& label, double nearest) {
-  const char* what = label.kind == MarkLabel::Kind::kDot ? "dot" : "line";
+[[noreturn]] void fail_none_there(const hand::MarkLabel& label, double nearest) {
+  const char* what = label.kind == hand::MarkLabel::Kind::kDot ? "dot" : "line";
   const std::string far = nearest < std::numeric_limits<double>::max()
                               ? fmt::format("the nearest is {:.1f} mm away", nearest)
                               : "none was found at all";
   throw InputError(
       fmt::format("{}: no {} within {:.0f} mm of {} in the {} scan; {} (added_{} adds one)",
                   label.place, what, kReach, place_text(label.point), name_of(label.posture), far,
-                  label.kind == MarkLabel::Kind::kDot ? "dot" : "crease"));
+                  label.kind == hand::MarkLabel::Kind::kDot ? "dot" : "crease"));
 }
 
 /// Names dots of one scan; those named to be none are dropped at the end.
@@ -35,7 +35,7 @@ class DotLabels {
   explicit DotLabels(SkinMarks& marks)
       : marks_(marks), by_(marks.dots.size()), is_none_(by_.size()) {}
 
-  void take(const MarkLabel& label) {
+  void take(const hand::MarkLabel& label) {
     if (label.is_added) {
       marks_.dots.push_back({label.point, 0.0, label.segment});
       return;
@@ -73,7 +73,7 @@ class DotLabels {
   std::vector<char> is_none_;
 };
 
-void take_crease(const MarkLabel& label, SkinMarks& marks) {
+void take_crease(const hand::MarkLabel& label, SkinMarks& marks) {
   double least = std::numeric_limits<double>::max();
   for (const InkLine& line : marks.lines) {
     for (const Vec3& p : line.point) least = std::min(least, (p - label.point).norm());
@@ -83,10 +83,10 @@ void take_crease(const MarkLabel& label, SkinMarks& marks) {
 }
 
 /// Points of one crease that were added make one line.
-void add_creases(const std::vector<const MarkLabel*>& added, SkinMarks& marks) {
-  std::map<Segment, InkLine> lines;
-  std::map<Segment, std::string> place;
-  for (const MarkLabel* label : added) {
+void add_creases(const std::vector<const hand::MarkLabel*>& added, SkinMarks& marks) {
+  std::map<hand::Segment, InkLine> lines;
+  std::map<hand::Segment, std::string> place;
+  for (const hand::MarkLabel* label : added) {
     InkLine& line = lines[*label->segment];
     line.crease = label->segment;
     line.point.push_back(label->point);
@@ -101,7 +101,8 @@ void add_creases(const std::vector<const MarkLabel*>& added, SkinMarks& marks) {
       throw InputError(fmt::format(
           "{}: what is added of the crease of {} reaches over {:.1f} mm; points {:.0f} mm or more "
           "apart are needed",
-          place[segment], segment == Segment::kPalm ? "wrist" : name_of(segment), breadth, kLeast));
+          place[segment], segment == hand::Segment::kPalm ? "wrist" : name_of(segment), breadth,
+          kLeast));
     }
     marks.added_lines.push_back(std::move(line));
   }
@@ -109,21 +110,21 @@ void add_creases(const std::vector<const MarkLabel*>& added, SkinMarks& marks) {
 
 }  // namespace
 
-void apply_mark_labels(const std::vector<MarkLabel>& labels,
-                       std::map<ScanPosture, SkinMarks*>& marks) {
-  std::map<ScanPosture, DotLabels> dots;
-  std::vector<const MarkLabel*> added;
-  for (const MarkLabel& label : labels) {
+void apply_mark_labels(const std::vector<hand::MarkLabel>& labels,
+                       std::map<hand::ScanPosture, SkinMarks*>& marks) {
+  std::map<hand::ScanPosture, DotLabels> dots;
+  std::vector<const hand::MarkLabel*> added;
+  for (const hand::MarkLabel& label : labels) {
     const auto scan = marks.find(label.posture);
     if (scan == marks.end()) {
       throw InputError(
           fmt::format("{}: no scan shows the posture {}", label.place, name_of(label.posture)));
     }
-    if (label.kind == MarkLabel::Kind::kDot) {
+    if (label.kind == hand::MarkLabel::Kind::kDot) {
       dots.try_emplace(label.posture, *scan->second).first->second.take(label);
       continue;
     }
-    if (label.posture != ScanPosture::kReference) {
+    if (label.posture != hand::ScanPosture::kReference) {
       throw InputError(fmt::format("{}: creases are taken from the reference scan, not from {}",
                                    label.place, name_of(label.posture)));
     }
@@ -134,7 +135,7 @@ void apply_mark_labels(const std::vector<MarkLabel>& labels,
     }
   }
   for (auto& [posture, of_scan] : dots) of_scan.drop();
-  if (!added.empty()) add_creases(added, *marks.at(ScanPosture::kReference));
+  if (!added.empty()) add_creases(added, *marks.at(hand::ScanPosture::kReference));
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

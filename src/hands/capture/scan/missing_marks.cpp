@@ -5,29 +5,29 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace palmar {
+namespace palmar::capture {
 
-std::string missing_creases_note(const std::vector<Segment>& missing) {
+std::string missing_creases_note(const std::vector<hand::Segment>& missing) {
   if (missing.empty()) return {};
   std::vector<std::string> names;
-  for (const Segment s : missing) {
-    names.push_back(s == Segment::kPalm ? "wrist" : std::string(name_of(s)));
+  for (const hand::Segment s : missing) {
+    names.push_back(s == hand::Segment::kPalm ? "wrist" : std::string(name_of(s)));
   }
   return fmt::format("Creases not found, taken from the joints: {}.", fmt::join(names, ", "));
 }
 
-std::map<Segment, int> advised_dots() {
+std::map<hand::Segment, int> advised_dots() {
   constexpr int kOnPhalanx = 3, kOnHand = 8;
-  std::map<Segment, int> advised;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const auto segment = static_cast<Segment>(s);
-    advised[segment] = segment == Segment::kPalm ? kOnHand : kOnPhalanx;
+  std::map<hand::Segment, int> advised;
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    const auto segment = static_cast<hand::Segment>(s);
+    advised[segment] = segment == hand::Segment::kPalm ? kOnHand : kOnPhalanx;
   }
   return advised;
 }
 
-std::string missing_dots_note(const std::string& scan, const std::map<Segment, int>& found,
-                              const std::map<Segment, int>& expected) {
+std::string missing_dots_note(const std::string& scan, const std::map<hand::Segment, int>& found,
+                              const std::map<hand::Segment, int>& expected) {
   std::vector<std::string> names;
   for (const auto& [segment, count] : expected) {
     const auto at = found.find(segment);
@@ -40,4 +40,4 @@ std::string missing_dots_note(const std::string& scan, const std::map<Segment, i
       fmt::join(names, ", "));
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,18 +8,18 @@
 
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 // What was drawn on a hand and isn't found in a scan, reported to its owner; "" if nothing lacks.
 
 /// `missing`: creases by the segment distal of them, the wrist's by the palm.
-std::string missing_creases_note(const std::vector<Segment>& missing);
+std::string missing_creases_note(const std::vector<hand::Segment>& missing);
 
 /// Dots to be drawn: three on each phalanx, eight on the back of the hand (segment palm).
-std::map<Segment, int> advised_dots();
+std::map<hand::Segment, int> advised_dots();
 
 /// `scan`: name for the message; segments with fewer dots `found` than `expected` are listed.
-std::string missing_dots_note(const std::string& scan, const std::map<Segment, int>& found,
-                              const std::map<Segment, int>& expected);
+std::string missing_dots_note(const std::string& scan, const std::map<hand::Segment, int>& found,
+                              const std::map<hand::Segment, int>& expected);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -10,14 +10,14 @@
 #include "palmar/hand/hand.h"
 #include "palmar/hand/posture/posture_from_mesh.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Joints of a person of whom a scan shows the skin.
 struct PlacedSkeleton {
-  Skeleton skeleton;      ///< the scan's posture is its reference; hand frame of the scan
-  Rigid3 scan_from_hand;  ///< mm
-  Side side = Side::kRight;
-  MeshFit fit;  ///< where the model was in the scan at first
+  hand::Skeleton skeleton;          ///< the scan's posture is its reference; hand frame of the scan
+  geometry::Rigid3 scan_from_hand;  ///< mm
+  hand::Side side = hand::Side::kRight;
+  hand::MeshFit fit;  ///< where the model was in the scan at first
 };
 
 /// Places a model's joints into a scan by what lies round them:
@@ -31,8 +31,9 @@ struct PlacedSkeleton {
 /// scan's axes may have been mirrored on the way, so what is known is held against what is found.
 /// `model` may be of either side. Throws InputError "`name`: ..." if no hand, or that of the other
 /// side, lies in it.
-PlacedSkeleton place_skeleton(const Hand& model, const TriangleMesh& mesh, std::optional<Side> side,
-                              const std::string& name, const Progress& progress = {});
+PlacedSkeleton place_skeleton(const hand::Hand& model, const geometry::TriangleMesh& mesh,
+                              std::optional<hand::Side> side, const std::string& name,
+                              const Progress& progress = {});
 
 /// Moves the fingers' hinges along their fingers to where the creases over them say: a joint lies
 /// distal of its crease by a share of the phalanx (HandCreases). Creases differ between people by
@@ -41,4 +42,4 @@ PlacedSkeleton place_skeleton(const Hand& model, const TriangleMesh& mesh, std::
 /// The wrist goes with its crease. The hand frame, and so `laid.scan_from_hand`, follows.
 void shift_to_creases(PlacedSkeleton& placed, const FoundCreases& creases);
 
-}  // namespace palmar
+}  // namespace palmar::capture

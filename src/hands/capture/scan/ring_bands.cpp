@@ -9,24 +9,24 @@
 #include <numbers>
 #include <optional>
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// Axis of a phalanx, from its joint to the next one or the tip.
 struct Axis {
-  Segment segment{};
+  hand::Segment segment{};
   Vec3 from = Vec3::Zero(), to = Vec3::Zero();
 };
 
-std::vector<Axis> axes_of(const Skeleton& skeleton) {
+std::vector<Axis> axes_of(const hand::Skeleton& skeleton) {
   std::vector<Axis> axes;
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto chain = segments_of(static_cast<Finger>(f));
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto chain = hand::segments_of(static_cast<hand::Finger>(f));
     for (std::size_t k = 0; k < chain.size() && chain[k]; ++k) {
       const bool is_last = k + 1 == chain.size() || !chain[k + 1];
-      axes.push_back(
-          {*chain[k], skeleton.joint(joint_of(*chain[k])).centre,
-           is_last ? skeleton.fingertips[f] : skeleton.joint(joint_of(*chain[k + 1])).centre});
+      axes.push_back({*chain[k], skeleton.joint(hand::joint_of(*chain[k])).centre,
+                      is_last ? skeleton.fingertips[f]
+                              : skeleton.joint(hand::joint_of(*chain[k + 1])).centre});
     }
   }
   return axes;
@@ -71,8 +71,9 @@ std::optional<RingBand> ring_of(const std::vector<Vec3>& points, const std::vect
 
 }  // namespace
 
-std::vector<RingBand> find_rings(const TriangleMesh& scan, const SkinMarks& marks,
-                                 const Rigid3& hand_from_scan, const Skeleton& skeleton) {
+std::vector<RingBand> find_rings(const geometry::TriangleMesh& scan, const SkinMarks& marks,
+                                 const geometry::Rigid3& hand_from_scan,
+                                 const hand::Skeleton& skeleton) {
   constexpr double kNarrowest = 1.2, kWidest = 15.0;  // mm
   const std::vector<Axis> axes = axes_of(skeleton);
   std::vector<RingBand> rings;
@@ -87,8 +88,8 @@ std::vector<RingBand> find_rings(const TriangleMesh& scan, const SkinMarks& mark
   return rings;
 }
 
-TriangleMesh without_rings(const TriangleMesh& scan, const std::vector<RingBand>& rings,
-                           double margin) {
+geometry::TriangleMesh without_rings(const geometry::TriangleMesh& scan,
+                                     const std::vector<RingBand>& rings, double margin) {
   std::vector<char> is_ring(scan.vertices.size(), 0);
   for (const RingBand& ring : rings) {
     Eigen::AlignedBox3d box;
@@ -103,11 +104,11 @@ TriangleMesh without_rings(const TriangleMesh& scan, const std::vector<RingBand>
       });
     }
   }
-  TriangleMesh rest{scan.vertices, {}};
+  geometry::TriangleMesh rest{scan.vertices, {}};
   for (const Triangle& t : scan.triangles) {
     if (!is_ring[t[0]] && !is_ring[t[1]] && !is_ring[t[2]]) rest.triangles.push_back(t);
   }
   return rest;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

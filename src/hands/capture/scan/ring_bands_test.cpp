@@ -9,14 +9,14 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr int kRound = 60, kAlong = 60;
 
 /// A finger of 8 mm radius along y, from its joint at the origin to the next one at y = 30 mm.
-TriangleMesh finger() {
-  TriangleMesh mesh;
+geometry::TriangleMesh finger() {
+  geometry::TriangleMesh mesh;
   for (int k = 0; k <= kAlong; ++k) {
     for (int j = 0; j < kRound; ++j) {
       const double t = 2.0 * std::numbers::pi * j / kRound;
@@ -33,14 +33,16 @@ TriangleMesh finger() {
   return mesh;
 }
 
-Skeleton skeleton() {
-  Skeleton result;
-  for (Joint& joint : result.joints) joint.centre = Vec3(200.0, 0.0, 0.0);
+hand::Skeleton skeleton() {
+  hand::Skeleton result;
+  for (hand::Joint& joint : result.joints) joint.centre = Vec3(200.0, 0.0, 0.0);
   for (Vec3& tip : result.fingertips) tip = Vec3(200.0, 20.0, 0.0);
-  const auto put = [&](JointId id, const Vec3& at) { result.joints[index_of(id)].centre = at; };
-  put(JointId::kRingMcp, Vec3::Zero());
-  put(JointId::kRingPip, Vec3(0.0, 30.0, 0.0));
-  put(JointId::kRingDip, Vec3(0.0, 50.0, 0.0));
+  const auto put = [&](hand::JointId id, const Vec3& at) {
+    result.joints[index_of(id)].centre = at;
+  };
+  put(hand::JointId::kRingMcp, Vec3::Zero());
+  put(hand::JointId::kRingPip, Vec3(0.0, 30.0, 0.0));
+  put(hand::JointId::kRingDip, Vec3(0.0, 50.0, 0.0));
   return result;
 }
 
@@ -56,16 +58,16 @@ std::vector<int> patch(double from, double to, double share) {
 }
 
 TEST(RingBands, ARingGoesRoundAFinger) {
-  const Rigid3 anywhere{Quat(0.5, 0.5, -0.5, 0.5), Vec3(100.0, -40.0, 7.0)};
-  TriangleMesh scan = finger();
+  const geometry::Rigid3 anywhere{Quat(0.5, 0.5, -0.5, 0.5), Vec3(100.0, -40.0, 7.0)};
+  geometry::TriangleMesh scan = finger();
   for (Vec3& v : scan.vertices) v = anywhere * v;
   SkinMarks marks;
   marks.other_colour = {patch(10.0, 14.0, 1.0), patch(20.0, 24.0, 0.6), patch(27.0, 27.2, 1.0)};
   const auto rings = find_rings(scan, marks, anywhere.inverse(), skeleton());
   ASSERT_EQ(rings.size(), 1U);  // half way round is a plaster, a thin line is a line
-  EXPECT_EQ(rings[0].segment, Segment::kRingProximal);
+  EXPECT_EQ(rings[0].segment, hand::Segment::kRingProximal);
   EXPECT_NEAR(rings[0].width, 4.0, 0.51);
-  const TriangleMesh rest = without_rings(scan, rings, 1.2);
+  const geometry::TriangleMesh rest = without_rings(scan, rings, 1.2);
   for (const Triangle& t : rest.triangles) {
     for (const int v : t) {
       const double y = (anywhere.inverse() * scan.vertices[v]).y();
@@ -82,4 +84,4 @@ TEST(RingBands, NoneWithoutAnotherColour) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// Where a row stands among those of its posture: the thumb's, then the fingers' outwards.
@@ -61,4 +61,4 @@ std::vector<ErrorRow> error_rows(const std::vector<BoneError>& errors) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

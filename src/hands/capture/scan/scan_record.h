@@ -11,11 +11,11 @@
 #include "hands/capture/scan/scanned_hand.h"
 #include "hands/capture/skin_errors.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// One scan and what was found in it.
 struct RecordedScan {
-  ScanPosture posture{};
+  hand::ScanPosture posture{};
   std::string title;       ///< where it is from, for people
   std::string laterality;  ///< tag of the image: "R", "L" or ""
   ScanSurfaces surfaces;
@@ -32,7 +32,7 @@ struct ScanContact {
 /// All that became of a person's scans, for tables and report.
 struct ScanRecord {
   std::vector<RecordedScan> scans;  ///< the reference first
-  std::map<ScanPosture, std::vector<BoneMotion>> motions;
+  std::map<hand::ScanPosture, std::vector<BoneMotion>> motions;
   MeasuredJoints joints;
   ScannedHand made;
   std::optional<ScanContact> contact;  ///< if a product was given
@@ -48,7 +48,7 @@ struct ScanRefusal {
 
 /// Mean of the bones' errors in one posture, as a row of Xie 2014, tables 2-2 to 2-4, has it.
 struct ErrorRow {
-  ScanPosture posture{};
+  hand::ScanPosture posture{};
   std::string bones;                       ///< "proximal phalanges II-V", "thumb_metacarpal"
   int count = 0;                           ///< bones in it
   double icp = 0.0, single_axis = 0.0;     ///< mm
@@ -59,4 +59,4 @@ struct ErrorRow {
 /// The metacarpals II to V, carpals and forearm, which don't move with a finger, have none.
 std::vector<ErrorRow> error_rows(const std::vector<BoneError>& errors);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,23 +8,24 @@
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/hand/dimensions/hand_dimension.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-DimensionErrors over_segments(const HandDimensions& difference,
-                              double SegmentDimensions::*dimension) {
+DimensionErrors over_segments(const hand::HandDimensions& difference,
+                              double hand::SegmentDimensions::*dimension) {
   DimensionErrors errors;
-  for (const SegmentDimensions& segment : difference.segment) {
+  for (const hand::SegmentDimensions& segment : difference.segment) {
     const double d = std::abs(segment.*dimension);
-    errors.mean += d / kSegmentCount;
+    errors.mean += d / hand::kSegmentCount;
     errors.largest = std::max(errors.largest, d);
   }
   return errors;
 }
 
-void measure_skin(const HandFromScan& made, const TriangleMesh& skin, ScanErrors& errors) {
+void measure_skin(const HandFromScan& made, const geometry::TriangleMesh& skin,
+                  ScanErrors& errors) {
   if (skin.triangles.empty()) return;
-  const ClosestPointQuery query(skin);
+  const geometry::ClosestPointQuery query(skin);
   std::vector<double> distance;
   for (const Vec3& v : made.scanned.hand.skin.vertices) {
     if (v.y() < 0.0) continue;
@@ -42,16 +43,17 @@ void measure_skin(const HandFromScan& made, const TriangleMesh& skin, ScanErrors
 
 ScanErrors scan_errors(const HandFromScan& made, const ScanTruth& truth) {
   ScanErrors errors;
-  const HandDimensions& found = made.scanned.hand.dimensions;
-  for (const HandDimension& d : all_hand_dimensions()) {
-    set_value(errors.difference, d, value_of(found, d) - value_of(truth.dimensions, d));
+  const hand::HandDimensions& found = made.scanned.hand.dimensions;
+  for (const hand::HandDimension& d : hand::all_hand_dimensions()) {
+    hand::set_value(errors.difference, d,
+                    hand::value_of(found, d) - hand::value_of(truth.dimensions, d));
   }
   // The palm's breadth and thickness are those of the hand.
   errors.difference.segment[0].width = errors.difference.hand_width;
   errors.difference.segment[0].thickness = errors.difference.hand_thickness;
-  errors.x = over_segments(errors.difference, &SegmentDimensions::width);
-  errors.y = over_segments(errors.difference, &SegmentDimensions::length);
-  errors.z = over_segments(errors.difference, &SegmentDimensions::thickness);
+  errors.x = over_segments(errors.difference, &hand::SegmentDimensions::width);
+  errors.y = over_segments(errors.difference, &hand::SegmentDimensions::length);
+  errors.z = over_segments(errors.difference, &hand::SegmentDimensions::thickness);
   for (const auto& [posture, real] : truth.postures) {
     if (!made.scan_from_hand.contains(posture) || !made.postures.contains(posture)) continue;
     const PlacedJoints own = joints_in_scan(made, posture);
@@ -69,14 +71,14 @@ ScanErrors scan_errors(const HandFromScan& made, const ScanTruth& truth) {
   return errors;
 }
 
-std::optional<MeanPlaceError> mean_error(const ScanErrors& errors, ScanPosture posture,
+std::optional<MeanPlaceError> mean_error(const ScanErrors& errors, hand::ScanPosture posture,
                                          FingerPlace place) {
   MeanPlaceError mean;
   int count = 0;
   for (const PlaceError& error : errors.places) {
-    const auto finger = finger_of(error.segment);
-    if (error.posture != posture || !finger || *finger == Finger::kThumb) continue;
-    const auto chain = segments_of(*finger);
+    const auto finger = hand::finger_of(error.segment);
+    if (error.posture != posture || !finger || *finger == hand::Finger::kThumb) continue;
+    const auto chain = hand::segments_of(*finger);
     const bool is_tip = !error.axis;
     const bool is_asked =
         place == FingerPlace::kTip
@@ -93,4 +95,4 @@ std::optional<MeanPlaceError> mean_error(const ScanErrors& errors, ScanPosture p
   return mean;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,19 +8,19 @@
 
 #include "hands/capture/scan/hand_from_scan.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// What is known of a scanned person from elsewhere: of a synthetic one everything.
 struct ScanTruth {
-  HandDimensions dimensions;
-  std::map<ScanPosture, PlacedJoints> postures;  ///< in the frame of each scan
-  TriangleMesh skin;  ///< of the reference, its scan's frame; may be empty
+  hand::HandDimensions dimensions;
+  std::map<hand::ScanPosture, PlacedJoints> postures;  ///< in the frame of each scan
+  geometry::TriangleMesh skin;  ///< of the reference, its scan's frame; may be empty
 };
 
 /// How far a joint or fingertip of the hand, posed as the scan was fitted, lies from the true one.
 struct PlaceError {
-  ScanPosture posture{};
-  Segment segment{};           ///< distal of the joint; of a fingertip: the last
+  hand::ScanPosture posture{};
+  hand::Segment segment{};     ///< distal of the joint; of a fingertip: the last
   double place = 0.0;          ///< mm
   std::optional<double> axis;  ///< between the flexion axes, rad; none for a fingertip
 };
@@ -32,8 +32,8 @@ struct DimensionErrors {
 };
 
 struct ScanErrors {
-  DimensionErrors x, y, z;    ///< breadth, length, thickness of the 15 segments
-  HandDimensions difference;  ///< found less true, of every dimension
+  DimensionErrors x, y, z;          ///< breadth, length, thickness of the 15 segments
+  hand::HandDimensions difference;  ///< found less true, of every dimension
   std::vector<PlaceError> places;
   double skin_mean = 0.0, skin_p95 = 0.0;  ///< of the hand's skin to the true one, mm; 0 without
 };
@@ -48,7 +48,7 @@ struct MeanPlaceError {
   double place = 0.0;          ///< mm
   std::optional<double> axis;  ///< rad
 };
-std::optional<MeanPlaceError> mean_error(const ScanErrors& errors, ScanPosture posture,
+std::optional<MeanPlaceError> mean_error(const ScanErrors& errors, hand::ScanPosture posture,
                                          FingerPlace place);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -24,15 +24,15 @@
 #include "palmar/hand/skin/regions.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-TriangleMesh moved(TriangleMesh mesh, const Rigid3& motion) {
+geometry::TriangleMesh moved(geometry::TriangleMesh mesh, const geometry::Rigid3& motion) {
   for (Vec3& v : mesh.vertices) v = motion * v;
   return mesh;
 }
 
-SkinScan skin_scan(const ScanSurfaces& scan, const Rigid3& hand_from_patient) {
+SkinScan skin_scan(const ScanSurfaces& scan, const geometry::Rigid3& hand_from_patient) {
   SkinScan result;
   result.skin = moved(scan.skin, hand_from_patient);
   for (const Vec3& marker : scan.markers) result.markers.push_back(hand_from_patient * marker);
@@ -40,11 +40,11 @@ SkinScan skin_scan(const ScanSurfaces& scan, const Rigid3& hand_from_patient) {
 }
 
 /// The scan's bones by the model's names and ways of moving; the model's where the scan has none.
-std::vector<Bone> bones_of(const ScanSurfaces& scan, const Rigid3& hand_from_patient,
-                           const PosedModel& model, const Skeleton& skeleton,
-                           std::vector<std::string>& notes) {
-  std::vector<Bone> bones = model.sized.bones;
-  std::vector<TriangleMesh> meshes = bones_at(model, skeleton);
+std::vector<hand::Bone> bones_of(const ScanSurfaces& scan,
+                                 const geometry::Rigid3& hand_from_patient, const PosedModel& model,
+                                 const hand::Skeleton& skeleton, std::vector<std::string>& notes) {
+  std::vector<hand::Bone> bones = model.sized.bones;
+  std::vector<geometry::TriangleMesh> meshes = bones_at(model, skeleton);
   std::vector<std::string> missing;
   for (std::size_t b = 0; b < bones.size(); ++b) {
     const auto found = std::find_if(scan.bones.begin(), scan.bones.end(),
@@ -60,21 +60,21 @@ std::vector<Bone> bones_of(const ScanSurfaces& scan, const Rigid3& hand_from_pat
     notes.emplace_back("The scan shows no bones: all are the model's, moved along.");
   } else if (!missing.empty()) {
     notes.push_back("Bones that the scan doesn't show are the model's, moved along: " +
-                    joined(missing, ", ") + ".");
+                    palmar::joined(missing, ", ") + ".");
   }
   return bones;
 }
 
-constexpr std::array<ScanPosture, 4> kThumbLimits{
-    ScanPosture::kThumbFlexion, ScanPosture::kThumbExtension, ScanPosture::kThumbAbduction,
-    ScanPosture::kThumbAdduction};
+constexpr std::array<hand::ScanPosture, 4> kThumbLimits{
+    hand::ScanPosture::kThumbFlexion, hand::ScanPosture::kThumbExtension,
+    hand::ScanPosture::kThumbAbduction, hand::ScanPosture::kThumbAdduction};
 
 /// The scans of the thumb's limit postures in the hand frame.
 std::array<std::optional<ThumbLimitScan>, 4> thumb_limits(
-    const std::map<ScanPosture, ScanSurfaces>& scans, const MeasuredJoints& joints,
+    const std::map<hand::ScanPosture, ScanSurfaces>& scans, const MeasuredJoints& joints,
     std::vector<std::string>& notes) {
   std::array<std::optional<ThumbLimitScan>, 4> limits;
-  const ScanSurfaces& reference = scans.at(ScanPosture::kReference);
+  const ScanSurfaces& reference = scans.at(hand::ScanPosture::kReference);
   for (std::size_t l = 0; l < kThumbLimits.size(); ++l) {
     const auto scan = scans.find(kThumbLimits[l]);
     const auto posture = joints.postures.find(kThumbLimits[l]);
@@ -91,7 +91,7 @@ std::array<std::optional<ThumbLimitScan>, 4> thumb_limits(
                       name_of(kThumbLimits[l])));
       continue;
     }
-    const Rigid3 hand_from_patient = (*moved_palm * joints.patient_from_hand).inverse();
+    const geometry::Rigid3 hand_from_patient = (*moved_palm * joints.patient_from_hand).inverse();
     limits[l] = ThumbLimitScan{posture->second, skin_scan(scan->second, hand_from_patient)};
   }
   return limits;
@@ -101,7 +101,7 @@ std::array<std::optional<ThumbLimitScan>, 4> thumb_limits(
 void correct_thumb_ball(const std::array<std::optional<ThumbLimitScan>, 4>& limits,
                         const std::vector<Vec3>& markers, const Progress& progress,
                         ScannedHand& result) {
-  Hand& hand = result.hand;
+  hand::Hand& hand = result.hand;
   ThumbBallFit fit = fit_scanned_thumb_ball(hand, markers, limits, {}, progress);
   result.notes.insert(result.notes.end(), fit.notes.begin(), fit.notes.end());
   if (std::none_of(limits.begin(), limits.end(), [](const auto& l) { return l.has_value(); })) {
@@ -111,7 +111,7 @@ void correct_thumb_ball(const std::array<std::optional<ThumbLimitScan>, 4>& limi
       fmt::format("The thumb ball is corrected by {} markers and {} points of the scanned skin.",
                   fit.markers, fit.skin_points));
   const std::vector<int> round_ball = thumb_ball_skin(hand);
-  const auto errors_with = [&](ThumbBallCorrection correction) {
+  const auto errors_with = [&](hand::ThumbBallCorrection correction) {
     hand.thumb_ball = std::move(correction);
     std::array<std::optional<double>, 4> errors;
     for (std::size_t l = 0; l < limits.size(); ++l) {
@@ -132,15 +132,16 @@ void correct_thumb_ball(const std::array<std::optional<ThumbLimitScan>, 4>& limi
 
 }  // namespace
 
-ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, ScanSurfaces>& scans,
+ScannedHand make_scanned_hand(const hand::Hand& model,
+                              const std::map<hand::ScanPosture, ScanSurfaces>& scans,
                               const MeasuredJoints& joints, const Progress& progress) {
-  const auto reference = scans.find(ScanPosture::kReference);
+  const auto reference = scans.find(hand::ScanPosture::kReference);
   if (reference == scans.end()) {
     throw InputError("hand from scans: there is no scan of the reference posture");
   }
   const ScanSurfaces& scan = reference->second;
-  const Hand base = model.side == scan.side ? model : mirrored(model);
-  const Rigid3 hand_from_patient = joints.patient_from_hand.inverse();
+  const hand::Hand base = model.side == scan.side ? model : hand::mirrored(model);
+  const geometry::Rigid3 hand_from_patient = joints.patient_from_hand.inverse();
 
   ScannedHand result;
   result.patient_from_hand = joints.patient_from_hand;
@@ -165,29 +166,29 @@ ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, Sca
                     100.0 * registered.left_over));
   }
 
-  Hand& hand = result.hand;
+  hand::Hand& hand = result.hand;
   hand.name = "scanned";
   hand.side = scan.side;
   hand.skeleton = joints.skeleton;
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
     hand.skeleton.fingertips[f] =
         fingertip_of(registered.skin, base.segment, hand.skeleton, finger);
   }
-  SkinPartition partition =
-      partition_skin({std::move(registered.skin), base.skin.triangles}, hand.skeleton);
+  hand::SkinPartition partition =
+      hand::partition_skin({std::move(registered.skin), base.skin.triangles}, hand.skeleton);
   hand.skin = std::move(partition.skin);
   hand.segment = std::move(partition.segment);
   hand.region = std::move(partition.region);
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
     hand.skeleton.fingertips[f] =
         fingertip_of(hand.skin.vertices, hand.segment, hand.skeleton, finger);
   }
-  hand.weights = make_joint_weights(hand.skin, hand.skeleton);
+  hand.weights = hand::make_joint_weights(hand.skin, hand.skeleton);
   hand.bones = bones_of(scan, hand_from_patient, registered.start, hand.skeleton, result.notes);
-  hand.dimensions = measure_hand(hand);
-  hand.tissue = default_tissue();
+  hand.dimensions = hand::measure_hand(hand);
+  hand.tissue = hand::default_tissue();
   correct_thumb_ball(thumb_limits(scans, joints, result.notes), skin.markers,
                      part_of(progress, 0.5, 1.0), result);
   hand.provenance =
@@ -197,4 +198,4 @@ ScannedHand make_scanned_hand(const Hand& model, const std::map<ScanPosture, Sca
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -19,7 +19,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 double linear(float coded) {
@@ -28,7 +28,7 @@ double linear(float coded) {
 }
 
 /// Chromaticity; that of grey for what is nearly black, whose colour is noise.
-Vec2 chromaticity(const Srgb& colour) {
+Vec2 chromaticity(const geometry::Srgb& colour) {
   constexpr double kBlack = 0.01;
   const double r = linear(colour[0]), g = linear(colour[1]), b = linear(colour[2]);
   return Vec2(r + kBlack / 3.0, g + kBlack / 3.0) / (r + g + b + kBlack);
@@ -103,7 +103,7 @@ std::vector<std::vector<int>> patches(const std::vector<std::vector<int>>& neigh
 /// Whether a third of a patch lies farther from its rim, along its edges, than half a line's
 /// greatest width does: a strap or a sleeve, no stroke of a pen.
 bool is_band(const std::vector<int>& patch, const std::vector<char>& is_in,
-             const TriangleMesh& mesh, const std::vector<std::vector<int>>& neighbours,
+             const geometry::TriangleMesh& mesh, const std::vector<std::vector<int>>& neighbours,
              const std::vector<double>& area) {
   std::map<int, double> depth;
   using Open = std::pair<double, int>;
@@ -177,7 +177,7 @@ void SkinMarkOptions::check() const {
   hold("dot_diameter", dot_diameter, 0.5, 10.0);
 }
 
-SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
+SkinMarks find_skin_marks(const geometry::ColouredMesh& mesh, const std::string& name,
                           const SkinMarkOptions& options) {
   options.check();
   if (mesh.colour.size() != mesh.mesh.vertices.size() || mesh.colour.empty()) {
@@ -195,16 +195,16 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
     for (std::size_t k = 0; k < 3; ++k) channel[k].push_back(mesh.colour[v][static_cast<int>(k)]);
   }
   if (seen.empty()) throw InputError(name + ": no part of it was seen by any photograph");
-  for (int k = 0; k < 3; ++k) marks.skin[k] = static_cast<float>(median(channel[k]));
+  for (int k = 0; k < 3; ++k) marks.skin[k] = static_cast<float>(statistics::median(channel[k]));
   Skin skin;
   for (int k = 0; k < 2; ++k) {
     std::vector<double> part;
     for (const Vec2& c : seen) part.push_back(c[k]);
-    skin.chroma[k] = median(std::move(part));
+    skin.chroma[k] = statistics::median(std::move(part));
   }
   std::vector<double> off;
   for (const Vec2& c : seen) off.push_back((c - skin.chroma).norm());
-  skin.spread = median(std::move(off));
+  skin.spread = statistics::median(std::move(off));
   check_inks(skin, name, options);
 
   auto share = ink_shares(chroma, skin, options);
@@ -213,9 +213,9 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
       if (is_guess(v)) of_ink[v] = 0.0;
     }
   }
-  const MeshTopology topology = build_topology(mesh.mesh);
-  const auto neighbours = vertex_neighbours(topology);
-  const std::vector<double> area = vertex_areas(mesh.mesh);
+  const geometry::MeshTopology topology = geometry::build_topology(mesh.mesh);
+  const auto neighbours = geometry::vertex_neighbours(topology);
+  const std::vector<double> area = geometry::vertex_areas(mesh.mesh);
   marks.is_ink.assign(chroma.size(), 0);
   for (std::size_t ink = 0; ink < 2; ++ink) {
     std::vector<char> is_in(chroma.size());
@@ -298,4 +298,4 @@ SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
   return marks;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

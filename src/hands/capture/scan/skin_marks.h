@@ -9,43 +9,43 @@
 #include "palmar/geometry/mesh/textured_mesh.h"
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 struct SkinMarkOptions {
-  Srgb crease{0.10F, 0.45F, 0.22F};  ///< ink of the lines along creases: green
-  Srgb dot{0.12F, 0.18F, 0.60F};     ///< ink of the dots: blue
-  double least_share = 0.4;          ///< of the ink's own colour in skin that counts as drawn on
-  double largest_turn = 35.0;        ///< between the colours' shifts from skin to ink, deg
-  double dot_diameter = 3.0;         ///< mm; blots of a third to three times its area are dots
-  void check() const;                ///< throws UsageError: field, value, allowed range
+  geometry::Srgb crease{0.10F, 0.45F, 0.22F};  ///< ink of the lines along creases: green
+  geometry::Srgb dot{0.12F, 0.18F, 0.60F};     ///< ink of the dots: blue
+  double least_share = 0.4;    ///< of the ink's own colour in skin that counts as drawn on
+  double largest_turn = 35.0;  ///< between the colours' shifts from skin to ink, deg
+  double dot_diameter = 3.0;   ///< mm; blots of a third to three times its area are dots
+  void check() const;          ///< throws UsageError: field, value, allowed range
 };
 
 /// A dot that was drawn on the skin.
 struct InkDot {
-  Vec3 point = Vec3::Zero();  ///< centre, mm
-  double area = 0.0;          ///< mm^2
-  std::optional<Segment>
-      segment;  ///< if somebody said which it lies on; the back of the hand: palm
+  Vec3 point = Vec3::Zero();             ///< centre, mm
+  double area = 0.0;                     ///< mm^2
+  std::optional<hand::Segment> segment;  ///< if somebody said which it lies on; the back of the
+                                         ///< hand: palm
 };
 
 /// A connected piece of a drawn line.
 struct InkLine {
-  std::vector<Vec3> point;                       ///< vertices under the ink
-  std::vector<double> weight;                    ///< of each: area times share of ink, mm^2
-  double area = 0.0;                             ///< mm^2
-  std::optional<Segment> crease = std::nullopt;  ///< if somebody said so; see CreaseLabel
+  std::vector<Vec3> point;                             ///< vertices under the ink
+  std::vector<double> weight;                          ///< of each: area times share of ink, mm^2
+  double area = 0.0;                                   ///< mm^2
+  std::optional<hand::Segment> crease = std::nullopt;  ///< if somebody said so; see CreaseLabel
 };
 
 /// What somebody said of the line nearest to a point: the proximal crease of a segment, of the
 /// palm: the wrist's; none: no crease.
 struct CreaseLabel {
   Vec3 point = Vec3::Zero();  ///< mm
-  std::optional<Segment> crease;
+  std::optional<hand::Segment> crease;
   std::string place;  ///< where it is written: "file:line"
 };
 
 struct SkinMarks {
-  Srgb skin = Srgb::Zero();  ///< middle colour of the bare skin
+  geometry::Srgb skin = geometry::Srgb::Zero();  ///< middle colour of the bare skin
   std::vector<InkDot> dots;
   std::vector<InkLine> lines;
   std::vector<InkLine> added_lines;  ///< without ink: points somebody gave for a crease
@@ -74,7 +74,7 @@ struct SkinMarks {
 /// for a backdrop's colour. `mesh`: edges of 1.2 mm at most, or dots of 3 mm aren't found. Throws
 /// InputError "`name`: ..." if an ink can't be distinguished from this skin or from the other ink,
 /// or the mesh is too coarse.
-SkinMarks find_skin_marks(const ColouredMesh& mesh, const std::string& name,
+SkinMarks find_skin_marks(const geometry::ColouredMesh& mesh, const std::string& name,
                           const SkinMarkOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -11,7 +11,7 @@
 #include "palmar/core/random.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::HasSubstr;
@@ -21,12 +21,13 @@ const std::vector<Vec3> kDots{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0.3, 0.2).n
                               Vec3(0.2, -1, 0.4).normalized()};
 
 /// A ball with dots of 3 mm and a line round it at z = 12 mm, in shade on one side.
-ColouredMesh painted_ball(const Srgb& skin, const SkinMarkOptions& inks, double coverage) {
-  ColouredMesh ball{make_icosphere(kRadius, 6), {}};  // edges of 0.36 mm
+geometry::ColouredMesh painted_ball(const geometry::Srgb& skin, const SkinMarkOptions& inks,
+                                    double coverage) {
+  geometry::ColouredMesh ball{geometry::make_icosphere(kRadius, 6), {}};  // edges of 0.36 mm
   RandomStream random(3, 1);
   for (const Vec3& v : ball.mesh.vertices) {
-    Srgb colour = skin;
-    const auto ink = [&](const Srgb& with) {
+    geometry::Srgb colour = skin;
+    const auto ink = [&](const geometry::Srgb& with) {
       colour += static_cast<float>(coverage) * (with - colour);
     };
     if (std::abs(v.z() - 12.0) < 0.7) ink(inks.crease);
@@ -81,13 +82,13 @@ TEST(SkinMarks, BareSkinHasNone) {
 // The lower half was seen by no photograph and has the backdrop's blue; a blot of it reaches into
 // what was seen. Neither hides the marks above nor makes any.
 TEST(SkinMarks, WhatNobodySawBearsNone) {
-  ColouredMesh ball = painted_ball({0.80F, 0.60F, 0.50F}, {}, 0.9);
+  geometry::ColouredMesh ball = painted_ball({0.80F, 0.60F, 0.50F}, {}, 0.9);
   for (std::size_t v = 0; v < ball.colour.size(); ++v) {
     const Vec3& p = ball.mesh.vertices[v];
     const bool is_unseen = p.z() < -10.0;
     ball.is_guess.push_back(is_unseen ? 1 : 0);
     const bool is_bled = p.z() < -9.2 && std::abs(std::atan2(p.y(), p.x())) < 0.1;
-    if (is_unseen || is_bled) ball.colour[v] = Srgb(0.2F, 0.3F, 0.7F);
+    if (is_unseen || is_bled) ball.colour[v] = geometry::Srgb(0.2F, 0.3F, 0.7F);
   }
   const SkinMarks marks = find_skin_marks(ball, "ball");
   expect_marks(marks);
@@ -99,8 +100,9 @@ TEST(SkinMarks, WhatNobodySawBearsNone) {
 
 TEST(SkinMarks, AStrapIsNoLine) {
   // Some 10 mm wide; the chromaticity of dark grey lies on the way from skin to green, or blue.
-  for (const Srgb& strap : {Srgb(0.10F, 0.11F, 0.10F), Srgb(0.12F, 0.40F, 0.22F)}) {
-    ColouredMesh ball = painted_ball({0.80F, 0.60F, 0.50F}, {}, 0.9);
+  for (const geometry::Srgb& strap :
+       {geometry::Srgb(0.10F, 0.11F, 0.10F), geometry::Srgb(0.12F, 0.40F, 0.22F)}) {
+    geometry::ColouredMesh ball = painted_ball({0.80F, 0.60F, 0.50F}, {}, 0.9);
     for (std::size_t v = 0; v < ball.colour.size(); ++v) {
       if (std::abs(ball.mesh.vertices[v].z() + 12.0) < 4.0) ball.colour[v] = strap;
     }
@@ -114,8 +116,8 @@ TEST(SkinMarks, AStrapIsNoLine) {
 }
 
 TEST(SkinMarks, NamesInksThatCannotBeDistinguished) {
-  const Srgb skin{0.80F, 0.60F, 0.50F};
-  const ColouredMesh ball = painted_ball(skin, {}, 0.9);
+  const geometry::Srgb skin{0.80F, 0.60F, 0.50F};
+  const geometry::ColouredMesh ball = painted_ball(skin, {}, 0.9);
   const auto message = [&](const SkinMarkOptions& inks) -> std::string {
     try {
       find_skin_marks(ball, "anna.ply", inks);
@@ -134,4 +136,4 @@ TEST(SkinMarks, NamesInksThatCannotBeDistinguished) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

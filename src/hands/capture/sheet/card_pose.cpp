@@ -15,23 +15,23 @@
 #include "palmar/geometry/least_squares.h"
 #include "palmar/geometry/numeric_jacobian.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kEdgeDeviation = 0.3;             // pixels, of an edge's ends
-constexpr double kTiltDeviation = 12.0 * kDegree;  // rad, of how people hold it
+constexpr double kEdgeDeviation = 0.3;                       // pixels, of an edge's ends
+constexpr double kTiltDeviation = 12.0 * geometry::kDegree;  // rad, of how people hold it
 constexpr int kResiduals = 10;
 
-Rigid3 moved(const Rigid3& pose, const Vec6& step) {
+geometry::Rigid3 moved(const geometry::Rigid3& pose, const Vec6& step) {
   const Vec3 turn = step.head<3>();
   const double angle = turn.norm();
   const Quat by(angle > 0.0 ? Quat(Eigen::AngleAxisd(angle, turn / angle)) : Quat::Identity());
   return {(by * pose.rotation).normalized(), by * pose.translation + step.tail<3>()};
 }
 
-Vec2 projected(const CardPose& pose, const Rigid3& camera_from_table, const Vec3& p) {
+Vec2 projected(const CardPose& pose, const geometry::Rigid3& camera_from_table, const Vec3& p) {
   const Vec3 q = camera_from_table * p;
   return pose.focal * q.head<2>() / q.z() + pose.centre;
 }
@@ -43,8 +43,8 @@ std::array<Vec3, 4> card_corners(const CardPose& pose) {
 
 /// In deviations: the ends of every edge from that of the model, the tilt.
 using Residuals = Eigen::Matrix<double, kResiduals, 1>;
-Residuals residuals(const CardPose& pose, const Rigid3& at, const std::array<Vec2, 4>& corner,
-                    const std::array<FittedLine, 4>& edge) {
+Residuals residuals(const CardPose& pose, const geometry::Rigid3& at,
+                    const std::array<Vec2, 4>& corner, const std::array<FittedLine, 4>& edge) {
   Residuals r;
   const auto model = card_corners(pose);
   for (std::size_t e = 0; e < 4; ++e) {
@@ -70,18 +70,18 @@ Residuals residuals(const CardPose& pose, const Rigid3& at, const std::array<Vec
 /// The pose of least misfit near a first one, with its covariance. Returns the sum of squares.
 double refine(CardPose& pose, const std::array<Vec2, 4>& corner,
               const std::array<FittedLine, 4>& edge) {
-  const auto about = [&](const Rigid3& at) {
-    return with_numeric_jacobian(
+  const auto about = [&](const geometry::Rigid3& at) {
+    return geometry::with_numeric_jacobian(
         [&pose, &corner, &edge, at](const Eigen::VectorXd& step, Eigen::VectorXd& r) {
           r = residuals(pose, moved(at, step), corner, edge);
         },
         [](Eigen::Index j, double) { return j < 3 ? 1e-6 : 1e-3; });
   };
-  LeastSquaresProblem problem;
+  geometry::LeastSquaresProblem problem;
   problem.evaluate = about(pose.camera_from_table);
   problem.upper = Eigen::VectorXd{{3.0, 3.0, 3.0, 1e4, 1e4, 1e4}};  // rad, mm
   problem.lower = -problem.upper;
-  const LeastSquaresSolution found = solve_least_squares(
+  const geometry::LeastSquaresSolution found = geometry::solve_least_squares(
       problem, Eigen::VectorXd::Zero(6), {.max_iterations = 100, .step_tolerance = 1e-9});
   pose.camera_from_table = moved(pose.camera_from_table, found.x);
   // Steps from the pose found: those of its covariance.
@@ -94,7 +94,7 @@ double refine(CardPose& pose, const std::array<Vec2, 4>& corner,
 }
 
 /// A pose from the corners' homography; `sign` mirrors how it leans.
-Rigid3 first_pose(const CardPose& pose, const std::array<Vec2, 4>& corner, double sign) {
+geometry::Rigid3 first_pose(const CardPose& pose, const std::array<Vec2, 4>& corner, double sign) {
   Eigen::Matrix3d k;
   k << pose.focal, 0.0, pose.centre.x(), 0.0, pose.focal, pose.centre.y(), 0.0, 0.0, 1.0;
   Eigen::Matrix3d h = k.inverse() * homography_of(corner, pose.width, pose.height);
@@ -136,7 +136,7 @@ double CardPose::scale_error(const Vec2& a, const Vec2& b) const {
   const Eigen::Matrix3d now = pixel_from_table();
   const Vec2 seen_a = (now * a.homogeneous()).hnormalized(),
              seen_b = (now * b.homogeneous()).hnormalized();
-  const auto length = [&](const Rigid3& at) {
+  const auto length = [&](const geometry::Rigid3& at) {
     CardPose other = *this;
     other.camera_from_table = at;
     const Eigen::Matrix3d table = other.pixel_from_table().inverse();
@@ -183,4 +183,4 @@ CardPose fit_card(const std::array<Vec2, 4>& corner, const std::array<FittedLine
   return best;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

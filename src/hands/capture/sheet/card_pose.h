@@ -8,14 +8,14 @@
 #include "hands/capture/sheet/line_fit.h"
 #include "palmar/geometry/rigid3.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Where a camera without distortion saw a card. The table's frame: origin below the card's middle,
 /// z up; the card's face at its thickness; mm.
 struct CardPose {
-  double width = 0.0, height = 0.0;  ///< of the card along x and y
-  Rigid3 camera_from_table;          ///< x to the right of the picture, y down, z forward
-  double focal = 0.0;                ///< pixels
+  double width = 0.0, height = 0.0;    ///< of the card along x and y
+  geometry::Rigid3 camera_from_table;  ///< x to the right of the picture, y down, z forward
+  double focal = 0.0;                  ///< pixels
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< of the picture, pixels
   double misfit = 0.0;                               ///< of the edges, RMS, pixels
   /// Covariance of a small turn (about the camera's axes, rad) and shift (mm) after the pose.
@@ -37,4 +37,4 @@ CardPose fit_card(const std::array<Eigen::Vector2d, 4>& corner,
                   const std::array<FittedLine, 4>& edge, double focal,
                   const Eigen::Vector2d& centre);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -14,12 +14,12 @@
 #include "hands/capture/sheet/card_pose.h"
 #include "hands/capture/sheet/picture_edges.h"
 #include "hands/capture/sheet/sheet_grid.h"
+#include "hands/imaging/connected_parts.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/convex_hull.h"
 #include "palmar/geometry/degrees.h"
-#include "hands/imaging/connected_parts.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr int kSmallCardSide = 900;      // pixels: of the picture in which the card is looked for
@@ -38,12 +38,12 @@ constexpr const char* kCardAdvice =
 
 /// What isn't table in a picture, and the table's light.
 struct OffTable {
-  VolumeGrid grid;
-  ConnectedParts parts;
+  imaging::VolumeGrid grid;
+  imaging::ConnectedParts parts;
   std::vector<Vec3f> table;  ///< linear
 };
 
-OffTable off_table(const RgbImage& small) {
+OffTable off_table(const geometry::RgbImage& small) {
   RectifiedSheet drawn;
   drawn.grid.width = small.width;
   drawn.grid.height = small.height;
@@ -58,14 +58,14 @@ OffTable off_table(const RgbImage& small) {
   result.table = level_light(drawn, Ground::kTable);
   result.grid = {
       {small.width, small.height, 1}, Vec3::Ones(), Eigen::Matrix3d::Identity(), Vec3::Zero()};
-  VoxelMask mask(drawn.light.size(), 0);
+  imaging::VoxelMask mask(drawn.light.size(), 0);
   for (std::size_t p = 0; p < mask.size(); ++p) {
     const Vec3f& light = drawn.light[p];
     const float mean = std::max(0.01F, light.mean());
     const float colour = (light / mean - Vec3f::Ones()).cwiseAbs().maxCoeff();
     mask[p] = colour > kOtherColour || mean > kBrighter || mean < kDarker ? 1 : 0;
   }
-  result.parts = connected_parts(result.grid, opened(result.grid, mask, 1.5));
+  result.parts = imaging::connected_parts(result.grid, imaging::opened(result.grid, mask, 1.5));
   return result;
 }
 
@@ -105,7 +105,7 @@ Vec2 towards_forearm(const Part& hand, const OffTable& off) {
     for (const Vec2& p : hand.rim) {
       if (is_there(p)) rim.push_back(p);
     }
-    return area / std::max(1.0, area_of(convex_hull(rim)));
+    return area / std::max(1.0, area_of(geometry::convex_hull(rim)));
   };
   return filled(1.0) > filled(-1.0) ? axis : Vec2(-axis);
 }
@@ -153,7 +153,7 @@ std::vector<Part> parts_of(const OffTable& off) {
 /// Four corners of a part that has straight edges, clockwise in the picture from any; else nothing.
 std::optional<std::array<Vec2, 4>> corners_of(const Part& part) {
   if (*std::max_element(part.border_pixels.begin(), part.border_pixels.end()) > 0) return {};
-  const std::vector<Vec2> hull = convex_hull(part.rim);
+  const std::vector<Vec2> hull = geometry::convex_hull(part.rim);
   if (hull.size() < 4) return {};
   const auto quad = four_sided(hull);
   if (!quad) return {};
@@ -176,8 +176,8 @@ struct CardEdges {
   double width = std::numeric_limits<double>::infinity();  ///< of the sharpest, mm (edge_width())
 };
 
-CardEdges edges_of(const RgbImage& image, const std::array<Vec2, 4>& corner, const OffTable& off,
-                   int by, const std::string& name) {
+CardEdges edges_of(const geometry::RgbImage& image, const std::array<Vec2, 4>& corner,
+                   const OffTable& off, int by, const std::string& name) {
   const int width = off.grid.size[0], height = off.grid.size[1];
   const auto differs = [&](const Vec2& at) {
     const Vec3f colour = pixel_colour(image, at);
@@ -218,7 +218,8 @@ CardEdges edges_of(const RgbImage& image, const std::array<Vec2, 4>& corner, con
 
 }  // namespace
 
-SheetView find_card(const RgbImage& image, const std::string& name, const SheetOptions& options) {
+SheetView find_card(const geometry::RgbImage& image, const std::string& name,
+                    const SheetOptions& options) {
   options.check();
   const int longer = std::max(image.width, image.height);
   if (std::min(image.width, image.height) < 600) {
@@ -288,13 +289,13 @@ SheetView find_card(const RgbImage& image, const std::string& name, const SheetO
   const double quarter = 0.5 * std::numbers::pi;
   const int turns = static_cast<int>(std::lround((angle + quarter) / quarter));
   const double skew = angle + quarter - turns * quarter;
-  if (std::abs(skew) > 30.0 * kDegree) {
+  if (std::abs(skew) > 30.0 * geometry::kDegree) {
     fail_card(
         name,
         fmt::format(
             "the card isn't parallel to the forearm, by {:.0f} degrees; place one of its edges "
             "level with the crease of the wrist, perpendicular to the forearm, within 30 degrees",
-            std::abs(skew) / kDegree));
+            std::abs(skew) / geometry::kDegree));
   }
   const CardPose turned = pose.turned(turns);
   view.format = card_format();
@@ -306,7 +307,7 @@ SheetView find_card(const RgbImage& image, const std::string& name, const SheetO
   view.eye = turned.eye();
   // Of the way it looks: the card lies to one side.
   const Vec3 normal = turned.camera_from_table.rotation * Vec3::UnitZ();
-  view.tilt = std::acos(std::clamp(-normal.z(), -1.0, 1.0)) / kDegree;
+  view.tilt = std::acos(std::clamp(-normal.z(), -1.0, 1.0)) / geometry::kDegree;
   if (!(view.eye.z() > 0.0) || view.tilt > options.most_tilt) {
     fail_card(name, fmt::format("the photograph is taken {:.0f} degrees off the table's normal; up "
                                 "to {:.0f} is allowed: hold the camera above the hand",
@@ -323,4 +324,4 @@ SheetView find_card(const RgbImage& image, const std::string& name, const SheetO
   return view;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -6,7 +6,7 @@
 
 #include "hands/capture/sheet/sheet_view.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Finds a bank card (card_format()) that lies beside a hand on a plain table. What has another
 /// colour than most of the picture, or is much brighter or darker than shadow, isn't table; a part
@@ -21,7 +21,7 @@ namespace palmar {
 /// that faces the forearm. `scale_error` follows from the same sum. Throws InputError `name`: no
 /// card or several; one that isn't wholly seen; no hand, or one whose forearm doesn't leave the
 /// picture; a card that is oblique to the forearm; too oblique.
-SheetView find_card(const RgbImage& image, const std::string& name,
+SheetView find_card(const geometry::RgbImage& image, const std::string& name,
                     const SheetOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

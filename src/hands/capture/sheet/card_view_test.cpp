@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::AllOf;
@@ -91,7 +91,7 @@ TEST(CardView, FindsTheCameraAndTheWristsLine) {
     EXPECT_NEAR(view.format.height, turn == 90.0 ? 85.60 : 53.98, 1e-9);
     EXPECT_NEAR(view.eye.z(), scene.camera().centre().z(), 5.0);
     const auto in_card = [&](const Vec2& p) {
-      const double by = turn == 4.0 ? -4.0 * kDegree : 0.0;
+      const double by = turn == 4.0 ? -4.0 * geometry::kDegree : 0.0;
       return Vec2(Eigen::Rotation2Dd(by) * (p - *scene.card));
     };
     for (const Vec2& p : {Vec2(0.0, -140.0), Vec2(-30.0, 20.0), Vec2(60.0, -20.0)}) {
@@ -105,10 +105,10 @@ TEST(CardView, FindsTheCameraAndTheWristsLine) {
 
 TEST(CardView, LetsAHandBeMeasured) {
   const Scene scene = beside_card();
-  const RgbImage image = scene.taken();
+  const geometry::RgbImage image = scene.taken();
   const SheetView view = find_card(image, "hand.jpg", lens_of(scene));
   const SheetGrid grid = grid_beside_card(view, 0.6);
-  const VoxelMask skin =
+  const imaging::VoxelMask skin =
       skin_mask(draw_sheet(image, view, grid, Ground::kTable), Ground::kTable, "hand.jpg");
   const HandOutline outline = measure_outline(grid, skin, view, flat_proportions(), "hand.jpg");
   EXPECT_TRUE(outline.is_right);
@@ -155,7 +155,7 @@ TEST(CardView, SaysWhatIsWrong) {
 
 TEST(CardView, ATableLikeSkinAndAHandCutOffAreNamed) {
   const auto message = [](const Scene& scene, const char* text) {
-    const RgbImage image = scene.taken();
+    const geometry::RgbImage image = scene.taken();
     const SheetView view = find_card(image, "hand.jpg", lens_of(scene));
     const SheetGrid grid = grid_beside_card(view, 1.0);
     EXPECT_THAT(
@@ -175,4 +175,4 @@ TEST(CardView, ATableLikeSkinAndAHandCutOffAreNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,9 +9,9 @@
 #include "hands/capture/sheet/line_fit.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::capture {
 
-SoftMask::SoftMask(const SheetGrid& grid, const VoxelMask& mask)
+SoftMask::SoftMask(const SheetGrid& grid, const imaging::VoxelMask& mask)
     : grid_(&grid), value_(mask.size()) {
   parallel_for(grid.height, [&](int y) {
     for (int x = 0; x < grid.width; ++x) {
@@ -66,4 +66,4 @@ FingerAxis axis_of(const SoftMask& skin, const Vec2& tip, const Vec2& base) {
   return axis;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,13 +7,13 @@
 #include "hands/capture/sheet/sheet_grid.h"
 #include "hands/imaging/distance_transform.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// A mask that is soft at its border, between cells.
 class SoftMask {
  public:
   /// Keeps a pointer to the grid.
-  SoftMask(const SheetGrid& grid, const VoxelMask& mask);
+  SoftMask(const SheetGrid& grid, const imaging::VoxelMask& mask);
   /// Share of skin at a point of the sheet, 0 to 1.
   double operator()(const Eigen::Vector2d& sheet) const;
   /// How far one can go from a point inside until the border, mm; at most `most`.
@@ -40,4 +40,4 @@ struct FingerAxis {
 /// Through the middles of cross-sections between 15 and 75 % of the way from the tip to the base.
 FingerAxis axis_of(const SoftMask& skin, const Eigen::Vector2d& tip, const Eigen::Vector2d& base);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -13,7 +13,7 @@
 #include "hands/capture/sheet/outline_curve.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kAboveWeb = 1.5;                          // mm; as HandCreases draws base creases
@@ -34,10 +34,10 @@ Vec2 farthest(const std::vector<Vec2>& curve, std::size_t near, const Vec2& dire
 }
 
 /// The palm's middle: the centre of the largest circle in the outline and the grid.
-Vec2 palm_middle(const SheetGrid& grid, const VoxelMask& mask, const Vec2& otherwise) {
-  VoxelMask outside(mask.size());
+Vec2 palm_middle(const SheetGrid& grid, const imaging::VoxelMask& mask, const Vec2& otherwise) {
+  imaging::VoxelMask outside(mask.size());
   for (std::size_t p = 0; p < mask.size(); ++p) outside[p] = mask[p] == 0 ? 1 : 0;
-  const std::vector<float> depth = distance_transform(grid.volume(), outside);
+  const std::vector<float> depth = imaging::distance_transform(grid.volume(), outside);
   Vec2 middle = otherwise;
   double deepest = 0.0;
   for (int y = 0; y < grid.height; ++y) {
@@ -82,9 +82,9 @@ void HandOutlineOptions::check() const {
   }
 }
 
-HandOutline measure_outline(const SheetGrid& grid, const VoxelMask& mask, const SheetView& sheet,
-                            const OutlineProportions& proportions, const std::string& name,
-                            const HandOutlineOptions& options) {
+HandOutline measure_outline(const SheetGrid& grid, const imaging::VoxelMask& mask,
+                            const SheetView& sheet, const OutlineProportions& proportions,
+                            const std::string& name, const HandOutlineOptions& options) {
   options.check();
   const OpenOutline open = open_outline(grid, outline_of(grid, mask), name);
   const Vec2 forearm = 0.5 * (open.from + open.to);
@@ -188,4 +188,4 @@ HandOutline measure_outline(const SheetGrid& grid, const VoxelMask& mask, const 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

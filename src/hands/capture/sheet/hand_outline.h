@@ -11,7 +11,7 @@
 #include "hands/capture/sheet/sheet_grid.h"
 #include "hands/imaging/distance_transform.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 struct HandOutlineOptions {
   double wrist = 0.0;    ///< how far inside the sheet's edge the wrist crease lies, mm
@@ -63,8 +63,8 @@ inline constexpr double kOutlineCell = 0.35;
 /// extremes from the palm's middle; the forearm crosses one edge of the grid, which lies under the
 /// crease of the wrist. Throws InputError `name`: fingers that aren't apart, a hand that reaches
 /// beyond the grid, no forearm over an edge.
-HandOutline measure_outline(const SheetGrid& grid, const VoxelMask& mask, const SheetView& sheet,
-                            const OutlineProportions& proportions, const std::string& name,
-                            const HandOutlineOptions& options = {});
+HandOutline measure_outline(const SheetGrid& grid, const imaging::VoxelMask& mask,
+                            const SheetView& sheet, const OutlineProportions& proportions,
+                            const std::string& name, const HandOutlineOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

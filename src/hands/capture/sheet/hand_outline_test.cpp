@@ -11,7 +11,7 @@
 #include "hands/capture/sheet/skin_mask.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::AllOf;
@@ -19,10 +19,10 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 HandOutline measured(const Scene& scene, const HandOutlineOptions& options = {}) {
-  const RgbImage image = scene.taken();
+  const geometry::RgbImage image = scene.taken();
   const SheetView sheet = find_sheet(image, "hand.jpg");
   const SheetGrid grid = grid_of_sheet(sheet, 0.5);  // coarser than kOutlineCell, to be quick
-  const VoxelMask skin =
+  const imaging::VoxelMask skin =
       skin_mask(draw_sheet(image, sheet, grid, Ground::kPaper), Ground::kPaper, "hand.jpg");
   return measure_outline(grid, skin, sheet, flat_proportions(), "hand.jpg", options);
 }
@@ -111,7 +111,7 @@ TEST(SheetView, SaysWhatIsWrong) {
   message(square, "no A4 or letter");
   EXPECT_THAT(
       [] {
-        find_sheet(RgbImage{20, 20, std::vector<std::uint8_t>(1200, 200)}, "x.png");
+        find_sheet(geometry::RgbImage{20, 20, std::vector<std::uint8_t>(1200, 200)}, "x.png");
       },
       ThrowsMessage<InputError>(HasSubstr("20 x 20 pixels")));
   EXPECT_THROW(sheet_format_named("a5"), UsageError);
@@ -180,4 +180,4 @@ TEST(HandOutline, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::capture {
 
 FittedLine fit_line(const std::vector<Eigen::Vector2d>& points) {
   FittedLine line;
@@ -27,4 +27,4 @@ FittedLine fit_line(const std::vector<Eigen::Vector2d>& points) {
   return line;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace palmar {
+namespace palmar::capture {
 
 /// The line that passes points of a plane in the least squares of their distances from it.
 struct FittedLine {
@@ -20,4 +20,4 @@ inline double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

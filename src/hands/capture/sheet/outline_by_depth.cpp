@@ -8,14 +8,14 @@
 #include <cmath>
 
 #include "hands/capture/photo/surface/over_views.h"
+#include "hands/imaging/connected_parts.h"
+#include "hands/imaging/distance_transform.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/progress_part.h"
-#include "hands/imaging/connected_parts.h"
-#include "hands/imaging/distance_transform.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kCell = 3.0;  // mm
@@ -25,7 +25,7 @@ std::vector<Vec3> largest_group(const std::vector<SurfacePoint>& points) {
   Box3 box;
   for (const SurfacePoint& p : points) box.extend(p.position.cast<double>());
   if (box.isEmpty()) return {};
-  VolumeGrid grid;
+  imaging::VolumeGrid grid;
   grid.spacing = Vec3::Constant(kCell);
   grid.origin = box.min();
   for (int a = 0; a < 3; ++a) {
@@ -42,10 +42,11 @@ std::vector<Vec3> largest_group(const std::vector<SurfacePoint>& points) {
     if (n > 0) filled.push_back(n);
   }
   // Skin comes once per photograph that sees it; what agrees by chance is thin.
-  const int least = std::max(2, median(std::move(filled)) / 4);
-  VoxelMask mask(grid.count(), 0);
+  const int least = std::max(2, statistics::median(std::move(filled)) / 4);
+  imaging::VoxelMask mask(grid.count(), 0);
   for (std::size_t c = 0; c < mask.size(); ++c) mask[c] = count[c] >= least ? 1 : 0;
-  const ConnectedParts parts = connected_parts(grid, dilated(grid, mask, kCell));
+  const imaging::ConnectedParts parts =
+      imaging::connected_parts(grid, imaging::dilated(grid, mask, kCell));
   if (parts.count() == 0) return {};
   const int largest = parts.largest();
   std::vector<Vec3> group;
@@ -63,8 +64,8 @@ std::vector<Vec3> largest_group(const std::vector<SurfacePoint>& points) {
 }
 
 /// Pixels within `radius` of the points' images.
-VoxelMask discs(const std::vector<Vec3>& points, const PhotoView& view, double radius) {
-  VoxelMask inside(view.grey.size(), 0);
+imaging::VoxelMask discs(const std::vector<Vec3>& points, const PhotoView& view, double radius) {
+  imaging::VoxelMask inside(view.grey.size(), 0);
   for (const Vec3& point : points) {
     const Vec3 seen = view.camera.camera_from_world * point;
     const auto pixel = view.camera.project(point);
@@ -90,10 +91,10 @@ bool narrow_to_points(const std::vector<SurfacePoint>& points, const std::vector
   constexpr std::size_t kFewCells = 600;  // of 9 mm^2 each: a child's hand has 1500
   if (group.size() < kFewCells) return false;
   parallel_for(static_cast<int>(views.size()), [&](int i) {
-    VolumeGrid grid;
+    imaging::VolumeGrid grid;
     grid.size = {views[i].width(), views[i].height(), 1};
-    const VoxelMask near =
-        closed(grid, discs(group, views[i], radius), radius / masks[i].pixel_size);
+    const imaging::VoxelMask near =
+        imaging::closed(grid, discs(group, views[i], radius), radius / masks[i].pixel_size);
     for (std::size_t p = 0; p < near.size(); ++p) masks[i].inside[p] &= near[p];
   });
   return true;
@@ -122,7 +123,7 @@ void narrow_by_depth(const std::vector<Photograph>& photographs,
   stereo.behind = std::min(500.0, options.box.diagonal().norm());
   const std::vector<std::vector<int>> sources =
       choose_sources(coarse, options.box.center(), stereo);
-  const RayQuery bound(hull.surface);
+  const geometry::RayQuery bound(hull.surface);
   std::vector<DepthMap> maps(count);
   over_views(count, part_of(progress, 0.1, 0.95), "separating the hand from what is behind it",
              [&](std::size_t v) {
@@ -142,4 +143,4 @@ void narrow_by_depth(const std::vector<Photograph>& photographs,
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

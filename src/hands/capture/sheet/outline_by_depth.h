@@ -7,7 +7,7 @@
 #include "hands/capture/photo/photo_model.h"
 #include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Masks of a hand whose colour doesn't distinguish it from what is behind it, narrowed by where
 /// things are: stereo in the photographs reduced to three times the pixels of the fine one, all
@@ -23,4 +23,4 @@ void narrow_by_depth(const std::vector<Photograph>& photographs,
 bool narrow_to_points(const std::vector<SurfacePoint>& points, const std::vector<PhotoView>& views,
                       double radius, std::vector<PhotoMask>& masks);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// A camera 500 mm to the side of a ball in the middle of its picture; 1 mm per pixel there.
@@ -64,4 +64,4 @@ TEST(NarrowToPoints, HardlyAnythingIsNoHand) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

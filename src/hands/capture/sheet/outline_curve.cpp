@@ -12,7 +12,7 @@
 #include "hands/capture/picture_vectors.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kWidestGap = 6.0;  // mm, of the forearm on the edge: folds, hair
@@ -43,7 +43,7 @@ std::vector<Vec2> smoothed(const std::vector<Vec2>& curve, double sigma, double 
 
 }  // namespace
 
-std::vector<Vec2> outline_of(const SheetGrid& grid, const VoxelMask& mask) {
+std::vector<Vec2> outline_of(const SheetGrid& grid, const imaging::VoxelMask& mask) {
   const auto is_in = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < grid.width && y < grid.height && mask[grid.at(x, y)] != 0;
   };
@@ -174,4 +174,4 @@ OutlineExtremes extremes_of(const std::vector<Vec2>& curve, const Vec2& middle) 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,11 +8,11 @@
 #include "hands/capture/sheet/sheet_grid.h"
 #include "hands/imaging/distance_transform.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// The outline of a mask, that isn't empty, as corners of its cells, closed, the mask to its left
 /// (in a frame with y up).
-std::vector<Eigen::Vector2d> outline_of(const SheetGrid& grid, const VoxelMask& mask);
+std::vector<Eigen::Vector2d> outline_of(const SheetGrid& grid, const imaging::VoxelMask& mask);
 
 /// The part of an outline that isn't the grid's edge, from one side of the forearm to the other.
 struct OpenOutline {
@@ -40,4 +40,4 @@ struct OutlineExtremes {
 OutlineExtremes extremes_of(const std::vector<Eigen::Vector2d>& curve,
                             const Eigen::Vector2d& middle);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -4,16 +4,19 @@
 
 #include "hands/capture/sheet/outline_person.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 TEST(OutlinePerson, GirthsOfOtherPeopleLieWithinWhatIsStated) {
-  PersonEstimate estimate;
+  population::PersonEstimate estimate;
   estimate.dimensions = {
-      {.dimension = {DimensionKind::kHandCircumference}, .value = 190.0, .sd = 4.0},
-      {.dimension = {DimensionKind::kHandWidth}, .value = 84.0, .sd = 1.2, .is_measured = true},
-      {.dimension = {DimensionKind::kHandWidth}, .value = 84.0, .sd = 2.0},
-      {.dimension = {DimensionKind::kHandLength}, .value = 185.0, .sd = 2.0}};
+      {.dimension = {hand::DimensionKind::kHandCircumference}, .value = 190.0, .sd = 4.0},
+      {.dimension = {hand::DimensionKind::kHandWidth},
+       .value = 84.0,
+       .sd = 1.2,
+       .is_measured = true},
+      {.dimension = {hand::DimensionKind::kHandWidth}, .value = 84.0, .sd = 2.0},
+      {.dimension = {hand::DimensionKind::kHandLength}, .value = 185.0, .sd = 2.0}};
   allow_for_build(estimate);
   // A hand from elsewhere: girth 11 mm, breadth 5 mm less than regressed. 95 of 100 are within two
   // standard deviations.
@@ -29,14 +32,15 @@ TEST(OutlinePerson, GirthsOfOtherPeopleLieWithinWhatIsStated) {
 TEST(OutlinePerson, SegmentsByAnotherRulerLieWithinWhatIsStated) {
   // The last segment of the middle finger in Greiner 1991 is 28.7 mm in a hand of 194 mm; in the
   // template's proportions it is 35.3. The middle finger as a whole isn't known better by that.
-  PersonEstimate estimate;
-  estimate.dimensions = {{.dimension = {DimensionKind::kSegmentLength, Segment::kMiddleDistal},
-                          .value = 35.3,
-                          .sd = 1.8},
-                         {.dimension = {DimensionKind::kSegmentWidth, Segment::kIndexProximal},
-                          .value = 20.0,
-                          .sd = 0.3,
-                          .is_measured = true}};
+  population::PersonEstimate estimate;
+  estimate.dimensions = {
+      {.dimension = {hand::DimensionKind::kSegmentLength, hand::Segment::kMiddleDistal},
+       .value = 35.3,
+       .sd = 1.8},
+      {.dimension = {hand::DimensionKind::kSegmentWidth, hand::Segment::kIndexProximal},
+       .value = 20.0,
+       .sd = 0.3,
+       .is_measured = true}};
   allow_for_build(estimate);
   EXPECT_GT(1.96 * estimate.dimensions[0].sd, 35.3 - 28.7);
   EXPECT_LT(1.96 * estimate.dimensions[0].sd, 2.0 * (35.3 - 28.7));
@@ -49,14 +53,17 @@ TEST(OutlinePerson, AFirstSegmentErrsByWhatTheOthersDo) {
   // Greiner 1991, middle finger, men (hand 194.1 mm): 26.4 and 28.7 mm. In the template's
   // proportions 26.8 and 35.3: of the same finger 7 mm more are left for the first segment.
   const double middle = 26.8, distal = 35.3, left = middle + distal - 26.4 - 28.7;
-  PersonEstimate estimate;
+  population::PersonEstimate estimate;
   estimate.dimensions = {
-      {.dimension = {DimensionKind::kSegmentLength, Segment::kMiddleProximal},
+      {.dimension = {hand::DimensionKind::kSegmentLength, hand::Segment::kMiddleProximal},
        .value = 25.0,
        .sd = 1.0},
-      {.dimension = {DimensionKind::kSegmentLength, Segment::kMiddleMiddle}, .value = middle},
-      {.dimension = {DimensionKind::kSegmentLength, Segment::kMiddleDistal}, .value = distal},
-      {.dimension = {DimensionKind::kSegmentLength, Segment::kThumbProximal}, .value = 30.0}};
+      {.dimension = {hand::DimensionKind::kSegmentLength, hand::Segment::kMiddleMiddle},
+       .value = middle},
+      {.dimension = {hand::DimensionKind::kSegmentLength, hand::Segment::kMiddleDistal},
+       .value = distal},
+      {.dimension = {hand::DimensionKind::kSegmentLength, hand::Segment::kThumbProximal},
+       .value = 30.0}};
   allow_for_build(estimate);
   EXPECT_GT(1.96 * estimate.dimensions[0].sd, left);
   EXPECT_LT(1.96 * estimate.dimensions[0].sd, 2.0 * left);
@@ -66,13 +73,14 @@ TEST(OutlinePerson, AFirstSegmentErrsByWhatTheOthersDo) {
 TEST(OutlinePerson, DepthsOfOtherPeopleLieWithinWhatIsStated) {
   // Index finger, men, Greiner 1991: breadth 23.0 and circumference 68.4 mm at the PIP joint are
   // those of an ellipse 20.5 mm deep. In the template's proportion to the breadth: 23.2.
-  PersonEstimate estimate;
+  population::PersonEstimate estimate;
   estimate.dimensions = {
-      {.dimension = {DimensionKind::kSegmentThickness, Segment::kIndexMiddle}, .value = 23.2}};
+      {.dimension = {hand::DimensionKind::kSegmentThickness, hand::Segment::kIndexMiddle},
+       .value = 23.2}};
   allow_for_build(estimate);
   EXPECT_GT(1.96 * estimate.dimensions[0].sd, 23.2 - 20.5);
   EXPECT_LT(1.96 * estimate.dimensions[0].sd, 2.0 * (23.2 - 20.5));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

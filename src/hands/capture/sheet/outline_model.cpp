@@ -18,18 +18,19 @@
 #include "palmar/hand/skin/creases.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-constexpr std::array<std::array<Segment, 3>, 5> kChain = {
-    {{Segment::kThumbProximal, Segment::kThumbDistal, Segment::kThumbDistal},
-     {Segment::kIndexProximal, Segment::kIndexMiddle, Segment::kIndexDistal},
-     {Segment::kMiddleProximal, Segment::kMiddleMiddle, Segment::kMiddleDistal},
-     {Segment::kRingProximal, Segment::kRingMiddle, Segment::kRingDistal},
-     {Segment::kLittleProximal, Segment::kLittleMiddle, Segment::kLittleDistal}}};
+constexpr std::array<std::array<hand::Segment, 3>, 5> kChain = {
+    {{hand::Segment::kThumbProximal, hand::Segment::kThumbDistal, hand::Segment::kThumbDistal},
+     {hand::Segment::kIndexProximal, hand::Segment::kIndexMiddle, hand::Segment::kIndexDistal},
+     {hand::Segment::kMiddleProximal, hand::Segment::kMiddleMiddle, hand::Segment::kMiddleDistal},
+     {hand::Segment::kRingProximal, hand::Segment::kRingMiddle, hand::Segment::kRingDistal},
+     {hand::Segment::kLittleProximal, hand::Segment::kLittleMiddle, hand::Segment::kLittleDistal}}};
 
-constexpr std::array<Dof, 4> kAbduction = {Dof::kIndexMcpAbduction, Dof::kMiddleMcpAbduction,
-                                           Dof::kRingMcpAbduction, Dof::kLittleMcpAbduction};
+constexpr std::array<hand::Dof, 4> kAbduction = {
+    hand::Dof::kIndexMcpAbduction, hand::Dof::kMiddleMcpAbduction, hand::Dof::kRingMcpAbduction,
+    hand::Dof::kLittleMcpAbduction};
 
 /// Angle from one direction to another, anticlockwise.
 double angle_between(const Vec2& from, const Vec2& to) {
@@ -38,8 +39,8 @@ double angle_between(const Vec2& from, const Vec2& to) {
 
 /// +1 if positive abduction turns a finger of the placed hand anticlockwise: towards a thumb that
 /// lies to the left of fingers that point up.
-double anticlockwise(Side side, bool palm_up) {
-  return (side == Side::kRight) != palm_up ? 1.0 : -1.0;
+double anticlockwise(hand::Side side, bool palm_up) {
+  return (side == hand::Side::kRight) != palm_up ? 1.0 : -1.0;
 }
 
 /// Palm (or back) down.
@@ -47,7 +48,7 @@ Vec3 down(const Vec3& p, bool palm_up) { return palm_up ? p : Vec3(-p.x(), p.y()
 
 /// Takes off what reaches beyond the grid's edges, but for the forearm: a model on its way to the
 /// photographed hand's place may.
-void hold_inside(VoxelMask& mask, const SheetGrid& grid, const Vec2& wrist) {
+void hold_inside(imaging::VoxelMask& mask, const SheetGrid& grid, const Vec2& wrist) {
   constexpr double kForearm = 60.0;  // mm
   const auto clear = [&](int x, int y) {
     if ((grid.sheet(x, y) - wrist).norm() > kForearm) mask[grid.at(x, y)] = 0;
@@ -64,61 +65,62 @@ void hold_inside(VoxelMask& mask, const SheetGrid& grid, const Vec2& wrist) {
 
 }  // namespace
 
-HandDimensions straight_dimensions(const Hand& hand) {
-  const Posture reference = reference_posture(hand.skeleton);
-  Posture straight = *named_posture(hand.skeleton, "flat");
-  for (const Dof dof : {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction, Dof::kThumbMpFlexion,
-                        Dof::kThumbIpFlexion}) {
+hand::HandDimensions straight_dimensions(const hand::Hand& hand) {
+  const hand::Posture reference = hand::reference_posture(hand.skeleton);
+  hand::Posture straight = *hand::named_posture(hand.skeleton, "flat");
+  for (const hand::Dof dof : {hand::Dof::kThumbCmcFlexion, hand::Dof::kThumbCmcAbduction,
+                              hand::Dof::kThumbMpFlexion, hand::Dof::kThumbIpFlexion}) {
     straight[dof] = reference[dof];
   }
-  return measure_hand({pose_skin(hand, straight), hand.skin.triangles},
-                      skeleton_in_posture(hand.skeleton, straight));
+  return hand::measure_hand({hand::pose_skin(hand, straight), hand.skin.triangles},
+                            hand::skeleton_in_posture(hand.skeleton, straight));
 }
 
-OutlineProportions outline_proportions(const HandDimensions& d) {
-  const auto of = [&](Segment s) -> const auto& { return d.segment[index_of(s)]; };
+OutlineProportions outline_proportions(const hand::HandDimensions& d) {
+  const auto of = [&](hand::Segment s) -> const auto& { return d.segment[index_of(s)]; };
   OutlineProportions p;
   for (std::size_t f = 0; f < 5; ++f) {
     double whole = 0.0;
-    for (const Segment s : kChain[f]) whole += of(s).length;
+    for (const hand::Segment s : kChain[f]) whole += of(s).length;
     for (std::size_t k = 0; k < 3; ++k) {
       p.segment[f][k] = of(kChain[f][k]).length / (f == 0 ? d.hand_length : whole);
     }
     p.finger_height[f] = 0.5 * of(kChain[f][2]).thickness / d.hand_length;
   }
-  p.web_height = 0.5 * of(Segment::kMiddleProximal).thickness / d.hand_length;
+  p.web_height = 0.5 * of(hand::Segment::kMiddleProximal).thickness / d.hand_length;
   p.palm_height = 0.5 * d.hand_thickness / d.hand_length;
   return p;
 }
 
-PlacedModel flat_model(const Hand& hand, const HandOutline& like, bool palm_up) {
+PlacedModel flat_model(const hand::Hand& hand, const HandOutline& like, bool palm_up) {
   PlacedModel model;
-  model.posture = *named_posture(hand.skeleton, "flat");
-  model.posture = posture_on_table(model.posture, [&](const Posture& p) {
-    const auto tips = skeleton_in_posture(hand.skeleton, p).fingertips;
+  model.posture = *hand::named_posture(hand.skeleton, "flat");
+  model.posture = hand::posture_on_table(model.posture, [&](const hand::Posture& p) {
+    const auto tips = hand::skeleton_in_posture(hand.skeleton, p).fingertips;
     return std::array{tips[0].z(), tips[1].z(), tips[2].z(), tips[3].z(), tips[4].z()};
   });
   model.place = like.wrist;
-  const Vec3 wrist = HandCreases(hand.skin, hand.skeleton).wrist().point;
-  const Vec3 way =
-      down(hand.skeleton.fingertips[index_of(Finger::kMiddle)], palm_up) - down(wrist, palm_up);
+  const Vec3 wrist = hand::HandCreases(hand.skin, hand.skeleton).wrist().point;
+  const Vec3 way = down(hand.skeleton.fingertips[index_of(hand::Finger::kMiddle)], palm_up) -
+                   down(wrist, palm_up);
   model.turn = angle_between(way.head<2>(), like.finger[2].tip - like.wrist);
   return model;
 }
 
-TriangleMesh place_model(const Hand& hand, const PlacedModel& model, bool palm_up) {
-  TriangleMesh lying{pose_skin(hand, model.posture), hand.skin.triangles};
+geometry::TriangleMesh place_model(const hand::Hand& hand, const PlacedModel& model, bool palm_up) {
+  geometry::TriangleMesh lying{hand::pose_skin(hand, model.posture), hand.skin.triangles};
   double paper = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < lying.vertices.size(); ++v) {
     lying.vertices[v] = down(lying.vertices[v], palm_up);
-    const Segment s = hand.segment[v];
-    if (s == Segment::kIndexDistal || s == Segment::kMiddleDistal || s == Segment::kRingDistal ||
-        s == Segment::kLittleDistal) {
+    const hand::Segment s = hand.segment[v];
+    if (s == hand::Segment::kIndexDistal || s == hand::Segment::kMiddleDistal ||
+        s == hand::Segment::kRingDistal || s == hand::Segment::kLittleDistal) {
       paper = std::min(paper, lying.vertices[v].z());
     }
   }
-  const HandCreases creases(hand.skin, hand.skeleton);
-  const Vec3 wrist = down(hand_sections(hand.skin, hand.skeleton, creases).wrist_middle, palm_up);
+  const hand::HandCreases creases(hand.skin, hand.skeleton);
+  const Vec3 wrist =
+      down(hand::hand_sections(hand.skin, hand.skeleton, creases).wrist_middle, palm_up);
   const Eigen::Rotation2Dd about(model.turn);
   constexpr double kFlat = 0.3;  // mm
   for (Vec3& p : lying.vertices) {
@@ -128,13 +130,13 @@ TriangleMesh place_model(const Hand& hand, const PlacedModel& model, bool palm_u
   return lying;
 }
 
-ModelOutline match_model(const Hand& hand, const HandOutline& seen, const OutlineScene& scene,
+ModelOutline match_model(const hand::Hand& hand, const HandOutline& seen, const OutlineScene& scene,
                          const PlacedModel& start, int rounds) {
   const bool palm_up = scene.options.palm_up;
   const double sign = anticlockwise(hand.side, palm_up);
   ModelOutline result{start, {}, 0.0};
   for (int round = 0;; ++round) {
-    VoxelMask mask =
+    imaging::VoxelMask mask =
         silhouette(place_model(hand, result.model, palm_up), scene.sheet.eye, scene.grid);
     hold_inside(mask, scene.grid, seen.wrist);
     result.outline =
@@ -151,16 +153,16 @@ ModelOutline match_model(const Hand& hand, const HandOutline& seen, const Outlin
                                        seen.finger[2].tip - seen.wrist);
     result.model.turn += whole;
     result.model.place += seen.wrist - result.outline.wrist;
-    Posture& posture = result.model.posture;
-    const auto turn_by = [&](Dof dof, double angle) {
-      const JointDof& range = hand.skeleton.dof(dof);
+    hand::Posture& posture = result.model.posture;
+    const auto turn_by = [&](hand::Dof dof, double angle) {
+      const hand::JointDof& range = hand.skeleton.dof(dof);
       posture[dof] = std::clamp(posture[dof] + angle, range.lower, range.upper);
     };
     for (std::size_t f = 1; f < 5; ++f) turn_by(kAbduction[f - 1], sign * (off[f] - whole));
     // Extension at its root turns the thumb away from the fingers.
     constexpr double kGain = 0.7;
-    turn_by(Dof::kThumbCmcFlexion, -kGain * sign * (off[0] - whole));
+    turn_by(hand::Dof::kThumbCmcFlexion, -kGain * sign * (off[0] - whole));
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -5,7 +5,7 @@
 #include "hands/capture/sheet/outline_model.h"
 #include "palmar/population/person_estimate.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Standard errors of measures from an outline, mm: docs/method/outline.md says on whom they were
 /// found.
@@ -19,12 +19,13 @@ struct OutlineErrors {
 
 /// Measures of a person as an outline has them; not the thumb's length, which an outline shows no
 /// better than the rest of the hand does. `scale_error`: of all lengths, as a share.
-std::vector<KnownMeasure> measures_of(const HandOutline& outline, const OutlineErrors& errors,
-                                      double scale_error = 0.0);
+std::vector<population::KnownMeasure> measures_of(const HandOutline& outline,
+                                                  const OutlineErrors& errors,
+                                                  double scale_error = 0.0);
 
 /// What the user measured replaces what the photograph says of the same.
-std::vector<KnownMeasure> measures_together(std::vector<KnownMeasure> own,
-                                            const std::vector<KnownMeasure>& photo);
+std::vector<population::KnownMeasure> measures_together(
+    std::vector<population::KnownMeasure> own, const std::vector<population::KnownMeasure>& photo);
 
 /// Shares by which a hand may differ from the surveys' people of the same length and breadth, as
 /// standard deviations. The regressions' residuals are those of soldiers measured with one tape,
@@ -55,12 +56,12 @@ inline constexpr double kOwnWidth = 0.03;   ///< a measured width, which the reg
 inline constexpr double kOwnBreadth = 0.016;
 
 /// Widens what is said of an outline's person by these.
-void allow_for_build(PersonEstimate& estimate);
+void allow_for_build(population::PersonEstimate& estimate);
 
 struct OutlinePerson {
   HandOutline outline;  ///< with what its measures missed on the model taken off
-  PersonEstimate estimate;
-  Hand hand;  ///< in the person's size, of the photographed side
+  population::PersonEstimate estimate;
+  hand::Hand hand;  ///< in the person's size, of the photographed side
   int measures = 0;
   std::optional<ModelOutline> model;  ///< nothing: none could be placed as the hand lies
   std::vector<std::string> notes;
@@ -72,8 +73,9 @@ struct OutlinePerson {
 /// That takes care of height over the paper, of the slant of view and of where base creases lie
 /// beside webs, as far as hands are alike. `template_hand`: a right one; `seen`: measured in
 /// `scene`.
-OutlinePerson person_of_outline(const Hand& template_hand, const Population& population,
-                                const std::vector<KnownMeasure>& own, const HandOutline& seen,
-                                const OutlineScene& scene, int rounds = 3);
+OutlinePerson person_of_outline(const hand::Hand& template_hand,
+                                const population::Population& population,
+                                const std::vector<population::KnownMeasure>& own,
+                                const HandOutline& seen, const OutlineScene& scene, int rounds = 3);
 
-}  // namespace palmar
+}  // namespace palmar::capture

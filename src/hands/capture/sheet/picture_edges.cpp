@@ -10,7 +10,7 @@
 #include "hands/capture/picture_vectors.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// Homography from the unit square ((0,0), (1,0), (1,1), (0,1)) to four points (Heckbert 1989).
@@ -26,8 +26,8 @@ Eigen::Matrix3d from_unit_square(const std::array<Vec2, 4>& q) {
 
 }  // namespace
 
-RgbImage reduced_picture(const RgbImage& image, int by) {
-  RgbImage small{image.width / by, image.height / by, {}};
+geometry::RgbImage reduced_picture(const geometry::RgbImage& image, int by) {
+  geometry::RgbImage small{image.width / by, image.height / by, {}};
   small.rgb.resize(3 * static_cast<std::size_t>(small.width) * small.height);
   for (int y = 0; y < small.height; ++y) {
     for (int x = 0; x < small.width; ++x) {
@@ -153,8 +153,10 @@ std::optional<double> edge_width(const std::function<double(const Vec2&)>& brigh
       [&](const Vec2&, const Vec2&, const std::vector<double>& value) {
         // Levels well outside and well inside.
         const auto quarter = static_cast<std::ptrdiff_t>(value.size() / 4);
-        const double low = median(std::vector<double>(value.begin(), value.begin() + quarter)),
-                     high = median(std::vector<double>(value.end() - quarter, value.end()));
+        const double low = statistics::median(
+                         std::vector<double>(value.begin(), value.begin() + quarter)),
+                     high = statistics::median(
+                         std::vector<double>(value.end() - quarter, value.end()));
         if (high - low < search.rise) return;
         // The last place below a tenth before the first one above nine tenths.
         const double tenth = low + 0.1 * (high - low), most = low + 0.9 * (high - low);
@@ -171,7 +173,7 @@ std::optional<double> edge_width(const std::function<double(const Vec2&)>& brigh
         widths.push_back(at_end - at_begin);
       });
   if (widths.size() < kEdgePlaces / 4) return {};
-  return median(std::move(widths));
+  return statistics::median(std::move(widths));
 }
 
 SeenLine line_through(const std::vector<Vec2>& points) {
@@ -203,4 +205,4 @@ Eigen::Matrix3d homography_of(const std::array<Vec2, 4>& corner, double width, d
   return from_unit_square(corner) * unit_from_sheet;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

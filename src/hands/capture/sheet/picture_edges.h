@@ -10,10 +10,10 @@
 #include "hands/capture/sheet/line_fit.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// The picture, reduced by a whole number.
-RgbImage reduced_picture(const RgbImage& image, int by);
+geometry::RgbImage reduced_picture(const geometry::RgbImage& image, int by);
 
 /// Where two lines through a, b and c, d meet; nothing if they are as good as parallel.
 std::optional<Eigen::Vector2d> meeting(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
@@ -62,4 +62,4 @@ SeenLine line_through(const std::vector<Eigen::Vector2d>& points);
 Eigen::Matrix3d homography_of(const std::array<Eigen::Vector2d, 4>& corner, double width,
                               double height);
 
-}  // namespace palmar
+}  // namespace palmar::capture

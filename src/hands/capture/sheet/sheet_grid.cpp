@@ -11,14 +11,15 @@
 #include "hands/capture/picture_vectors.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kBlurredBorder = 1.5;  // mm
 constexpr double kBeside = 270.0;       // mm: as far as a hand beside a card reaches to either side
 constexpr double kAbove = 270.0;        // and from the line under its wrist
 
-RectifiedSheet drawn(const RgbImage& image, const SheetView& sheet, const SheetGrid& grid) {
+RectifiedSheet drawn(const geometry::RgbImage& image, const SheetView& sheet,
+                     const SheetGrid& grid) {
   RectifiedSheet result{grid, {}, {}};
   result.light.resize(grid.count());
   result.is_seen.resize(grid.count());
@@ -66,7 +67,7 @@ double SheetGrid::to_edge(const Eigen::Vector2d& p) const {
   return inside.minCoeff();
 }
 
-VolumeGrid SheetGrid::volume() const {
+imaging::VolumeGrid SheetGrid::volume() const {
   return {{width, height, 1}, Vec3(cell, cell, cell), Eigen::Matrix3d::Identity(), Vec3::Zero()};
 }
 
@@ -150,11 +151,11 @@ std::vector<Vec3f> level_light(RectifiedSheet& drawn, Ground ground) {
   return ground_light;
 }
 
-RectifiedSheet draw_sheet(const RgbImage& image, const SheetView& sheet, const SheetGrid& grid,
-                          Ground ground) {
+RectifiedSheet draw_sheet(const geometry::RgbImage& image, const SheetView& sheet,
+                          const SheetGrid& grid, Ground ground) {
   RectifiedSheet result = drawn(image, sheet, grid);
   level_light(result, ground);
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

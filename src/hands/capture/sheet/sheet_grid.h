@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "hands/capture/sheet/sheet_view.h"
-#include "palmar/geometry/mesh/textured_mesh.h"
 #include "hands/imaging/volume.h"
+#include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Square cells on a sheet or table, rows from the top, in the frame of its SheetView (mm). Below
 /// its lower edge (or, of a sheet, another one) lies the forearm.
@@ -26,7 +26,7 @@ struct SheetGrid {
   }
   /// From a point inside to the nearest edge, mm; negative outside.
   double to_edge(const Eigen::Vector2d& p) const;
-  VolumeGrid volume() const;
+  imaging::VolumeGrid volume() const;
 };
 
 /// Of a sheet: all of it but 1.5 mm at its edges, which are blurred.
@@ -52,7 +52,7 @@ std::vector<Eigen::Vector3f> level_light(RectifiedSheet& drawn, Ground ground);
 float linear_light(double srgb);
 
 /// Draws it and levels its light.
-RectifiedSheet draw_sheet(const RgbImage& image, const SheetView& sheet, const SheetGrid& grid,
-                          Ground ground);
+RectifiedSheet draw_sheet(const geometry::RgbImage& image, const SheetView& sheet,
+                          const SheetGrid& grid, Ground ground);
 
-}  // namespace palmar
+}  // namespace palmar::capture

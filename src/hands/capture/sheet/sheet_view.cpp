@@ -11,14 +11,14 @@
 #include "hands/capture/photo/photo_view.h"
 #include "hands/capture/picture_vectors.h"
 #include "hands/capture/sheet/picture_edges.h"
+#include "hands/imaging/connected_parts.h"
+#include "hands/imaging/otsu.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/convex_hull.h"
 #include "palmar/geometry/degrees.h"
-#include "hands/imaging/connected_parts.h"
-#include "hands/imaging/otsu.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr int kSmallSide = 700;       // pixels: of the picture in which the sheet is looked for
@@ -29,7 +29,7 @@ constexpr const char* kSheetAdvice =
     "place the hand on a white sheet of A4 on a darker table, all of the sheet in the picture";
 
 /// Pixels that are as bright and as grey as paper in this light.
-VoxelMask paper_of(const RgbImage& image) {
+imaging::VoxelMask paper_of(const geometry::RgbImage& image) {
   const std::size_t count = image.rgb.size() / 3;
   std::vector<double> heap(256, 0.0);
   const auto darkest = [&](std::size_t p) {
@@ -49,7 +49,7 @@ VoxelMask paper_of(const RgbImage& image) {
   }
   std::array<double, 3> paper{};
   for (std::size_t c = 0; c < 3; ++c) {
-    paper[c] = std::max(1.0, static_cast<double>(median(std::move(channel[c]))));
+    paper[c] = std::max(1.0, static_cast<double>(statistics::median(std::move(channel[c]))));
   }
   // Grey by that: separated from the table by brightness.
   std::vector<double> share(count, 0.0);
@@ -63,13 +63,13 @@ VoxelMask paper_of(const RgbImage& image) {
     share[p] = most - least < kColour * most ? least : 0.0;
     brightness[static_cast<std::size_t>(std::clamp(least, 0.0, 1.27) * 100.0)] += 1.0;
   }
-  const double limit = std::clamp(otsu_threshold(brightness) / 100.0, 0.35, 0.8);
-  VoxelMask mask(count, 0);
+  const double limit = std::clamp(imaging::otsu_threshold(brightness) / 100.0, 0.35, 0.8);
+  imaging::VoxelMask mask(count, 0);
   for (std::size_t p = 0; p < count; ++p) mask[p] = share[p] > limit ? 1 : 0;
   return mask;
 }
 
-double grey_at(const RgbImage& image, const Vec2& pixel) {
+double grey_at(const geometry::RgbImage& image, const Vec2& pixel) {
   return pixel_colour(image, pixel).minCoeff();
 }
 
@@ -117,7 +117,7 @@ struct Fit {
 
 /// The focal length that counts for one format: the camera's word; else what the sheet says if it
 /// is tilted enough to say something; else the usual one.
-Fit fit_of(const Eigen::Matrix3d& h, const SheetFormat& format, const RgbImage& image,
+Fit fit_of(const Eigen::Matrix3d& h, const SheetFormat& format, const geometry::RgbImage& image,
            const SheetOptions& options) {
   const Vec2 middle(0.5 * (image.width - 1), 0.5 * (image.height - 1));
   const Columns columns(h, middle);
@@ -157,7 +157,7 @@ struct PaperRim {
   int on_border = 0;  ///< of the picture
 };
 
-PaperRim rim_of(const VolumeGrid& grid, const ConnectedParts& parts,
+PaperRim rim_of(const imaging::VolumeGrid& grid, const imaging::ConnectedParts& parts,
                 const std::vector<char>& is_sheet) {
   PaperRim rim;
   const int width = grid.size[0], height = grid.size[1];
@@ -180,14 +180,14 @@ PaperRim rim_of(const VolumeGrid& grid, const ConnectedParts& parts,
 }
 
 /// The sheet within that rim, in a picture reduced `by` times to `width`.
-SheetView sheet_of(const RgbImage& image, const PaperRim& rim, int width, int by,
+SheetView sheet_of(const geometry::RgbImage& image, const PaperRim& rim, int width, int by,
                    const std::string& name, const SheetOptions& options) {
   if (rim.on_border > width / 20) {
     fail(name, fmt::format("what is white reaches the picture's border over {} of {} pixels: the "
                            "sheet isn't all in it, or the table is as white; {}",
                            rim.on_border * by, 2 * (image.width + image.height), kSheetAdvice));
   }
-  const std::vector<Vec2> hull = convex_hull(rim.points);
+  const std::vector<Vec2> hull = geometry::convex_hull(rim.points);
   const auto quad = hull.size() < 4 ? std::nullopt : four_sided(hull);
   const double hull_area = area_of(hull),
                quad_area = quad ? area_of({quad->begin(), quad->end()}) : 0.0;
@@ -288,7 +288,7 @@ SheetView sheet_of(const RgbImage& image, const PaperRim& rim, int width, int by
   r1 = (u + v).normalized();
   r2 = (u - v).normalized();
   view.eye = -Vec3(r1.dot(t), r2.dot(t), r1.cross(r2).dot(t));
-  view.tilt = std::acos(std::clamp(view.eye.z() / view.eye.norm(), -1.0, 1.0)) / kDegree;
+  view.tilt = std::acos(std::clamp(view.eye.z() / view.eye.norm(), -1.0, 1.0)) / geometry::kDegree;
   if (!(view.eye.z() > 0.0) || view.tilt > options.most_tilt) {
     fail(name,
          fmt::format("the photograph is taken {:.0f} degrees off the sheet's normal; up to {:.0f} "
@@ -355,7 +355,8 @@ Vec2 SheetView::pixel_of(const Vec2& sheet) const {
   return (pixel_from_sheet * sheet.homogeneous()).hnormalized();
 }
 
-SheetView find_sheet(const RgbImage& image, const std::string& name, const SheetOptions& options) {
+SheetView find_sheet(const geometry::RgbImage& image, const std::string& name,
+                     const SheetOptions& options) {
   options.check();
   const int longer = std::max(image.width, image.height);
   if (std::min(image.width, image.height) < 300) {
@@ -365,10 +366,10 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
                      image.width, image.height));
   }
   const int by = std::max(1, longer / kSmallSide);
-  const RgbImage small = reduced_picture(image, by);
-  const VolumeGrid grid{
+  const geometry::RgbImage small = reduced_picture(image, by);
+  const imaging::VolumeGrid grid{
       {small.width, small.height, 1}, Vec3::Ones(), Eigen::Matrix3d::Identity(), Vec3::Zero()};
-  const ConnectedParts parts = connected_parts(grid, paper_of(small));
+  const imaging::ConnectedParts parts = imaging::connected_parts(grid, paper_of(small));
   const int sheet = parts.largest();
   if (sheet < 0 ||
       static_cast<double>(parts.voxels[sheet]) < kLeastShare * static_cast<double>(grid.count())) {
@@ -400,4 +401,4 @@ SheetView find_sheet(const RgbImage& image, const std::string& name, const Sheet
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/textured_mesh.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// A sheet of paper or a card of known size, mm.
 struct SheetFormat {
@@ -73,7 +73,7 @@ std::optional<std::string> blurred(double edge_width, double pixel, const std::s
 /// meet. The lens has its axis in the picture's middle, square pixels and no distortion. Throws
 /// InputError `name`: no sheet, not all of it in the picture, hidden edges, too oblique, A4 and
 /// letter not distinguished, blurred.
-SheetView find_sheet(const RgbImage& image, const std::string& name,
+SheetView find_sheet(const geometry::RgbImage& image, const std::string& name,
                      const SheetOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,12 +8,12 @@
 #include <array>
 
 #include "hands/capture/picture_vectors.h"
-#include "palmar/core/error.h"
 #include "hands/imaging/connected_parts.h"
 #include "hands/imaging/otsu.h"
+#include "palmar/core/error.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kLeastRedness = 0.05;  // of skin over paper or table
@@ -45,7 +45,8 @@ float redness(const Vec3f& light) { return (light[0] - light[2]) / std::max(0.02
 }
 
 /// A hand beside cells that the picture doesn't show goes on there.
-void check_in_picture(const RectifiedSheet& sheet, const VoxelMask& mask, const std::string& name) {
+void check_in_picture(const RectifiedSheet& sheet, const imaging::VoxelMask& mask,
+                      const std::string& name) {
   const SheetGrid& grid = sheet.grid;
   for (int y = 1; y + 1 < grid.height; ++y) {
     for (int x = 2; x + 2 < grid.width; ++x) {
@@ -65,7 +66,7 @@ void check_in_picture(const RectifiedSheet& sheet, const VoxelMask& mask, const 
 
 }  // namespace
 
-VoxelMask skin_mask(const RectifiedSheet& sheet, Ground ground, const std::string& name) {
+imaging::VoxelMask skin_mask(const RectifiedSheet& sheet, Ground ground, const std::string& name) {
   const SheetGrid& grid = sheet.grid;
   const std::vector<Vec3f>& lights = sheet.light;
   constexpr double kLow = -0.1, kHigh = 0.7;
@@ -76,7 +77,7 @@ VoxelMask skin_mask(const RectifiedSheet& sheet, Ground ground, const std::strin
     const double t = (redness(light) - kLow) / (kHigh - kLow);
     heap[static_cast<std::size_t>(std::clamp(t, 0.0, 0.999) * kBins)] += 1.0;
   }
-  const double threshold = kLow + otsu_threshold(heap) * (kHigh - kLow) / kBins;
+  const double threshold = kLow + imaging::otsu_threshold(heap) * (kHigh - kLow) / kBins;
   std::array<std::vector<float>, 3> channel;
   double paper = 0.0, papers = 0.0;
   for (const Vec3f& light : lights) {
@@ -91,7 +92,7 @@ VoxelMask skin_mask(const RectifiedSheet& sheet, Ground ground, const std::strin
   Vec3f skin = Vec3f::Zero();
   for (std::size_t c = 0; c < 3; ++c) {
     if (channel[c].empty()) break;
-    skin[static_cast<int>(c)] = median(channel[c]);
+    skin[static_cast<int>(c)] = statistics::median(channel[c]);
   }
   paper = papers > 0.0 ? paper / papers : 0.0;
   const double area = static_cast<double>(channel[0].size()) * grid.cell * grid.cell;
@@ -117,21 +118,21 @@ VoxelMask skin_mask(const RectifiedSheet& sheet, Ground ground, const std::strin
   const Vec3f rise = skin - Vec3f::Ones();
   const bool is_brighter = skin.minCoeff() > 4.0F;
   constexpr float kLit = 0.15F;
-  VoxelMask mask(grid.count(), 0);
+  imaging::VoxelMask mask(grid.count(), 0);
   for (std::size_t p = 0; p < mask.size(); ++p) {
     const bool is_lit =
         !is_brighter || (lights[p] - Vec3f::Ones()).dot(rise) > kLit * rise.squaredNorm();
     mask[p] = is_lit && redness(lights[p]) > limit ? 1 : 0;
   }
-  const VolumeGrid volume = grid.volume();
-  mask = opened(volume, mask, 0.8);
-  const ConnectedParts parts = connected_parts(volume, mask);
+  const imaging::VolumeGrid volume = grid.volume();
+  mask = imaging::opened(volume, mask, 0.8);
+  const imaging::ConnectedParts parts = imaging::connected_parts(volume, mask);
   if (parts.count() == 0) fail_skin(name, "no hand is found");
-  mask = mask_of(parts, parts.largest());
+  mask = imaging::mask_of(parts, parts.largest());
   check_in_picture(sheet, mask, name);
-  VoxelMask outside(mask.size());
+  imaging::VoxelMask outside(mask.size());
   for (std::size_t p = 0; p < mask.size(); ++p) outside[p] = mask[p] == 0 ? 1 : 0;
-  const ConnectedParts holes = connected_parts(volume, outside);
+  const imaging::ConnectedParts holes = imaging::connected_parts(volume, outside);
   std::vector<char> is_open(holes.count(), 0);
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
@@ -158,4 +159,4 @@ VoxelMask skin_mask(const RectifiedSheet& sheet, Ground ground, const std::strin
   return mask;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

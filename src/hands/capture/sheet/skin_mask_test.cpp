@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::AllOf;
@@ -33,7 +33,7 @@ RectifiedSheet table(const IsRed& is_red) {
 }
 
 std::string refusal(const RectifiedSheet& sheet) {
-  return message_of<InputError>([&] { skin_mask(sheet, Ground::kTable, "photo.jpg"); });
+  return formats::message_of<InputError>([&] { skin_mask(sheet, Ground::kTable, "photo.jpg"); });
 }
 
 TEST(SkinMask, GrainOfATableIsNotTakenForTouchingFingers) {
@@ -52,4 +52,4 @@ TEST(SkinMask, FingersThatTouchAreStillNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

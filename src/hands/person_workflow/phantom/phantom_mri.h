@@ -5,35 +5,35 @@
 #include <string>
 #include <vector>
 
-#include "palmar/core/progress.h"
+#include "hands/person_workflow/phantom/phantom_postures.h"
 #include "hands/phantom/mri/mri_subject.h"
 #include "hands/phantom/mri/scan_grid.h"
+#include "palmar/core/progress.h"
 #include "palmar/workflow/note/note.h"
-#include "hands/person_workflow/phantom/phantom_postures.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// MR series (DICOM) of a synthetic person's hand, with the truth beside them
 /// (docs/method/phantom.md).
 struct PhantomMriRequest {
-  std::string out;                    ///< folder; mri/POSTURE and truth/ go into it
-  std::vector<ScanPosture> postures;  ///< which; none: all eight
-  MriSubjectOptions person;           ///< its seed chooses the person
-  ScanGridOptions grid;               ///< how the operator places the slices
-  ScannerOptions scanner;             ///< its seed follows from the person's
-  bool both_hands = false;            ///< the other hand lies beside it, on the patient's left
+  std::string out;                          ///< folder; mri/POSTURE and truth/ go into it
+  std::vector<hand::ScanPosture> postures;  ///< which; none: all eight
+  phantom::MriSubjectOptions person;        ///< its seed chooses the person
+  phantom::ScanGridOptions grid;            ///< how the operator places the slices
+  phantom::ScannerOptions scanner;          ///< its seed follows from the person's
+  bool both_hands = false;        ///< the other hand lies beside it, on the patient's left
   std::string base = "template";  ///< whose skin's outline the person starts from: "template" or
                                   ///< a *.hand.glb file
-  NoteSink note;                  ///< gets what an image doesn't show; may be empty
+  workflow::NoteSink note;        ///< gets what an image doesn't show; may be empty
 
   void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 
 struct PhantomMriOutcome {
   struct Series {
-    ScanPosture posture{};
+    hand::ScanPosture posture{};
     std::string folder;
-    VolumeGrid grid;
+    imaging::VolumeGrid grid;
   };
   PhantomPerson person;
   std::vector<Series> series;
@@ -44,4 +44,4 @@ struct PhantomMriOutcome {
 /// for `base`, OutputError, Cancelled.
 PhantomMriOutcome make_phantom_mri(const PhantomMriRequest& request, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

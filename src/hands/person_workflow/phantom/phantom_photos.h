@@ -5,25 +5,25 @@
 #include <optional>
 #include <string>
 
-#include "palmar/hand/person/scan_posture.h"
 #include "hands/capture/photo/board_pattern.h"
+#include "hands/phantom/photo/photographs.h"
 #include "palmar/core/progress.h"
 #include "palmar/hand/anatomy.h"
-#include "hands/phantom/photo/photographs.h"
+#include "palmar/hand/person/scan_posture.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// Photographs of a synthetic person's painted hand on the board, taken by a rig of cameras, with
 /// the truth beside them (docs/method/phantom.md).
 struct PhantomPhotosRequest {
   std::string out;  ///< folder; photos/, calibration/ and truth/ go into it
-  ScanPosture posture = ScanPosture::kReference;
-  Side side = Side::kRight;
-  bool is_free = false;            ///< the person, by kFreePerson
-  double restless = 0.0;           ///< see PaintedHandOptions::restless, take by position, mm
-  PhotographsOptions photographs;  ///< its seed chooses the person, too
-  BoardPattern board;
-  Srgb skin{0.80F, 0.60F, 0.50F};
+  hand::ScanPosture posture = hand::ScanPosture::kReference;
+  hand::Side side = hand::Side::kRight;
+  bool is_free = false;   ///< the person, by kFreePerson
+  double restless = 0.0;  ///< see PaintedHandOptions::restless, take by position, mm
+  phantom::PhotographsOptions photographs;  ///< its seed chooses the person, too
+  capture::BoardPattern board;
+  geometry::Srgb skin{0.80F, 0.60F, 0.50F};
   int calibration = 12;           ///< photographs of the tilted board per camera, 0 to 200
   int jpeg = 0;                   ///< JPEG of this quality (1 to 100) with what cameras say of
                                   ///< themselves; 0: PNG
@@ -46,4 +46,4 @@ struct PhantomPhotosOutcome {
 PhantomPhotosOutcome make_phantom_photos(const PhantomPhotosRequest& request,
                                          const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

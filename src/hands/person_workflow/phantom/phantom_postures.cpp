@@ -4,16 +4,16 @@
 
 #include <algorithm>
 
-namespace palmar {
+namespace palmar::person_workflow {
 
-std::vector<ScanPosture> sorted_postures(const std::vector<ScanPosture>& postures) {
-  std::vector<ScanPosture> sorted = postures;
-  for (int p = 0; postures.empty() && p < kScanPostureCount; ++p) {
-    sorted.push_back(static_cast<ScanPosture>(p));
+std::vector<hand::ScanPosture> sorted_postures(const std::vector<hand::ScanPosture>& postures) {
+  std::vector<hand::ScanPosture> sorted = postures;
+  for (int p = 0; postures.empty() && p < hand::kScanPostureCount; ++p) {
+    sorted.push_back(static_cast<hand::ScanPosture>(p));
   }
   std::sort(sorted.begin(), sorted.end());
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   return sorted;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "palmar/hand/person/scan_posture.h"
 #include "palmar/hand/anatomy.h"
+#include "palmar/hand/person/scan_posture.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// In the order of the enumeration, each once; all of them if none is named.
-std::vector<ScanPosture> sorted_postures(const std::vector<ScanPosture>& postures);
+std::vector<hand::ScanPosture> sorted_postures(const std::vector<hand::ScanPosture>& postures);
 
 /// What a phantom made, beside its scans.
 struct PhantomPerson {
   std::string name;
-  Side side = Side::kRight;
+  hand::Side side = hand::Side::kRight;
   std::string truth;  ///< file with what is known of the person: subject.json
 };
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -6,29 +6,29 @@
 #include <atomic>
 #include <filesystem>
 
-#include "palmar/core/error.h"
-#include "palmar/formats/test_files.h"
 #include "hands/person_workflow/phantom/phantom_mri.h"
 #include "hands/person_workflow/phantom/phantom_photos.h"
 #include "hands/person_workflow/phantom/phantom_scan.h"
 #include "hands/person_workflow/phantom/phantom_sheet.h"
+#include "palmar/core/error.h"
+#include "palmar/formats/test_files.h"
 
 // Requests for synthetic persons: refusals and cancelling; the persons themselves are tested where
 // they are made, the files with the whole program.
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 using ::testing::HasSubstr;
 
 template <typename Request>
 std::string refusal(const Request& request) {
-  return message_of<UsageError>([&] { request.check(); });
+  return formats::message_of<UsageError>([&] { request.check(); });
 }
 
 /// A request for files in the folder, and what it says without a folder.
 template <typename Request>
-Request request_in(const TestFolder& folder) {
+Request request_in(const formats::TestFolder& folder) {
   Request request;
   EXPECT_THAT(refusal(request), HasSubstr("setting \"out\" is empty"));
   request.out = (folder / "person").string();
@@ -37,7 +37,7 @@ Request request_in(const TestFolder& folder) {
 }
 
 TEST(PhantomRequests, NameTheSettingItsValueAndWhatIsAllowed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   auto mri = request_in<PhantomMriRequest>(folder);
   mri.grid.pixel = 90.0;
   EXPECT_THAT(refusal(mri), HasSubstr("90"));
@@ -56,7 +56,7 @@ TEST(PhantomRequests, NameTheSettingItsValueAndWhatIsAllowed) {
 }
 
 TEST(PhantomRequests, CancelledOnesLeaveNothing) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const std::atomic<bool> cancel{true};
   const Progress progress{.report = {}, .cancel = &cancel};
   EXPECT_THROW(make_phantom_mri(request_in<PhantomMriRequest>(folder), progress), Cancelled);
@@ -67,18 +67,19 @@ TEST(PhantomRequests, CancelledOnesLeaveNothing) {
 }
 
 TEST(PhantomRequests, AHandToStartFromThatIsNotThereIsNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   auto request = request_in<PhantomSheetRequest>(folder);
   request.base = "nowhere/base.hand.glb";
-  EXPECT_THAT(message_of<InputError>([&] { make_phantom_sheet(request); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { make_phantom_sheet(request); }),
               HasSubstr("nowhere/base.hand.glb"));
 }
 
 TEST(SortedPostures, ComeOnceAndInOrder) {
-  EXPECT_EQ(sorted_postures({ScanPosture::kGrasp, ScanPosture::kReference, ScanPosture::kGrasp}),
-            (std::vector{ScanPosture::kReference, ScanPosture::kGrasp}));
-  EXPECT_EQ(sorted_postures({}).size(), static_cast<std::size_t>(kScanPostureCount));
+  EXPECT_EQ(sorted_postures({hand::ScanPosture::kGrasp, hand::ScanPosture::kReference,
+                             hand::ScanPosture::kGrasp}),
+            (std::vector{hand::ScanPosture::kReference, hand::ScanPosture::kGrasp}));
+  EXPECT_EQ(sorted_postures({}).size(), static_cast<std::size_t>(hand::kScanPostureCount));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::person_workflow

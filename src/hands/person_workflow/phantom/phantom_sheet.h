@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "palmar/core/progress.h"
 #include "hands/phantom/photo/sheet_photograph.h"
+#include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// A photograph of a synthetic hand flat on a sheet of paper or beside a bank card, with the truth
 /// beside it (docs/method/phantom.md).
@@ -15,9 +15,9 @@ struct PhantomSheetRequest {
   std::string out;           ///< folder; photo.jpg, truth.json and the true shape go into it
   std::string sheet = "a4";  ///< "a4", "letter", "card" (a bank card beside the hand)
   bool is_free = false;      ///< the person, by kFreePerson
-  SheetPhotographOptions photograph;  ///< its seed chooses the person, too; size and thickness
-                                      ///< follow from `sheet`
-  Side side = Side::kRight;
+  phantom::SheetPhotographOptions photograph;  ///< its seed chooses the person, too; size and
+                                               ///< thickness follow from `sheet`
+  hand::Side side = hand::Side::kRight;
   double together = 0.0;  ///< 0: fingers spread; 1: side by side
   bool has_exif = true;   ///< the photograph says what lens took it
   std::string hand;       ///< one of Palmar's hands instead of a person of its own: "template"
@@ -37,4 +37,4 @@ struct PhantomSheetOutcome {
 PhantomSheetOutcome make_phantom_sheet(const PhantomSheetRequest& request,
                                        const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -7,7 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 constexpr std::string_view kHandEnding = ".hand.glb";
@@ -44,7 +44,7 @@ void require_writable(const std::filesystem::path& folder) {
     throw OutputError(folder.string() + ": there is no such folder to write to");
   }
   try {
-    write_file(trial, "");
+    formats::write_file(trial, "");
   } catch (const OutputError& error) {
     const std::string_view what = error.what();  // "FILE: can't be written: REASON"
     const std::size_t reason = what.rfind(": ");
@@ -57,7 +57,7 @@ void require_writable(const std::filesystem::path& folder) {
 WorkFolder::WorkFolder(const std::filesystem::path& path) : path_(path) {
   std::error_code ignored;
   is_new_ = !std::filesystem::exists(path, ignored);
-  create_folder(path);
+  formats::create_folder(path);
   require_writable(path);
 }
 
@@ -70,4 +70,4 @@ std::string hand_name_of(const std::string& out) {
   return std::filesystem::path(beside_hand(out, "")).filename().string();
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// Throws UsageError naming the setting "out" unless the path ends in .hand.glb.
 void check_hand_output(const std::string& out);
@@ -35,4 +35,4 @@ class WorkFolder {
   bool is_new_ = false;
 };
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 using ::testing::HasSubstr;
@@ -24,22 +24,22 @@ TEST(HandOutput, FilesBesideAHandBearItsName) {
 
 TEST(HandOutput, AHandFileHasItsEnding) {
   for (const char* const name : {"anna.glb", ".hand.glb", ""}) {
-    EXPECT_THAT(message_of<UsageError>([&] { check_hand_output(name); }),
+    EXPECT_THAT(formats::message_of<UsageError>([&] { check_hand_output(name); }),
                 HasSubstr("must end in .hand.glb"));
   }
   EXPECT_NO_THROW(check_hand_output("a.hand.glb"));
 }
 
 TEST(HandOutput, AFolderThatIsNotThereIsRefusedBeforeTheWork) {
-  EXPECT_EQ(message_of<OutputError>([] { require_writable("nowhere"); }),
+  EXPECT_EQ(formats::message_of<OutputError>([] { require_writable("nowhere"); }),
             "nowhere: there is no such folder to write to");
 }
 
 TEST(HandOutput, AnInputReachedByAnotherNameIsNoOutput) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   std::ofstream(folder / "scan.ply");
   std::filesystem::create_symlink(folder / "scan.ply", folder / "link.ply");
-  EXPECT_THAT(message_of<UsageError>([&] {
+  EXPECT_THAT(formats::message_of<UsageError>([&] {
                 refuse_overwriting((folder / "scan.ply").string(), (folder / "link.ply").string(),
                                    "scan");
               }),
@@ -49,7 +49,7 @@ TEST(HandOutput, AnInputReachedByAnotherNameIsNoOutput) {
 }
 
 TEST(WorkFolder, GoesIfNothingWasLeftInIt) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   { const WorkFolder work(folder / "empty"); }
   EXPECT_FALSE(std::filesystem::exists(folder / "empty"));
   {
@@ -60,4 +60,4 @@ TEST(WorkFolder, GoesIfNothingWasLeftInIt) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::person_workflow

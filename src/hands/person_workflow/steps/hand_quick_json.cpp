@@ -4,19 +4,19 @@
 
 #include "hands/person_workflow/hand_quick.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json photograph_json(const PhotographedHand& photo, const OutlinePerson& person) {
-  const SheetView& sheet = photo.scene.sheet;
-  const HandOutline& outline = person.outline;
+Json photograph_json(const PhotographedHand& photo, const capture::OutlinePerson& person) {
+  const capture::SheetView& sheet = photo.scene.sheet;
+  const capture::HandOutline& outline = person.outline;
   const auto point = [](const Eigen::Vector2d& p) { return Json{p.x(), p.y()}; };
   Json fingers = Json::object();
-  for (std::size_t f = 0; f < kFingerCount; ++f) {
-    const OutlineFinger& one = outline.finger[f];
-    Json& finger = fingers[std::string(name_of(static_cast<Finger>(f)))];
+  for (std::size_t f = 0; f < hand::kFingerCount; ++f) {
+    const capture::OutlineFinger& one = outline.finger[f];
+    Json& finger = fingers[std::string(name_of(static_cast<hand::Finger>(f)))];
     Json widths = Json::array();
     for (const double w : one.width) {
       if (w > 0.0) widths.push_back(w);
@@ -43,13 +43,13 @@ Json photograph_json(const PhotographedHand& photo, const OutlinePerson& person)
 
 }  // namespace
 
-std::string how_known(const EstimatedDimension& dimension) {
+std::string how_known(const population::EstimatedDimension& dimension) {
   return dimension.is_measured ? "measured" : name_of(dimension.evidence);
 }
 
 std::string hand_quick_json(const HandQuickOutcome& outcome) {
   Json dimensions = Json::object();
-  for (const EstimatedDimension& one : outcome.person.estimate.dimensions) {
+  for (const population::EstimatedDimension& one : outcome.person.estimate.dimensions) {
     dimensions[name_of(one.dimension)] = {
         {"value_mm", one.value}, {"sd_mm", one.sd}, {"how", how_known(one)}};
   }
@@ -62,4 +62,4 @@ std::string hand_quick_json(const HandQuickOutcome& outcome) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -12,23 +12,23 @@
 #include "hands/capture/mri/bones/bone_plausibility.h"
 #include "hands/capture/mri/bones/image_edge.h"
 #include "hands/capture/mri/grasp_contact.h"
+#include "hands/images/dicom.h"
+#include "hands/person_records/scan_surfaces_file.h"
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/core/version.h"
 #include "palmar/formats/file.h"
-#include "hands/images/dicom.h"
 #include "palmar/formats/sha256.h"
 #include "palmar/hand/mirror.h"
-#include "hands/person_records/scan_surfaces_file.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 /// Digest of all that the surfaces of a scan depend on.
-std::string key_of(const SelectedScan& selected, const SurfaceOptions& options) {
-  Sha256 digest;
+std::string key_of(const SelectedScan& selected, const capture::SurfaceOptions& options) {
+  formats::Sha256 digest;
   for (const std::string& file : selected.files) {
-    const std::string bytes = read_file(file);
+    const std::string bytes = formats::read_file(file);
     digest.add(fmt::format("{}:", bytes.size()));
     digest.add(bytes);
   }
@@ -39,15 +39,15 @@ std::string key_of(const SelectedScan& selected, const SurfaceOptions& options) 
   return digest.hex();
 }
 
-std::string folder_of(ScanPosture posture, const std::string& work) {
+std::string folder_of(hand::ScanPosture posture, const std::string& work) {
   return (std::filesystem::path(work) / name_of(posture)).string();
 }
 
 /// What the tag says about the side, held against the user's word or the anatomy.
-void check_laterality(RecordedScan& scan, const MriPipelineOptions& options) {
+void check_laterality(capture::RecordedScan& scan, const MriPipelineOptions& options) {
   if (scan.laterality.empty()) return;
   const bool says_left = scan.laterality == "L";
-  if (says_left == (scan.surfaces.side == Side::kLeft)) return;
+  if (says_left == (scan.surfaces.side == hand::Side::kLeft)) return;
   const std::string_view side = name_of(scan.surfaces.side);
   const std::string note = fmt::format(
       "{}: its tag Laterality says {}, but {}", scan.title, scan.laterality,
@@ -60,13 +60,13 @@ void check_laterality(RecordedScan& scan, const MriPipelineOptions& options) {
 
 /// Names that the user gives to bones of the reference count over those that were found. What is
 /// there is shown, also if a name is refused.
-void name_and_show(ScanSurfaces& reference, const Hand& model, const MriPipelineOptions& options,
-                   const Progress& progress) {
+void name_and_show(capture::ScanSurfaces& reference, const hand::Hand& model,
+                   const MriPipelineOptions& options, const Progress& progress) {
   const auto show = [&] {
     if (options.show_reference) options.show_reference(reference, progress);
   };
   try {
-    apply_bone_labels(reference, options.labels, model);
+    capture::apply_bone_labels(reference, options.labels, model);
   } catch (const InputError&) {
     show();
     throw;
@@ -75,9 +75,9 @@ void name_and_show(ScanSurfaces& reference, const Hand& model, const MriPipeline
 }
 
 /// Surfaces that an earlier run left, or that the user gave, maybe repaired.
-ScanSurfaces read_kept(const std::string& folder, bool is_users) {
+capture::ScanSurfaces read_kept(const std::string& folder, bool is_users) {
   try {
-    return read_scan_surfaces(folder);
+    return person_records::read_scan_surfaces(folder);
   } catch (const InputError& error) {
     if (is_users) throw;
     throw InputError(std::string(error.what()) + "; without the folder " + folder +
@@ -86,9 +86,9 @@ ScanSurfaces read_kept(const std::string& folder, bool is_users) {
 }
 
 /// A scan's image for comparing; nothing if there are only its surfaces.
-std::optional<ImageLevels> levels_of(const SelectedScan& selected) {
+std::optional<capture::ImageLevels> levels_of(const SelectedScan& selected) {
   if (selected.has_surfaces) return {};
-  return blurred_levels(read_image(selected.path, selected.choice).image);
+  return capture::blurred_levels(images::read_image(selected.path, selected.choice).image);
 }
 
 struct PlannedScan {
@@ -99,7 +99,7 @@ struct PlannedScan {
 
 /// What the reference scan shows of the others: the side, so that another one must be clearly the
 /// other hand's to be taken for it, and to which side the read-out shows fat.
-void take_from_reference(const ScanSurfaces& reference, SurfaceOptions& how) {
+void take_from_reference(const capture::ScanSurfaces& reference, capture::SurfaceOptions& how) {
   if (!how.side) {
     how.side = reference.side;
     how.doubted_below = 0.75;
@@ -113,10 +113,11 @@ void take_from_reference(const ScanSurfaces& reference, SurfaceOptions& how) {
 }
 
 /// `reference`: surfaces of the reference scan, once there are any.
-RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, const ScanSurfaces* reference,
-                         const MriPipelineOptions& options, const Progress& progress) {
+capture::RecordedScan surfaces_of(const PlannedScan& plan, const hand::Hand& model,
+                                  const capture::ScanSurfaces* reference,
+                                  const MriPipelineOptions& options, const Progress& progress) {
   const SelectedScan& selected = *plan.selected;
-  RecordedScan scan;
+  capture::RecordedScan scan;
   scan.posture = selected.posture;
   scan.title = selected.title;
   scan.was_kept = plan.is_kept;
@@ -128,30 +129,31 @@ RecordedScan surfaces_of(const PlannedScan& plan, const Hand& model, const ScanS
     if (options.surfaces.side) scan.surfaces.side = *options.surfaces.side;
     return scan;
   }
-  const ImageFile file = read_image(selected.path, selected.choice, part_of(progress, 0.0, 0.1));
+  const images::ImageFile file =
+      images::read_image(selected.path, selected.choice, part_of(progress, 0.0, 0.1));
   scan.laterality = file.laterality;
-  SurfaceOptions how = options.surfaces;
+  capture::SurfaceOptions how = options.surfaces;
   how.fat_shift = file.fat_shift;
   if (reference != nullptr) take_from_reference(*reference, how);
   scan.surfaces =
-      find_surfaces(file.image, selected.title, model, how, part_of(progress, 0.1, 1.0));
+      capture::find_surfaces(file.image, selected.title, model, how, part_of(progress, 0.1, 1.0));
   scan.surfaces.notes.insert(scan.surfaces.notes.begin(), file.notes.begin(), file.notes.end());
   check_laterality(scan, options);
-  mark_cut_fingers(scan.surfaces, file.image.grid);
-  const std::vector<std::string> cut = cut_bones_of_fingers(scan.surfaces);
+  capture::mark_cut_fingers(scan.surfaces, file.image.grid);
+  const std::vector<std::string> cut = capture::cut_bones_of_fingers(scan.surfaces);
   if (!cut.empty()) {
     scan.surfaces.notes.push_back(
         fmt::format("the edge of the image cuts {}", fmt::join(cut, ", ")));
   }
   progress.throw_if_cancelled();
-  write_scan_surfaces(folder, scan.surfaces, plan.key);
+  person_records::write_scan_surfaces(folder, scan.surfaces, plan.key);
   if (options.surfaces.side) scan.surfaces.side = *options.surfaces.side;
   return scan;
 }
 
 /// A hand of which the image shows a part only would come out too short.
-void require_whole(const RecordedScan& scan) {
-  const std::vector<std::string> cut = cut_bones_of_fingers(scan.surfaces);
+void require_whole(const capture::RecordedScan& scan) {
+  const std::vector<std::string> cut = capture::cut_bones_of_fingers(scan.surfaces);
   if (cut.empty()) return;
   throw InputError(
       fmt::format("{}: the edge of the image cuts the hand at {}; the reference must show it whole",
@@ -159,15 +161,15 @@ void require_whole(const RecordedScan& scan) {
 }
 
 /// Refuses scans that no hand can be made of, before the long work on the others.
-void require_bones(const RecordedScan& scan, const Hand& model) {
+void require_bones(const capture::RecordedScan& scan, const hand::Hand& model) {
   constexpr int kLeastPerFinger = 2;
   constexpr std::size_t kMostMissing = 5;  // of the 19 of fingers and palm
   std::vector<std::string> missing;
   std::string poor;
-  for (int f = 0; f < kFingerCount; ++f) {
-    const std::string_view finger = name_of(static_cast<Finger>(f));
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const std::string_view finger = name_of(static_cast<hand::Finger>(f));
     int seen = 0;
-    for (const Bone& bone : model.bones) {
+    for (const hand::Bone& bone : model.bones) {
       if (!bone.name.starts_with(finger)) continue;
       const bool is_seen = std::any_of(scan.surfaces.bones.begin(), scan.surfaces.bones.end(),
                                        [&](const auto& one) { return one.name == bone.name; });
@@ -183,10 +185,10 @@ void require_bones(const RecordedScan& scan, const Hand& model) {
       "bones that were found without a name; setting \"bone threshold\" above the {:.0f} that was "
       "used, where the rim of small bones is grey instead of dark; {}",
       scan.title, missing.size(), fmt::join(missing, ", "), kMostMissing, kLeastPerFinger,
-      scan.surfaces.bone_threshold, better_scan(scan.surfaces)));
+      scan.surfaces.bone_threshold, capture::better_scan(scan.surfaces)));
 }
 
-void require_same_side(const RecordedScan& scan, Side reference) {
+void require_same_side(const capture::RecordedScan& scan, hand::Side reference) {
   if (scan.surfaces.side == reference) return;
   throw InputError(scan.title + ": shows a " + std::string(name_of(scan.surfaces.side)) +
                    " hand, but the reference is a " + std::string(name_of(reference)) +
@@ -207,7 +209,8 @@ void require_sound_images(const std::vector<PlannedScan>& plans, bool accepts_od
     const double size = static_cast<double>(plans.size());
     const Progress part =
         part_of(progress, static_cast<double>(k) / size, static_cast<double>(k + 1) / size);
-    for (const std::string& odd : read_image(selected.path, selected.choice, part).odd_slices) {
+    for (const std::string& odd :
+         images::read_image(selected.path, selected.choice, part).odd_slices) {
       if (accepts_odd_slices) on_note(std::string(name_of(selected.posture)) + ": " + odd);
       damaged += odd + "\n";
     }
@@ -219,17 +222,19 @@ void require_sound_images(const std::vector<PlannedScan>& plans, bool accepts_od
 }
 
 /// What goes wrong here comes from bones that were found wrongly.
-ScannedHand make_hand(const Hand& model, const std::map<ScanPosture, ScanSurfaces>& surfaces,
-                      const ScanRecord& record, const Progress& progress) {
+capture::ScannedHand make_hand(const hand::Hand& model,
+                               const std::map<hand::ScanPosture, capture::ScanSurfaces>& surfaces,
+                               const capture::ScanRecord& record, const Progress& progress) {
   try {
-    ScannedHand made = make_scanned_hand(model, surfaces, record.joints, progress);
+    capture::ScannedHand made =
+        capture::make_scanned_hand(model, surfaces, record.joints, progress);
     const std::vector<std::string> impossible =
-        impossible_dimensions(made.hand.dimensions, model.dimensions);
+        capture::impossible_dimensions(made.hand.dimensions, model.dimensions);
     if (!impossible.empty()) throw InputError(fmt::format("{}", fmt::join(impossible, "; ")));
     return made;
   } catch (const InputError& error) {
-    const RecordedScan& reference = record.scans.front();
-    const std::vector<std::string> doubts = doubtful_bones(reference.surfaces, model);
+    const capture::RecordedScan& reference = record.scans.front();
+    const std::vector<std::string> doubts = capture::doubtful_bones(reference.surfaces, model);
     throw InputError(fmt::format(
         "{}: its bones and skin make no whole hand: {}. {}Look at the pictures; fingers that are "
         "curled or touch in the reference can be the cause, and so can bones",
@@ -264,7 +269,7 @@ struct MriStep {
 };
 
 /// The cause after the step, and where what was found lies.
-std::string refusal_message(const MriPipelineOptions& options, const ScanRecord& found,
+std::string refusal_message(const MriPipelineOptions& options, const capture::ScanRecord& found,
                             const MriStep& step, const std::string& cause) {
   const std::string about = step.posture.empty() ? "" : " (" + step.posture + ")";
   std::string message = fmt::format("step {}{} failed: {}", step.name, about, cause);
@@ -273,14 +278,14 @@ std::string refusal_message(const MriPipelineOptions& options, const ScanRecord&
   return where.empty() ? message : message + ". " + where;
 }
 
-void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
-               const MriPipelineOptions& options, const Progress& progress, ScanRecord& result,
-               MriStep& step) {
+void run_steps(const std::vector<SelectedScan>& scans, const hand::Hand& model,
+               const MriPipelineOptions& options, const Progress& progress,
+               capture::ScanRecord& result, MriStep& step) {
   const auto on_note = [&](const std::string& text) {
     result.notes.push_back(with_setting_names(text, options.setting_names));
-    note_to(options.note, result.notes.back());
+    workflow::note_to(options.note, result.notes.back());
   };
-  if (options.product && scans.back().posture != ScanPosture::kGrasp) {
+  if (options.product && scans.back().posture != hand::ScanPosture::kGrasp) {
     throw UsageError("setting \"product\" " + options.product->source +
                      ": none of the scans shows the posture grasp, in which it was held");
   }
@@ -292,7 +297,8 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
     PlannedScan plan{&selected, "", selected.has_surfaces};
     if (!selected.has_surfaces) {
       plan.key = key_of(selected, options.surfaces);
-      plan.is_kept = key_of_scan_surfaces(folder_of(selected.posture, options.work)) == plan.key;
+      plan.is_kept = person_records::key_of_scan_surfaces(
+                         folder_of(selected.posture, options.work)) == plan.key;
     }
     shares.plan(plan.is_kept ? kKept : kFound + kChecked);
     plans.push_back(std::move(plan));
@@ -309,17 +315,17 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
   for (const PlannedScan& plan : plans) {
     const std::string name(name_of(plan.selected->posture));
     step = {"surfaces", name};
-    const ScanSurfaces* const reference =
+    const capture::ScanSurfaces* const reference =
         result.scans.empty() ? nullptr : &result.scans.front().surfaces;
     result.scans.push_back(surfaces_of(plan, model, reference, options,
                                        shares.next(progress, plan.is_kept ? kKept : kFound, name)));
-    RecordedScan& scan = result.scans.back();
+    capture::RecordedScan& scan = result.scans.back();
     step = {"bones", name};
     if (result.scans.size() == 1) {
       name_and_show(scan.surfaces, model, options, shares.next(progress, kShown, ""));
     }
     for (const std::string& note : scan.surfaces.notes) on_note(name + ": " + note);
-    const std::vector<std::string> doubts = doubtful_bones(scan.surfaces, model);
+    const std::vector<std::string> doubts = capture::doubtful_bones(scan.surfaces, model);
     if (!doubts.empty()) {
       on_note(fmt::format(
           "{}: look at these bones, which may be found wrongly or bear a wrong name: {}{}", name,
@@ -327,7 +333,7 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
           result.scans.size() == 1
               ? ". Joints and lengths of the hand hang on them: name them by setting \"labels\", "
                 "mend their meshes, or make " +
-                    better_scan(scan.surfaces)
+                    capture::better_scan(scan.surfaces)
               : ""));
     }
     if (options.looks_only) return;
@@ -338,47 +344,48 @@ void run_steps(const std::vector<SelectedScan>& scans, const Hand& model,
     require_same_side(scan, result.scans.front().surfaces.side);
   }
 
-  const ScanSurfaces& reference = result.scans.front().surfaces;
-  std::optional<BoneImages> bones;
+  const capture::ScanSurfaces& reference = result.scans.front().surfaces;
+  std::optional<capture::BoneImages> bones;
   for (std::size_t k = 1; k < result.scans.size(); ++k) {
-    const RecordedScan& scan = result.scans[k];
+    const capture::RecordedScan& scan = result.scans[k];
     const Progress part = shares.next(progress, kTracked, std::string(name_of(scan.posture)));
     part.update(0.0, "reading");
     step = {"motions", std::string(name_of(scan.posture))};
     if (!bones) {
-      const std::optional<ImageLevels> image = levels_of(scans.front());
-      bones = image ? images_of_bones(reference, *image) : BoneImages();
+      const std::optional<capture::ImageLevels> image = levels_of(scans.front());
+      bones = image ? capture::images_of_bones(reference, *image) : capture::BoneImages();
     }
-    const std::optional<ImageLevels> image = levels_of(scans[k]);
+    const std::optional<capture::ImageLevels> image = levels_of(scans[k]);
     result.motions[scan.posture] =
-        track_bones(reference, scan.surfaces, {&*bones, image ? &*image : nullptr}, part);
+        capture::track_bones(reference, scan.surfaces, {&*bones, image ? &*image : nullptr}, part);
   }
 
   const Progress part = shares.next(progress, kMade, "");
   part.update(0.0, "joints");
   step = {"joints", ""};
-  const Hand sided = reference.side == model.side ? model : mirrored(model);
-  std::map<ScanPosture, ScanSurfaces> surfaces;
-  for (const RecordedScan& scan : result.scans) surfaces[scan.posture] = scan.surfaces;
-  result.joints = measure_joints(surfaces, result.motions, sided);
+  const hand::Hand sided = reference.side == model.side ? model : hand::mirrored(model);
+  std::map<hand::ScanPosture, capture::ScanSurfaces> surfaces;
+  for (const capture::RecordedScan& scan : result.scans) surfaces[scan.posture] = scan.surfaces;
+  result.joints = capture::measure_joints(surfaces, result.motions, sided);
   for (const std::string& note : result.joints.notes) on_note(note);
   step = {"hand", ""};
   result.made = make_hand(sided, surfaces, result, part_of(part, 0.1, 1.0));
   for (const std::string& note : result.made.notes) on_note(note);
-  const std::string doubt = length_doubt(result.made.hand.dimensions);
+  const std::string doubt = capture::length_doubt(result.made.hand.dimensions);
   if (!doubt.empty()) on_note(doubt);
   if (options.product) {
-    step = {"contact", std::string(name_of(ScanPosture::kGrasp))};
-    result.contact = grasp_contact(result, options.product->mesh, options.product->source);
+    step = {"contact", std::string(name_of(hand::ScanPosture::kGrasp))};
+    result.contact = capture::grasp_contact(result, options.product->mesh, options.product->source);
   }
   if (options.write) options.write(result, shares.next(progress, kWritten, ""));
 }
 
 }  // namespace
 
-ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& model,
-                            const MriPipelineOptions& options, const Progress& progress) {
-  ScanRecord result;
+capture::ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans,
+                                     const hand::Hand& model, const MriPipelineOptions& options,
+                                     const Progress& progress) {
+  capture::ScanRecord result;
   MriStep step;
   try {
     run_steps(scans, model, options, progress, result, step);
@@ -392,4 +399,4 @@ ScanRecord run_mri_pipeline(const std::vector<SelectedScan>& scans, const Hand& 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -9,14 +9,14 @@
 #include "hands/capture/mri/bones/bone_labels.h"
 #include "hands/capture/mri/bones/bone_plausibility.h"
 #include "hands/capture/mri/scan_image.h"
-#include "palmar/core/error.h"
-#include "palmar/core/progress_part.h"
 #include "hands/imaging/noise_floor.h"
 #include "hands/person_records/bone_label_file.h"
 #include "hands/person_records/scan_surfaces_file.h"
+#include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
 #include "palmar/workflow/hand/load_hand.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 void require_named(const std::string& value, const char* setting, const char* what) {
@@ -34,18 +34,19 @@ void require_sound_slices(const std::vector<std::string>& odd, bool is_accepted)
 
 }  // namespace
 
-MriImageInfo describe_mri_image(const std::string& image, const SeriesChoice& choice,
+MriImageInfo describe_mri_image(const std::string& image, const images::SeriesChoice& choice,
                                 const Progress& progress) {
   MriImageInfo info;
-  info.file = read_image(image, choice, part_of(progress, 0.0, 0.3));
-  const Volume& volume = info.file.image;
-  const VolumeGrid& grid = volume.grid;
+  info.file = images::read_image(image, choice, part_of(progress, 0.0, 0.3));
+  const imaging::Volume& volume = info.file.image;
+  const imaging::VolumeGrid& grid = volume.grid;
   const auto [least, most] = std::minmax_element(volume.value.begin(), volume.value.end());
   info.least = *least;
   info.most = *most;
   try {
-    const ScanLevels levels = scan_levels(volume, image, {}, part_of(progress, 0.3, 1.0));
-    info.air_threshold = with_noise_floor(levels.air_threshold, levels.floor);
+    const capture::ScanLevels levels =
+        capture::scan_levels(volume, image, {}, part_of(progress, 0.3, 1.0));
+    info.air_threshold = imaging::with_noise_floor(levels.air_threshold, levels.floor);
     info.noise = levels.noise;
   } catch (const InputError& error) {
     info.no_hand = error.what();
@@ -63,26 +64,28 @@ void MriSurfacesRequest::check() const {
 
 MriSurfacesOutcome find_mri_surfaces(const MriSurfacesRequest& request, const Progress& progress) {
   request.check();
-  const auto model = load_hand(request.model);
-  std::vector<BoneLabel> labels;
-  if (!request.labels.empty()) labels = read_bone_labels(request.labels);
-  const ImageFile file = read_image(request.image, request.choice, part_of(progress, 0.0, 0.1));
+  const auto model = workflow::load_hand(request.model);
+  std::vector<hand::BoneLabel> labels;
+  if (!request.labels.empty()) labels = person_records::read_bone_labels(request.labels);
+  const images::ImageFile file =
+      images::read_image(request.image, request.choice, part_of(progress, 0.0, 0.1));
   require_sound_slices(file.odd_slices, request.accepts_odd_slices);
   MriSurfacesOutcome outcome;
-  ScanSurfaces& surfaces = outcome.surfaces;
-  SurfaceOptions how = request.surfaces;
+  capture::ScanSurfaces& surfaces = outcome.surfaces;
+  capture::SurfaceOptions how = request.surfaces;
   how.fat_shift = file.fat_shift;
-  surfaces = find_surfaces(file.image, request.image, *model, how, part_of(progress, 0.1, 1.0));
+  surfaces =
+      capture::find_surfaces(file.image, request.image, *model, how, part_of(progress, 0.1, 1.0));
   if (request.surfaces.side) surfaces.side = *request.surfaces.side;
-  if (!labels.empty()) apply_bone_labels(surfaces, labels, *model);
-  write_scan_surfaces(request.out, surfaces, "");
+  if (!labels.empty()) capture::apply_bone_labels(surfaces, labels, *model);
+  person_records::write_scan_surfaces(request.out, surfaces, "");
   outcome.notes = file.notes;
   const auto add = [&](const std::vector<std::string>& notes) {
     outcome.notes.insert(outcome.notes.end(), notes.begin(), notes.end());
   };
   add(file.odd_slices);
   add(surfaces.notes);
-  const std::vector<std::string> doubts = doubtful_bones(surfaces, *model);
+  const std::vector<std::string> doubts = capture::doubtful_bones(surfaces, *model);
   if (!doubts.empty()) {
     outcome.notes.push_back(
         fmt::format("look at these bones, which may be found wrongly or bear a wrong name: {}",
@@ -96,18 +99,19 @@ void BoneMotionRequest::check() const {
   require_named(posture, "posture", "a folder of surfaces of another posture");
 }
 
-std::vector<BoneMotion> find_bone_motions(const BoneMotionRequest& request,
-                                          const Progress& progress) {
+std::vector<capture::BoneMotion> find_bone_motions(const BoneMotionRequest& request,
+                                                   const Progress& progress) {
   request.check();
-  const ScanSurfaces reference = read_scan_surfaces(request.reference);
-  const ScanSurfaces posture = read_scan_surfaces(request.posture);
-  if (!request.images) return track_bones(reference, posture, progress);
+  const capture::ScanSurfaces reference = person_records::read_scan_surfaces(request.reference);
+  const capture::ScanSurfaces posture = person_records::read_scan_surfaces(request.posture);
+  if (!request.images) return capture::track_bones(reference, posture, progress);
   const auto& [one, other] = *request.images;
-  const BoneImages bones = images_of_bones(
-      reference, blurred_levels(read_image(one, {}, part_of(progress, 0.0, 0.1)).image));
-  const ImageLevels levels =
-      blurred_levels(read_image(other, {}, part_of(progress, 0.1, 0.2)).image);
-  return track_bones(reference, posture, {&bones, &levels}, part_of(progress, 0.2, 1.0));
+  const capture::BoneImages bones = capture::images_of_bones(
+      reference,
+      capture::blurred_levels(images::read_image(one, {}, part_of(progress, 0.0, 0.1)).image));
+  const capture::ImageLevels levels =
+      capture::blurred_levels(images::read_image(other, {}, part_of(progress, 0.1, 0.2)).image);
+  return capture::track_bones(reference, posture, {&bones, &levels}, part_of(progress, 0.2, 1.0));
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

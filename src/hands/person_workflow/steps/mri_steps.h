@@ -9,16 +9,16 @@
 
 #include "hands/capture/mri/measured_joints.h"
 #include "hands/capture/mri/scan_surfaces.h"
-#include "palmar/core/progress.h"
 #include "hands/images/dicom.h"
+#include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 // Single steps of make_hand_from_mri(): what is in an image, its surfaces, how bones moved.
 
 /// An image and what its intensities show.
 struct MriImageInfo {
-  ImageFile file;
+  images::ImageFile file;
   float least = 0.0F, most = 0.0F;  ///< intensities of the file
   /// Up to which a voxel is taken for air, and the noise's standard deviation: those that
   /// find_mri_surfaces() uses. Nothing if the image shows no hand, or two.
@@ -28,23 +28,23 @@ struct MriImageInfo {
 };
 
 /// Reads a folder of DICOM files or an image file. Throws as read_image(); Cancelled.
-MriImageInfo describe_mri_image(const std::string& image, const SeriesChoice& choice = {},
+MriImageInfo describe_mri_image(const std::string& image, const images::SeriesChoice& choice = {},
                                 const Progress& progress = {});
 
 struct MriSurfacesRequest {
   std::string image;               ///< folder of DICOM files, one of several frames, NIfTI file
-  SeriesChoice choice;             ///< which of the folder's series, if there are several
+  images::SeriesChoice choice;     ///< which of the folder's series, if there are several
   std::string out;                 ///< folder to write: skin.ply, bones/*.ply, scan.json
   std::string labels;              ///< file with names for bones; empty: none
   std::string model = "template";  ///< hand whose bones give the names; any person's will do
-  SurfaceOptions surfaces;
+  capture::SurfaceOptions surfaces;
   bool accepts_odd_slices = false;  ///< a damaged slice spoils the surfaces near it, so going on is
                                     ///< a choice
   void check() const;               ///< throws UsageError: setting, value, what is allowed
 };
 
 struct MriSurfacesOutcome {
-  ScanSurfaces surfaces;
+  capture::ScanSurfaces surfaces;
   std::vector<std::string> notes;  ///< of the image, of odd slices, of what was found: sentences
 };
 
@@ -63,7 +63,7 @@ struct BoneMotionRequest {
 
 /// How every bone moved from one scan to another. Throws UsageError, InputError naming folder or
 /// image, Cancelled.
-std::vector<BoneMotion> find_bone_motions(const BoneMotionRequest& request,
-                                          const Progress& progress = {});
+std::vector<capture::BoneMotion> find_bone_motions(const BoneMotionRequest& request,
+                                                   const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

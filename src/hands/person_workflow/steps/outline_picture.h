@@ -6,11 +6,12 @@
 
 #include "hands/capture/sheet/hand_outline.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// A PNG of the photograph with sheet or card, outline, fingers' middle lines and wrist drawn on
 /// it; `model`: the outline of the hand that it was measured against, or null.
-std::string outline_picture(const RgbImage& photograph, const SheetView& sheet,
-                            const HandOutline& outline, const HandOutline* model = nullptr);
+std::string outline_picture(const geometry::RgbImage& photograph, const capture::SheetView& sheet,
+                            const capture::HandOutline& outline,
+                            const capture::HandOutline* model = nullptr);
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

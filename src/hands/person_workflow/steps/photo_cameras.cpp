@@ -8,28 +8,28 @@
 #include <cmath>
 
 #include "hands/capture/photo/surface/hand_motion.h"
+#include "hands/imaging/distance_transform.h"
+#include "hands/person_workflow/steps/photo_lenses.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/texture_file.h"
 #include "palmar/geometry/degrees.h"
-#include "hands/imaging/distance_transform.h"
-#include "hands/person_workflow/steps/photo_lenses.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 /// Lenses of another set are held against these photographs.
 void check_lenses(const PosedPhotographs& work) {
   for (std::size_t i = 0; i < work.set.photographs.size(); ++i) {
-    const PhotoFile& file = work.set.photographs[i];
+    const person_records::PhotoFile& file = work.set.photographs[i];
     const auto found = work.lenses.find(file.camera);
     if (found == work.lenses.end()) {
       throw InputError(fmt::format("{}: the lens of camera \"{}\" isn't among those given",
                                    file.path.string(), file.camera));
     }
-    const PhotoLens& lens = found->second.lens;
+    const capture::PhotoLens& lens = found->second.lens;
     if (work.seen[i].width != lens.width || work.seen[i].height != lens.height) {
       throw InputError(fmt::format(
           "{}: {} x {} pixels; the lens given for camera {} is for {} x {}", file.path.string(),
@@ -39,7 +39,7 @@ void check_lenses(const PosedPhotographs& work) {
 }
 
 /// Names of photographs, the first few.
-std::string some_names(const PhotoSet& set, const std::vector<std::size_t>& which) {
+std::string some_names(const person_records::PhotoSet& set, const std::vector<std::size_t>& which) {
   std::string text;
   constexpr std::size_t kMost = 4;
   for (std::size_t i = 0; i < std::min(kMost, which.size()); ++i) {
@@ -48,20 +48,21 @@ std::string some_names(const PhotoSet& set, const std::vector<std::size_t>& whic
   return text + (which.size() > kMost ? ", ..." : "");
 }
 
-double typical_sharpness(const std::vector<BoardSighting>& seen) {
+double typical_sharpness(const std::vector<person_records::BoardSighting>& seen) {
   std::vector<double> sharpness;
-  for (const BoardSighting& one : seen) sharpness.push_back(one.sharpness);
+  for (const person_records::BoardSighting& one : seen) sharpness.push_back(one.sharpness);
   const auto middle = sharpness.begin() + static_cast<long>(sharpness.size() / 2);
   std::nth_element(sharpness.begin(), middle, sharpness.end());
   return *middle;
 }
 
 /// Blur is why a board isn't seen, rather than what covers it.
-void refuse_blurred(const std::string& folder, const std::vector<BoardSighting>& seen) {
+void refuse_blurred(const std::string& folder,
+                    const std::vector<person_records::BoardSighting>& seen) {
   constexpr std::size_t kFewCorners = 8;
-  const auto lost = std::count_if(seen.begin(), seen.end(), [](const BoardSighting& one) {
-    return one.corners.size() < kFewCorners;
-  });
+  const auto lost = std::count_if(
+      seen.begin(), seen.end(),
+      [](const person_records::BoardSighting& one) { return one.corners.size() < kFewCorners; });
   // Noise alone makes steps of some hundredths of the range.
   constexpr double kBlurred = 0.1;
   const double typical = typical_sharpness(seen);
@@ -77,8 +78,8 @@ void find_poses(PosedPhotographs& work, const std::string& folder) {
   const double typical = typical_sharpness(work.seen);
   std::vector<std::size_t> lost, blurred;
   for (std::size_t i = 0; i < work.set.photographs.size(); ++i) {
-    const PhotoLens& lens = work.lenses.at(work.set.photographs[i].camera).lens;
-    std::optional<BoardPose> pose = find_board_pose(lens, work.seen[i].corners);
+    const capture::PhotoLens& lens = work.lenses.at(work.set.photographs[i].camera).lens;
+    std::optional<capture::BoardPose> pose = capture::find_board_pose(lens, work.seen[i].corners);
     constexpr double kWorst = 2.0;  // pixels
     if (pose && pose->rms > kWorst) pose.reset();
     if (pose) {
@@ -118,56 +119,60 @@ void read_photographs(PosedPhotographs& work, const Progress& progress) {
     progress.throw_if_cancelled();
     const auto k = static_cast<std::size_t>(n);
     const std::size_t i = work.used[k];
-    const PhotoFile& file = work.set.photographs[i];
-    Photograph& photograph = work.photographs[k];
+    const person_records::PhotoFile& file = work.set.photographs[i];
+    capture::Photograph& photograph = work.photographs[k];
     photograph.name = file.path.filename().string();
-    photograph.image = read_texture(read_file(file.path), file.path.string());
+    photograph.image = formats::read_texture(formats::read_file(file.path), file.path.string());
     photograph.camera = {work.lenses.at(file.camera).lens, work.pose[i]->camera_from_world};
     photograph.position = file.position;
   });
 }
 
 /// How the hand moved from position to position, from points of its skin.
-HandMotion find_motion(const std::vector<Photograph>& photographs, const PhotoModelOptions& options,
-                       const Progress& progress) {
+capture::HandMotion find_motion(const std::vector<capture::Photograph>& photographs,
+                                const capture::PhotoModelOptions& options,
+                                const Progress& progress) {
   const Vec3 middle = options.box.center();
-  const int reduction = reduction_for(photographs, middle, options.pixel);
-  std::vector<MatchPicture> pictures(photographs.size());
-  std::vector<PhotoCamera> cameras(photographs.size());
+  const int reduction = capture::reduction_for(photographs, middle, options.pixel);
+  std::vector<person_records::MatchPicture> pictures(photographs.size());
+  std::vector<capture::PhotoCamera> cameras(photographs.size());
   std::vector<int> positions;
-  PhotoMaskOptions mask_options = options.mask;
+  capture::PhotoMaskOptions mask_options = options.mask;
   mask_options.grow = 0.0;
   progress.update(0.0, "looking for motion of the hand");
   parallel_for(static_cast<int>(photographs.size()), [&](int i) {
     progress.throw_if_cancelled();
     const auto p = static_cast<std::size_t>(i);
-    const PhotoView view = make_view(photographs[p], reduction);
-    PhotoMask mask = mask_hand(view, options.box, options.board_half, mask_options);
+    const capture::PhotoView view = capture::make_view(photographs[p], reduction);
+    capture::PhotoMask mask =
+        capture::mask_hand(view, options.box, options.board_half, mask_options);
     cameras[p] = view.camera;
-    VolumeGrid grid;
+    imaging::VolumeGrid grid;
     grid.size = {view.width(), view.height(), 1};
     constexpr double kRim = 3.0;  // pixels; outlines belong to another point in every picture
-    MatchPicture& picture = pictures[p];
-    picture = {view.width(), view.height(), {}, eroded(grid, mask.inside, kRim)};
+    person_records::MatchPicture& picture = pictures[p];
+    picture = {view.width(), view.height(), {}, imaging::eroded(grid, mask.inside, kRim)};
     for (const float grey : view.grey) picture.grey.push_back(static_cast<std::uint8_t>(grey));
   });
-  for (const Photograph& photograph : photographs) positions.push_back(photograph.position);
+  for (const capture::Photograph& photograph : photographs)
+    positions.push_back(photograph.position);
   std::vector<std::array<int, 2>> pairs;
   constexpr double kWidest = 36.0;  // deg; beyond, points of the skin don't look alike
   for (std::size_t a = 0; a < photographs.size(); ++a) {
     for (std::size_t b = a + 1; b < photographs.size(); ++b) {
       const Vec3 one = (cameras[a].centre() - middle).normalized();
       const Vec3 other = (cameras[b].centre() - middle).normalized();
-      if (one.dot(other) > std::cos(kWidest * kDegree)) {
+      if (one.dot(other) > std::cos(kWidest * geometry::kDegree)) {
         pairs.push_back({static_cast<int>(a), static_cast<int>(b)});
       }
     }
   }
-  const PointMatches matches = match_points(pictures, pairs, part_of(progress, 0.2, 0.8));
-  return fit_hand_motion(cameras, positions, matches);
+  const capture::PointMatches matches =
+      person_records::match_points(pictures, pairs, part_of(progress, 0.2, 0.8));
+  return capture::fit_hand_motion(cameras, positions, matches);
 }
 
-void note_motion(PosedPhotographs& work, const HandMotion& motion) {
+void note_motion(PosedPhotographs& work, const capture::HandMotion& motion) {
   constexpr double kFarShift = 2.0, kFarTurn = 1.0;  // mm, deg
   constexpr int kFewTracks = 60;
   if (motion.tracks < kFewTracks) {
@@ -175,23 +180,25 @@ void note_motion(PosedPhotographs& work, const HandMotion& motion) {
         fmt::format("only {} points of the skin could be followed from position to position: "
                     "whether the hand moved can't be determined",
                     motion.tracks));
-  } else if (motion.largest_shift > kFarShift || motion.largest_turn > kFarTurn * kDegree) {
+  } else if (motion.largest_shift > kFarShift ||
+             motion.largest_turn > kFarTurn * geometry::kDegree) {
     work.warnings.push_back(fmt::format(
         "the hand moved by up to {:.1f} mm and {:.1f} deg between positions; this was corrected, a "
         "repeat with the wrist supported is better",
-        motion.largest_shift, motion.largest_turn / kDegree));
+        motion.largest_shift, motion.largest_turn / geometry::kDegree));
   }
 }
 
 }  // namespace
 
-PosedPhotographs pose_photographs(const std::string& folder, const PhotoSet& set,
-                                  const std::optional<PhotoLenses>& lenses,
-                                  const PhotoModelOptions& model, const PhotoMeshOptions& options,
-                                  const Progress& progress) {
+PosedPhotographs pose_photographs(const std::string& folder, const person_records::PhotoSet& set,
+                                  const std::optional<person_records::PhotoLenses>& lenses,
+                                  const capture::PhotoModelOptions& model,
+                                  const PhotoMeshOptions& options, const Progress& progress) {
   PosedPhotographs work;
   work.set = set;
-  work.seen = find_boards(set.board, paths_of(set), part_of(progress, 0.0, 0.33));
+  work.seen = person_records::find_boards(set.board, person_records::paths_of(set),
+                                          part_of(progress, 0.0, 0.33));
   refuse_blurred(folder, work.seen);
   work.lenses_were_given = lenses.has_value();
   if (lenses) {
@@ -217,7 +224,7 @@ PosedPhotographs pose_photographs(const std::string& folder, const PhotoSet& set
   work.motion = find_motion(work.photographs, model, part_of(progress, 0.5, 1.0));
   note_motion(work, work.motion);
   if (work.motion.is_applied) {
-    for (Photograph& photograph : work.photographs) {
+    for (capture::Photograph& photograph : work.photographs) {
       photograph.camera.camera_from_world =
           photograph.camera.camera_from_world *
           work.motion.board_from_hand[static_cast<std::size_t>(photograph.position)];
@@ -226,4 +233,4 @@ PosedPhotographs pose_photographs(const std::string& folder, const PhotoSet& set
   return work;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -10,14 +10,15 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 namespace fs = std::filesystem;
 
 namespace {
 
 /// Photographs of one camera have one size; the fewer ones are named.
-void check_sizes(const PhotoSet& set, const std::vector<BoardSighting>& seen) {
+void check_sizes(const person_records::PhotoSet& set,
+                 const std::vector<person_records::BoardSighting>& seen) {
   std::map<std::string, std::map<std::pair<int, int>, std::vector<std::size_t>>> by_size;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     by_size[set.photographs[i].camera][{seen[i].width, seen[i].height}].push_back(i);
@@ -39,28 +40,30 @@ void check_sizes(const PhotoSet& set, const std::vector<BoardSighting>& seen) {
 
 }  // namespace
 
-PhotoLenses calibrate_lenses(const PhotoSet& set, const std::vector<BoardSighting>& seen,
-                             const std::string& what) {
+person_records::PhotoLenses calibrate_lenses(const person_records::PhotoSet& set,
+                                             const std::vector<person_records::BoardSighting>& seen,
+                                             const std::string& what) {
   std::map<std::string, std::vector<std::size_t>> by_camera;
   for (std::size_t i = 0; i < set.photographs.size(); ++i) {
     by_camera[set.photographs[i].camera].push_back(i);
   }
   check_sizes(set, seen);
-  PhotoLenses lenses;
+  person_records::PhotoLenses lenses;
   for (const auto& [camera, photographs] : by_camera) {
-    std::vector<std::vector<BoardCorner>> corners;
-    const BoardSighting& first = seen[photographs.front()];
+    std::vector<std::vector<capture::BoardCorner>> corners;
+    const person_records::BoardSighting& first = seen[photographs.front()];
     for (const std::size_t i : photographs) corners.push_back(seen[i].corners);
-    LensExpectation expected;
+    capture::LensExpectation expected;
     const auto& exif = set.photographs[photographs.front()].exif;
     if (exif) expected.focal = exif->focal_pixels(first.width, first.height);
-    lenses[camera] =
-        calibrate_lens(first.width, first.height, corners, what + ": camera " + camera, expected);
+    lenses[camera] = capture::calibrate_lens(first.width, first.height, corners,
+                                             what + ": camera " + camera, expected);
   }
   return lenses;
 }
 
-std::vector<std::string> loose_lenses(const PhotoLenses& lenses, const std::string& advice) {
+std::vector<std::string> loose_lenses(const person_records::PhotoLenses& lenses,
+                                      const std::string& advice) {
   constexpr double kLoose = 3.0;  // pixels
   std::vector<std::string> loose;
   for (const auto& [camera, lens] : lenses) {
@@ -72,10 +75,11 @@ std::vector<std::string> loose_lenses(const PhotoLenses& lenses, const std::stri
   return loose;
 }
 
-PhotoLenses lenses_of(const std::string& path, const Progress& progress) {
-  if (!fs::is_directory(path)) return read_lenses(path);
-  const PhotoSet set = read_photo_set(path);
-  return calibrate_lenses(set, find_boards(set.board, paths_of(set), progress), path);
+person_records::PhotoLenses lenses_of(const std::string& path, const Progress& progress) {
+  if (!fs::is_directory(path)) return person_records::read_lenses(path);
+  const person_records::PhotoSet set = person_records::read_photo_set(path);
+  return calibrate_lenses(
+      set, person_records::find_boards(set.board, person_records::paths_of(set), progress), path);
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

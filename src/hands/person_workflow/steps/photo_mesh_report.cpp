@@ -7,17 +7,17 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of_mesh(const PosedPhotographs& work, const PhotoModel& model, double seconds) {
-  const HandMotion& motion = work.motion;
+Json json_of_mesh(const PosedPhotographs& work, const capture::PhotoModel& model, double seconds) {
+  const capture::HandMotion& motion = work.motion;
   Json photographs = Json::array();
   std::size_t k = 0;
   for (std::size_t i = 0; i < work.set.photographs.size(); ++i) {
-    const PhotoFile& file = work.set.photographs[i];
+    const person_records::PhotoFile& file = work.set.photographs[i];
     Json one = {{"file", file.path.filename().string()},
                 {"camera", file.camera},
                 {"position", file.position},
@@ -25,12 +25,12 @@ Json json_of_mesh(const PosedPhotographs& work, const PhotoModel& model, double 
                 {"sharpness", work.seen[i].sharpness},
                 {"is_used", work.pose[i].has_value()}};
     if (work.pose[i]) {
-      const Rigid3& pose = work.pose[i]->camera_from_world;
-      const PhotoUse& use = model.photographs[k++];
+      const geometry::Rigid3& pose = work.pose[i]->camera_from_world;
+      const capture::PhotoUse& use = model.photographs[k++];
       one["board_residual_px"] = work.pose[i]->rms;
       one["rotation_wxyz"] = {pose.rotation.w(), pose.rotation.x(), pose.rotation.y(),
                               pose.rotation.z()};
-      one["translation_mm"] = vector3(pose.translation);
+      one["translation_mm"] = records::vector3(pose.translation);
       one["mask_share"] = use.mask_share;
       one["around_share"] = use.around_share;
       one["glare_share"] = use.glare_share;
@@ -41,20 +41,20 @@ Json json_of_mesh(const PosedPhotographs& work, const PhotoModel& model, double 
     photographs.push_back(std::move(one));
   }
   Json moves = Json::array();
-  for (const Rigid3& one : motion.board_from_hand) {
+  for (const geometry::Rigid3& one : motion.board_from_hand) {
     moves.push_back({{"rotation_wxyz",
                       {one.rotation.w(), one.rotation.x(), one.rotation.y(), one.rotation.z()}},
-                     {"translation_mm", vector3(one.translation)}});
+                     {"translation_mm", records::vector3(one.translation)}});
   }
   return {{"lenses_were_given", work.lenses_were_given},
-          {"lenses", Json::parse(format_lenses(work.lenses)).at("cameras")},
+          {"lenses", Json::parse(person_records::format_lenses(work.lenses)).at("cameras")},
           {"motion",
            {{"points", motion.tracks},
             {"median_residual_px", motion.after},
             {"median_residual_without_px", motion.before},
             {"is_corrected", motion.is_applied},
             {"largest_shift_mm", motion.largest_shift},
-            {"largest_turn_deg", motion.largest_turn * kDegreesPerRadian},
+            {"largest_turn_deg", motion.largest_turn * geometry::kDegreesPerRadian},
             {"board_from_hand", std::move(moves)}}},
           {"reduction", model.reduction},
           {"hull_volume_mm3", model.hull_volume},
@@ -84,7 +84,7 @@ PhotoMeshReport report_of(const Json& json) {
   report.motion_is_corrected = motion.at("is_corrected").get<bool>();
   report.motion_points = motion.at("points").get<int>();
   report.largest_shift = motion.at("largest_shift_mm").get<double>();
-  report.largest_turn = motion.at("largest_turn_deg").get<double>() / kDegreesPerRadian;
+  report.largest_turn = motion.at("largest_turn_deg").get<double>() / geometry::kDegreesPerRadian;
   report.residual_before = motion.at("median_residual_without_px").get<double>();
   report.residual_after = motion.at("median_residual_px").get<double>();
   report.points = json.at("points").get<std::size_t>();
@@ -97,7 +97,7 @@ PhotoMeshReport report_of(const Json& json) {
 
 }  // namespace
 
-PhotoMeshReport photo_mesh_report(const PosedPhotographs& work, const PhotoModel& model,
+PhotoMeshReport photo_mesh_report(const PosedPhotographs& work, const capture::PhotoModel& model,
                                   double seconds, const std::string& key,
                                   const std::string& mesh_digest) {
   Json json = json_of_mesh(work, model, seconds);
@@ -118,4 +118,4 @@ std::optional<PhotoMeshReport> read_photo_mesh_report(const std::string& json,
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

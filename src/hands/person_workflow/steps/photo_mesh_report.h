@@ -10,7 +10,7 @@
 #include "hands/capture/photo/photo_model.h"
 #include "hands/person_workflow/steps/photo_cameras.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// What became of a set of photographs: the file beside the mesh, and what people are shown of it.
 struct PhotoMeshReport {
@@ -30,7 +30,7 @@ struct PhotoMeshReport {
 
 /// `key`: digest of all that the mesh depends on; `mesh_digest`: SHA-256 of the mesh's file;
 /// `seconds`: that making it took.
-PhotoMeshReport photo_mesh_report(const PosedPhotographs& work, const PhotoModel& model,
+PhotoMeshReport photo_mesh_report(const PosedPhotographs& work, const capture::PhotoModel& model,
                                   double seconds, const std::string& key,
                                   const std::string& mesh_digest);
 
@@ -39,4 +39,4 @@ std::optional<PhotoMeshReport> read_photo_mesh_report(const std::string& json,
                                                       const std::string& key,
                                                       const std::string& mesh_digest);
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

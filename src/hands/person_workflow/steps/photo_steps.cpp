@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "palmar/core/error.h"
-#include "palmar/core/progress_part.h"
-#include "palmar/formats/file.h"
 #include "hands/person_records/photo_worker.h"
 #include "hands/person_workflow/steps/hand_output.h"
 #include "hands/person_workflow/steps/photo_lenses.h"
+#include "palmar/core/error.h"
+#include "palmar/core/progress_part.h"
+#include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 void require_folder(const std::string& folder) {
@@ -25,7 +25,7 @@ void require_folder(const std::string& folder) {
 
 /// The board in millimetres, with a ruler of 100 mm to check the print with. One path of dark runs,
 /// rows of cells by rows.
-std::string board_svg(const BoardPattern& board, const BoardPicture& picture) {
+std::string board_svg(const capture::BoardPattern& board, const capture::BoardPicture& picture) {
   constexpr double kMargin = 12.0;  // mm
   const double edge = board.edge(), pixel = edge / picture.pixels;
   const double width = edge + 2.0 * kMargin, height = width + 14.0;
@@ -82,8 +82,8 @@ void draw_photo_board(const PhotoBoardRequest& request) {
   // Markers begin between the cells of a grid only if both lengths are whole numbers of them; a
   // fine picture does for any.
   constexpr int kPixelsPerSquare = 144;
-  const BoardPicture picture = draw_board(request.board, kPixelsPerSquare);
-  write_file(request.out, board_svg(request.board, picture));
+  const capture::BoardPicture picture = person_records::draw_board(request.board, kPixelsPerSquare);
+  formats::write_file(request.out, board_svg(request.board, picture));
 }
 
 void PhotoLensesRequest::check() const {
@@ -94,11 +94,12 @@ void PhotoLensesRequest::check() const {
 PhotoLensesOutcome calibrate_photo_lenses(const PhotoLensesRequest& request,
                                           const Progress& progress) {
   request.check();
-  const PhotoSet set = read_photo_set(request.folder);
+  const person_records::PhotoSet set = person_records::read_photo_set(request.folder);
   PhotoLensesOutcome outcome;
-  outcome.lenses =
-      calibrate_lenses(set, find_boards(set.board, paths_of(set), progress), request.folder);
-  write_file(request.out, format_lenses(outcome.lenses));
+  outcome.lenses = calibrate_lenses(
+      set, person_records::find_boards(set.board, person_records::paths_of(set), progress),
+      request.folder);
+  formats::write_file(request.out, person_records::format_lenses(outcome.lenses));
   outcome.notes =
       loose_lenses(outcome.lenses, "add photographs with the board tilted in other ways");
   return outcome;
@@ -116,18 +117,19 @@ PhotoMeshOutcome make_mesh_from_photos(const PhotoMeshRequest& request, const Pr
   request.check();
   require_writable(folder_of(request.out));
   const PhotoMeshOptions& options = request.options;
-  std::optional<PhotoLenses> lenses;
+  std::optional<person_records::PhotoLenses> lenses;
   if (!options.lenses.empty()) {
     lenses = lenses_of(options.lenses, part_of(progress, 0.0, 0.05));
   }
   const PhotoMeshPlan plan = plan_photo_mesh(request.folder, request.out, lenses, options);
-  note_to(request.note, plan.kept ? request.out + " is there already, made of the same photographs"
-                                  : fmt::format("{} photographs; this takes about {:.0f} s",
-                                                plan.set.photographs.size(), plan.seconds));
+  workflow::note_to(request.note,
+                    plan.kept ? request.out + " is there already, made of the same photographs"
+                              : fmt::format("{} photographs; this takes about {:.0f} s",
+                                            plan.set.photographs.size(), plan.seconds));
   PhotoMeshOutcome outcome;
   outcome.report = make_planned_mesh(plan, lenses, options, part_of(progress, 0.05, 1.0));
   outcome.report_file = report_beside(request.out).string();
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -6,20 +6,20 @@
 #include <vector>
 
 #include "hands/capture/photo/board_pattern.h"
-#include "palmar/core/progress.h"
-#include "palmar/core/setting_names.h"
 #include "hands/person_records/photo_set.h"
 #include "hands/person_workflow/steps/photo_mesh.h"
+#include "palmar/core/progress.h"
+#include "palmar/core/setting_names.h"
 #include "palmar/workflow/note/note.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 // Single steps of make_hand_from_photos(): the board to print, lenses, the mesh.
 
 struct PhotoBoardRequest {
-  std::string out;     ///< the drawing, .svg in millimetres
-  BoardPattern board;  ///< squares and markers; fits on A2 as it is
-  void check() const;  ///< throws UsageError: setting, value, what is allowed
+  std::string out;              ///< the drawing, .svg in millimetres
+  capture::BoardPattern board;  ///< squares and markers; fits on A2 as it is
+  void check() const;           ///< throws UsageError: setting, value, what is allowed
 };
 
 /// Draws the board that the hand stands on, with a ruler to check the print with. Throws
@@ -34,7 +34,7 @@ struct PhotoLensesRequest {
 };
 
 struct PhotoLensesOutcome {
-  PhotoLenses lenses;
+  person_records::PhotoLenses lenses;
   std::vector<std::string> notes;  ///< cameras that photographs showed little of
 };
 
@@ -47,8 +47,8 @@ struct PhotoMeshRequest {
   std::string folder;  ///< photographs of a hand on the middle of the board, from all round
   std::string out;     ///< the mesh, .ply; its report goes beside it, .json
   PhotoMeshOptions options;
-  NoteSink note;       ///< gets how long it takes; may be empty
-  void check() const;  ///< throws UsageError: setting, value, what is allowed
+  workflow::NoteSink note;  ///< gets how long it takes; may be empty
+  void check() const;       ///< throws UsageError: setting, value, what is allowed
 };
 
 struct PhotoMeshOutcome {
@@ -62,4 +62,4 @@ struct PhotoMeshOutcome {
 PhotoMeshOutcome make_mesh_from_photos(const PhotoMeshRequest& request,
                                        const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -11,38 +11,38 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
-std::optional<ScanPosture> posture_in_name(const std::string& path) {
+std::optional<hand::ScanPosture> posture_in_name(const std::string& path) {
   std::string name = std::filesystem::path(path).stem().string();
-  if (const auto known = scan_posture_in(name)) return known;
+  if (const auto known = hand::scan_posture_in(name)) return known;
   name = lower_case(name);
-  std::optional<ScanPosture> found;
-  const auto look = [&](std::string_view word, ScanPosture posture) {
+  std::optional<hand::ScanPosture> found;
+  const auto look = [&](std::string_view word, hand::ScanPosture posture) {
     if (name.find(word) != std::string::npos && !found) found = posture;
   };
   if (name.find("thumb") != std::string::npos) {
-    look("flex", ScanPosture::kThumbFlexion);
-    look("ext", ScanPosture::kThumbExtension);
-    look("abd", ScanPosture::kThumbAbduction);
-    look("add", ScanPosture::kThumbAdduction);
+    look("flex", hand::ScanPosture::kThumbFlexion);
+    look("ext", hand::ScanPosture::kThumbExtension);
+    look("abd", hand::ScanPosture::kThumbAbduction);
+    look("add", hand::ScanPosture::kThumbAdduction);
     return found;
   }
-  look("natural", ScanPosture::kReference);
-  look("open", ScanPosture::kReference);
-  look("flex", ScanPosture::kFingerFlexion);
-  look("fist", ScanPosture::kFingerFlexion);
-  look("bent", ScanPosture::kFingerFlexion);
-  look("abduct", ScanPosture::kFingerAbduction);
-  look("spread", ScanPosture::kFingerAbduction);
+  look("natural", hand::ScanPosture::kReference);
+  look("open", hand::ScanPosture::kReference);
+  look("flex", hand::ScanPosture::kFingerFlexion);
+  look("fist", hand::ScanPosture::kFingerFlexion);
+  look("bent", hand::ScanPosture::kFingerFlexion);
+  look("abduct", hand::ScanPosture::kFingerAbduction);
+  look("spread", hand::ScanPosture::kFingerAbduction);
   return found;
 }
 
-std::map<ScanPosture, std::string> files_by_posture(
-    const std::vector<std::string>& paths, const std::map<std::string, ScanPosture>& stated,
+std::map<hand::ScanPosture, std::string> files_by_posture(
+    const std::vector<std::string>& paths, const std::map<std::string, hand::ScanPosture>& stated,
     const std::string& what) {
-  std::map<ScanPosture, std::string> files;
-  const auto put = [&](ScanPosture posture, const std::string& path) {
+  std::map<hand::ScanPosture, std::string> files;
+  const auto put = [&](hand::ScanPosture posture, const std::string& path) {
     const auto [place, is_new] = files.try_emplace(posture, path);
     if (!is_new) {
       throw UsageError(
@@ -62,14 +62,14 @@ std::map<ScanPosture, std::string> files_by_posture(
     } else if (const auto named = posture_in_name(path)) {
       put(*named, path);
     } else if (paths.size() == 1) {
-      put(ScanPosture::kReference, path);
+      put(hand::ScanPosture::kReference, path);
     } else {
       throw UsageError(path +
                        ": its name doesn't give the posture (reference, finger_flexion, "
                        "finger_abduction); setting \"posture\" FILE=POSTURE does");
     }
   }
-  if (!files.contains(ScanPosture::kReference)) {
+  if (!files.contains(hand::ScanPosture::kReference)) {
     throw UsageError(
         "no " + what +
         " shows the reference posture (fingers stretched, a little apart); it is needed");
@@ -77,4 +77,4 @@ std::map<ScanPosture, std::string> files_by_posture(
   return files;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "palmar/hand/person/scan_posture.h"
 #include "hands/capture/scan/hand_from_scan.h"
 #include "hands/capture/scan/skin_marks.h"
+#include "hands/person_report/hand_scan_report.h"
 #include "palmar/core/language.h"
 #include "palmar/core/progress.h"
-#include "hands/person_report/hand_scan_report.h"
+#include "palmar/hand/person/scan_posture.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// How a hand is made of surfaces, whether they were scanned or photographed.
 struct ScanHandOptions {
@@ -23,8 +23,8 @@ struct ScanHandOptions {
   std::string model = "template";  ///< hand whose segments, regions and joints are aligned with the
                                    ///< surface: "template" or a *.hand.glb file
   std::string name;                ///< of the hand; empty: that of the file
-  std::optional<Side> side;        ///< nothing: found from the shape
-  SkinMarkOptions inks;            ///< colours of the drawn creases and dots, diameter of the dots
+  std::optional<hand::Side> side;  ///< nothing: found from the shape
+  capture::SkinMarkOptions inks;   ///< colours of the drawn creases and dots, diameter of the dots
   std::string marks;  ///< file with names of drawn marks, those to leave out and to add: marks.csv
                       ///< of an earlier run, edited; empty: none
   std::string known;  ///< file of what is known of the person (read_person()); its side and marks
@@ -42,9 +42,10 @@ struct ScanHandOptions {
 };
 
 struct ScanHandOutcome {
-  HandFromScan made;   ///< with the notes of every step; nothing of a hand if only looked at
-  std::string report;  ///< page; empty: none was written
-  std::string found;   ///< sheet of what was found, found.png; empty: none was written
+  capture::HandFromScan made;  ///< with the notes of every step; nothing of a hand if only looked
+                               ///< at
+  std::string report;          ///< page; empty: none was written
+  std::string found;           ///< sheet of what was found, found.png; empty: none was written
 };
 
 /// Surfaces to the hand that `options` name, with the report in `work`. `shown`: surfaces in mm
@@ -52,9 +53,9 @@ struct ScanHandOutcome {
 /// number in `work` (found.png, found.toml to be edited), if there is a report or nothing else is
 /// wanted. `notes` come before those of this step. Throws
 /// InputError, OutputError, Cancelled.
-ScanHandOutcome make_hand_of_surfaces(const ScanHandOptions& options, const std::string& work,
-                                      const std::map<ScanPosture, ShownScan>& shown,
-                                      const std::vector<std::string>& notes,
-                                      const Progress& progress);
+ScanHandOutcome make_hand_of_surfaces(
+    const ScanHandOptions& options, const std::string& work,
+    const std::map<hand::ScanPosture, person_report::ShownScan>& shown,
+    const std::vector<std::string>& notes, const Progress& progress);
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

@@ -11,14 +11,14 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 namespace fs = std::filesystem;
 
 struct Assignment {
   std::string which, text;  ///< "3", "3=thumb_flexion"
-  ScanPosture posture{};
+  hand::ScanPosture posture{};
   bool is_used = false;
 };
 
@@ -38,13 +38,13 @@ struct Candidate {
   std::string refusal;              ///< why it can't be used; empty if it can
 };
 
-std::string title_of(const DicomSeries& series, const std::string& path) {
+std::string title_of(const images::DicomSeries& series, const std::string& path) {
   return fmt::format("series {} \"{}\" of {}", series.number, series.description, path);
 }
 
 /// The series of a folder, or of one DICOM file.
 void add_series(const std::string& path, std::vector<Candidate>& candidates) {
-  for (const DicomSeries& series : find_dicom_series(path)) {
+  for (const images::DicomSeries& series : images::find_dicom_series(path)) {
     Candidate one;
     one.refusal = series.refusal;
     one.scan.files = series.files;
@@ -100,8 +100,8 @@ bool is_meant(const Assignment& assignment, const Candidate& candidate) {
   return !is_number && candidate.description.find(assignment.which) != std::string::npos;
 }
 
-std::optional<ScanPosture> posture_of(const Candidate& candidate,
-                                      std::vector<Assignment>& assignments) {
+std::optional<hand::ScanPosture> posture_of(const Candidate& candidate,
+                                            std::vector<Assignment>& assignments) {
   const Assignment* first = nullptr;
   for (Assignment& assignment : assignments) {
     if (!is_meant(assignment, candidate)) continue;
@@ -113,8 +113,8 @@ std::optional<ScanPosture> posture_of(const Candidate& candidate,
     first = &assignment;
   }
   if (first != nullptr) return first->posture;
-  if (const auto posture = scan_posture_in(candidate.description)) return posture;
-  return scan_posture_in(candidate.folder);
+  if (const auto posture = hand::scan_posture_in(candidate.description)) return posture;
+  return hand::scan_posture_in(candidate.folder);
 }
 
 std::string listed(const std::vector<Candidate>& candidates) {
@@ -126,7 +126,7 @@ std::string listed(const std::vector<Candidate>& candidates) {
 /// Series that can't be used: one that should show a posture is an error, as the hand would lack
 /// what it shows; a localiser, or a second series of a posture that there is, is passed over.
 void pass_over(const std::string& path, const std::vector<Candidate>& refused,
-               const std::map<ScanPosture, Candidate>& found, bool has_others,
+               const std::map<hand::ScanPosture, Candidate>& found, bool has_others,
                std::vector<Assignment>& assignments, std::vector<std::string>& notes) {
   std::string damaged;
   for (const Candidate& one : refused) {
@@ -136,7 +136,7 @@ void pass_over(const std::string& path, const std::vector<Candidate>& refused,
       continue;
     }
     damaged += (damaged.empty() ? "" : "\n") + one.scan.title + " can't be used: " + one.refusal +
-               (*posture == ScanPosture::kReference
+               (*posture == hand::ScanPosture::kReference
                     ? "; the reference is needed"
                     : "; restore it, or make the hand without it by setting \"skip\" " +
                           std::string(name_of(*posture)));
@@ -153,7 +153,7 @@ void pass_over(const std::string& path, const std::vector<Candidate>& refused,
 
 ScanSelection select_scans(const std::vector<std::string>& paths,
                            const std::vector<SeriesPosture>& assigned,
-                           const std::vector<ScanPosture>& skipped) {
+                           const std::vector<hand::ScanPosture>& skipped) {
   std::vector<Assignment> assignments = assignments_of(assigned);
 
   ScanSelection selection;
@@ -161,7 +161,7 @@ ScanSelection select_scans(const std::vector<std::string>& paths,
   for (const std::string& path : paths) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) throw InputError(path + ": there is no such file or folder");
-    if (is_dicom_file(path)) {
+    if (images::is_dicom_file(path)) {
       add_series(path, candidates);
       continue;
     }
@@ -173,7 +173,7 @@ ScanSelection select_scans(const std::vector<std::string>& paths,
     for (const fs::path& folder : surfaces) candidates.push_back(surfaces_candidate(folder));
     if (surfaces.empty()) add_series(path, candidates);
   }
-  std::map<ScanPosture, Candidate> found;
+  std::map<hand::ScanPosture, Candidate> found;
   std::vector<Candidate> unnamed, refused;
   for (const Candidate& candidate : candidates) {
     const auto posture = posture_of(candidate, assignments);
@@ -203,14 +203,14 @@ ScanSelection select_scans(const std::vector<std::string>& paths,
                      listed(candidates));
   }
   pass_over(paths.front(), refused, found, !unnamed.empty(), assignments, selection.notes);
-  if (found.count(ScanPosture::kReference) == 0) {
+  if (found.count(hand::ScanPosture::kReference) == 0) {
     if (!found.empty() || unnamed.size() != 1) {
       throw UsageError(
           "none of the series is the reference posture; say which with setting \"series\" "
           "NUMBER=reference. There are" +
           listed(candidates));
     }
-    found.emplace(ScanPosture::kReference, unnamed.front());
+    found.emplace(hand::ScanPosture::kReference, unnamed.front());
     selection.notes.push_back(unnamed.front().scan.title + " is taken as the reference posture");
     unnamed.clear();
   }
@@ -226,4 +226,4 @@ ScanSelection select_scans(const std::vector<std::string>& paths,
   return selection;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

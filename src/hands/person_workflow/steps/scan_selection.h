@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "palmar/hand/person/scan_posture.h"
 #include "hands/images/dicom.h"
+#include "palmar/hand/person/scan_posture.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 
 /// An image and the posture that it shows.
 struct SelectedScan {
-  ScanPosture posture{};
-  std::string path;     ///< DICOM folder or image file
-  SeriesChoice choice;  ///< of the folder's series
-  std::string title;    ///< for people: "series 3 \"T1 thumb flexion\" of scans/"
+  hand::ScanPosture posture{};
+  std::string path;             ///< DICOM folder or image file
+  images::SeriesChoice choice;  ///< of the folder's series
+  std::string title;            ///< for people: "series 3 \"T1 thumb flexion\" of scans/"
   std::vector<std::string> files;
   bool has_surfaces = false;  ///< `path` is a folder of `palmar mri surfaces`, no image
 };
@@ -23,7 +23,7 @@ struct SelectedScan {
 /// What a series shows, as the user says.
 struct SeriesPosture {
   std::string which;  ///< number of the series, or part of its description or of the file's name
-  ScanPosture posture{};
+  hand::ScanPosture posture{};
 };
 
 struct ScanSelection {
@@ -41,6 +41,6 @@ struct ScanSelection {
 /// two show one posture, an assignment fits none.
 ScanSelection select_scans(const std::vector<std::string>& paths,
                            const std::vector<SeriesPosture>& assigned,
-                           const std::vector<ScanPosture>& skipped);
+                           const std::vector<hand::ScanPosture>& skipped);
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

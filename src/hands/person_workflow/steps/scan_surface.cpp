@@ -18,25 +18,26 @@
 #include "palmar/geometry/repair/orient.h"
 #include "palmar/geometry/repair/weld.h"
 
-namespace palmar {
+namespace palmar::person_workflow {
 namespace {
 
 constexpr double kShortest = 140.0, kLongest = 480.0;  // mm; hand, hand with forearm
 constexpr double kShortestBent = 70.0;                 // mm; a small fist, where the unit is known
 
-double extent_of(const TriangleMesh& mesh) {
+double extent_of(const geometry::TriangleMesh& mesh) {
   Box3 box;
   for (const Vec3& v : mesh.vertices) box.extend(v);
   return box.sizes().maxCoeff();
 }
 
-LengthUnit unit_of(const std::string& path, double extent, std::optional<LengthUnit> stated) {
-  const auto fits = [&](LengthUnit unit) {
-    const double size = extent * millimetres_per(unit);
+geometry::LengthUnit unit_of(const std::string& path, double extent,
+                             std::optional<geometry::LengthUnit> stated) {
+  const auto fits = [&](geometry::LengthUnit unit) {
+    const double size = extent * geometry::millimetres_per(unit);
     return size >= kShortest && size <= kLongest;
   };
   if (stated) {
-    const double size = extent * millimetres_per(*stated);
+    const double size = extent * geometry::millimetres_per(*stated);
     if (!(size >= kShortestBent && size <= kLongest)) {
       throw InputError(fmt::format(
           "{}: is {:.4g} {} long; a hand with or without a forearm has {:g} (bent) to "
@@ -46,10 +47,11 @@ LengthUnit unit_of(const std::string& path, double extent, std::optional<LengthU
     }
     return *stated;
   }
-  std::vector<LengthUnit> possible;
+  std::vector<geometry::LengthUnit> possible;
   std::string names;
-  for (const LengthUnit unit :
-       {LengthUnit::kMillimetre, LengthUnit::kCentimetre, LengthUnit::kMetre, LengthUnit::kInch}) {
+  for (const geometry::LengthUnit unit :
+       {geometry::LengthUnit::kMillimetre, geometry::LengthUnit::kCentimetre,
+        geometry::LengthUnit::kMetre, geometry::LengthUnit::kInch}) {
     if (!fits(unit)) continue;
     possible.push_back(unit);
     names += (names.empty() ? "" : " or ") + name_of(unit);
@@ -65,7 +67,7 @@ LengthUnit unit_of(const std::string& path, double extent, std::optional<LengthU
                                path, extent, names));
 }
 
-void drop_unused_vertices(TriangleMesh& mesh, SurfaceColours& colours) {
+void drop_unused_vertices(geometry::TriangleMesh& mesh, geometry::SurfaceColours& colours) {
   constexpr int kUnused = -1;
   std::vector<int> renumbered(mesh.vertices.size(), kUnused);
   for (const Triangle& t : mesh.triangles) {
@@ -88,7 +90,7 @@ void drop_unused_vertices(TriangleMesh& mesh, SurfaceColours& colours) {
 
 /// The piece with the largest area that isn't flat, as a table is: whose least extent (root of the
 /// least moment of its area) is a twentieth of its largest one or more. All flat: the largest.
-int largest_solid(const TriangleMesh& mesh, const std::vector<int>& piece, int pieces) {
+int largest_solid(const geometry::TriangleMesh& mesh, const std::vector<int>& piece, int pieces) {
   struct Moments {
     double area = 0.0;
     Vec3 first = Vec3::Zero();
@@ -127,15 +129,15 @@ int largest_solid(const TriangleMesh& mesh, const std::vector<int>& piece, int p
 }
 
 /// Keeps the hand's piece, without what else was scanned.
-void keep_largest_piece(const std::string& path, TriangleMesh& mesh, SurfaceColours& colours,
-                        std::vector<std::string>& notes) {
+void keep_largest_piece(const std::string& path, geometry::TriangleMesh& mesh,
+                        geometry::SurfaceColours& colours, std::vector<std::string>& notes) {
   // Scanning programs leave vertices double along seams.
-  WeldOptions options;
+  geometry::WeldOptions options;
   options.drops_duplicates = false;
   options.drops_unused_vertices = false;
-  const WeldResult joined = weld(mesh, options);
+  const geometry::WeldResult joined = geometry::weld(mesh, options);
   const std::vector<int> piece_of_joined =
-      triangle_components(joined.mesh, build_topology(joined.mesh));
+      geometry::triangle_components(joined.mesh, geometry::build_topology(joined.mesh));
   std::vector<int> piece(mesh.triangles.size(), -1);  // -1: collapses
   int pieces = 0;
   for (std::size_t t = 0; t < piece_of_joined.size(); ++t) {
@@ -164,18 +166,18 @@ void keep_largest_piece(const std::string& path, TriangleMesh& mesh, SurfaceColo
   drop_unused_vertices(mesh, colours);
 }
 
-double mean_edge(const TriangleMesh& mesh) {
+double mean_edge(const geometry::TriangleMesh& mesh) {
   // Of equilateral triangles.
-  return std::sqrt(surface_area(mesh) / mesh.triangle_count() / 0.433);
+  return std::sqrt(geometry::surface_area(mesh) / mesh.triangle_count() / 0.433);
 }
 
 }  // namespace
 
-ReadSurface read_scan_surface(const std::string& path, std::optional<LengthUnit> unit) {
-  ColouredMeshFile file = read_coloured_mesh(path);
+ReadSurface read_scan_surface(const std::string& path, std::optional<geometry::LengthUnit> unit) {
+  formats::ColouredMeshFile file = formats::read_coloured_mesh(path);
   ReadSurface result;
   for (const std::string& text : file.shape.notes) result.notes.push_back(path + ": " + text);
-  TriangleMesh& mesh = file.shape.mesh;
+  geometry::TriangleMesh& mesh = file.shape.mesh;
   keep_largest_piece(path, mesh, file.colours, result.notes);
   const double extent = extent_of(mesh);
   result.unit = unit_of(path, extent, unit ? unit : file.shape.unit);
@@ -183,13 +185,13 @@ ReadSurface read_scan_surface(const std::string& path, std::optional<LengthUnit>
     result.notes.push_back(
         fmt::format("{}: taken for {}, as it is {:.4g} long", path, name_of(result.unit), extent));
   }
-  for (Vec3& v : mesh.vertices) v *= millimetres_per(result.unit);
+  for (Vec3& v : mesh.vertices) v *= geometry::millimetres_per(result.unit);
   constexpr double kFine = 0.7;  // mm: dots of 3 mm need four edges across
   if (file.colours.empty()) {
     result.surface.mesh = std::move(mesh);
     result.notes.push_back(path + ": has no colours; drawn creases and dots can't be seen");
   } else if (!file.colours.textures.empty()) {
-    result.surface = coloured_mesh(mesh, file.colours, kFine);
+    result.surface = geometry::coloured_mesh(mesh, file.colours, kFine);
   } else {
     constexpr double kCoarse = 1.3;  // mm
     if (mean_edge(mesh) > kCoarse) {
@@ -201,7 +203,7 @@ ReadSurface read_scan_surface(const std::string& path, std::optional<LengthUnit>
     result.surface = {std::move(mesh), std::move(file.colours.vertex),
                       std::move(file.colours.is_guess)};
   }
-  const OrientResult oriented = orient_outwards(result.surface.mesh);
+  const geometry::OrientResult oriented = geometry::orient_outwards(result.surface.mesh);
   if (!oriented.flipped_triangles.empty()) {
     result.notes.push_back(
         path + ": " +
@@ -212,12 +214,12 @@ ReadSurface read_scan_surface(const std::string& path, std::optional<LengthUnit>
   return result;
 }
 
-Srgb colour_near(const ReadSurface& scan, const std::string& setting, const Vec3& point) {
-  const Vec3 at = millimetres_per(scan.unit) * point;
+geometry::Srgb colour_near(const ReadSurface& scan, const std::string& setting, const Vec3& point) {
+  const Vec3 at = geometry::millimetres_per(scan.unit) * point;
   if (scan.surface.colour.empty()) {
     throw InputError("setting \"" + setting + "\": the scan has no colours");
   }
-  Srgb sum = Srgb::Zero();
+  geometry::Srgb sum = geometry::Srgb::Zero();
   float count = 0.0F;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < scan.surface.colour.size(); ++v) {
@@ -235,4 +237,4 @@ Srgb colour_near(const ReadSurface& scan, const std::string& setting, const Vec3
   return sum / count;
 }
 
-}  // namespace palmar
+}  // namespace palmar::person_workflow

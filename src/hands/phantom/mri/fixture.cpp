@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hands/phantom/mri/subject_tissues.h"
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
-#include "hands/phantom/mri/subject_tissues.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 constexpr double kSpacing = 1.5;               // mm, of the relief
@@ -17,8 +17,8 @@ constexpr double kThickness = 12.0;            // below the deepest point, mm
 
 }  // namespace
 
-TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
-  const RayQuery rays(skin);
+geometry::TriangleMesh fixture_mesh(const geometry::TriangleMesh& skin, const Vec3& wrist) {
+  const geometry::RayQuery rays(skin);
   const int columns = static_cast<int>(2.0 * kHalfWidth / kSpacing) + 1;
   const int rows = static_cast<int>((kEnd - kBegin) / kSpacing) + 1;
   const auto place = [&](int column, int row) -> Vec3 {
@@ -32,7 +32,7 @@ TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
     for (int column = 0; column < columns; ++column) {
       Vec3 from = place(column, row);
       from.z() = wrist.z() - 150.0;
-      const std::vector<RayHit> hits = rays.all_hits(from, Vec3::UnitZ());
+      const std::vector<geometry::RayHit> hits = rays.all_hits(from, Vec3::UnitZ());
       double z = wrist.z() - 2.0;
       if (!hits.empty()) z = std::max(z, from.z() + hits.back().distance);
       palmar[node(column, row)] = z;
@@ -50,7 +50,7 @@ TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
       }
     }
   }
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       Vec3 v = place(column, row);
@@ -89,10 +89,10 @@ TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist) {
     wall(node(columns - 1, row), node(columns - 1, row + 1));
     wall(node(0, row + 1), node(0, row));
   }
-  if (signed_volume(mesh) < 0.0) {
+  if (geometry::signed_volume(mesh) < 0.0) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   }
   return mesh;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

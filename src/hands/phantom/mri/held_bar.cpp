@@ -7,7 +7,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/rotation.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 constexpr double kHalfLength = 70.0;  // mm
@@ -29,12 +29,12 @@ void flatten_on(const HeldBar& bar, std::vector<Vec3>& skin) {
   }
 }
 
-TriangleMesh bar_mesh(const HeldBar& bar) {
-  TriangleMesh mesh = make_cylinder(
+geometry::TriangleMesh bar_mesh(const HeldBar& bar) {
+  geometry::TriangleMesh mesh = geometry::make_cylinder(
       {.radius = bar.radius, .length = 2.0 * kHalfLength, .segments = 72, .rings = 48});
-  const Quat turn = shortest_rotation(Vec3::UnitZ(), bar.axis);
+  const Quat turn = geometry::shortest_rotation(Vec3::UnitZ(), bar.axis);
   for (Vec3& v : mesh.vertices) v = bar.point + turn * v;
   return mesh;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// A round bar in a closed hand; hand frame, mm.
 struct HeldBar {
@@ -19,6 +19,6 @@ struct HeldBar {
 void flatten_on(const HeldBar& bar, std::vector<Vec3>& skin);
 
 /// Closed, 140 mm long.
-TriangleMesh bar_mesh(const HeldBar& bar);
+geometry::TriangleMesh bar_mesh(const HeldBar& bar);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "hands/phantom/person/smooth_noise.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
@@ -19,9 +20,8 @@
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/repair/weld.h"
-#include "hands/phantom/person/smooth_noise.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 enum DefectStream : std::uint64_t { kRough = 70, kColour, kPlace, kRipples };
@@ -39,8 +39,8 @@ std::vector<Vec3> directions(int count) {
 }
 
 /// Share of all directions in which each triangle sees the open.
-std::vector<double> openness(const TriangleMesh& mesh) {
-  const RayQuery rays(mesh);
+std::vector<double> openness(const geometry::TriangleMesh& mesh) {
+  const geometry::RayQuery rays(mesh);
   const std::vector<Vec3> ways = directions(64);
   std::vector<double> share(mesh.triangles.size());
   parallel_for(mesh.triangle_count(), [&](int t) {
@@ -57,16 +57,16 @@ std::vector<double> openness(const TriangleMesh& mesh) {
   return share;
 }
 
-ColouredMesh kept(const ColouredMesh& surface, const std::vector<char>& keep) {
-  TriangleMesh mesh{surface.mesh.vertices, {}};
+geometry::ColouredMesh kept(const geometry::ColouredMesh& surface, const std::vector<char>& keep) {
+  geometry::TriangleMesh mesh{surface.mesh.vertices, {}};
   for (std::size_t t = 0; t < keep.size(); ++t) {
     if (keep[t]) mesh.triangles.push_back(surface.mesh.triangles[t]);
   }
-  WeldOptions options;
+  geometry::WeldOptions options;
   options.tolerance = 0.0;
   options.drops_duplicates = false;
-  const WeldResult welded = weld(mesh, options);
-  ColouredMesh result{welded.mesh, {}};
+  const geometry::WeldResult welded = geometry::weld(mesh, options);
+  geometry::ColouredMesh result{welded.mesh, {}};
   for (const int old : welded.old_of_new) result.colour.push_back(surface.colour[old]);
   return result;
 }
@@ -86,7 +86,7 @@ void ScanDefects::check() const {
   hold("colour_noise", colour_noise, 0.0, 0.5);
 }
 
-ScannedSurface scanned_surface(const ColouredMesh& hand, double wrist_y,
+ScannedSurface scanned_surface(const geometry::ColouredMesh& hand, double wrist_y,
                                const ScanDefects& defects) {
   defects.check();
   const std::vector<double> open = openness(hand.mesh);
@@ -100,10 +100,10 @@ ScannedSurface scanned_surface(const ColouredMesh& hand, double wrist_y,
   }
   ScannedSurface scan;
   scan.surface = kept(hand, keep);
-  TriangleMesh& mesh = scan.surface.mesh;
+  geometry::TriangleMesh& mesh = scan.surface.mesh;
   RandomStream rough(defects.seed, kRough), colour(defects.seed, kColour);
   const SmoothNoise longer(defects.seed, kRipples, 8.0), shorter(defects.seed + 1, kRipples, 3.0);
-  const std::vector<Vec3> normal = vertex_normals(mesh);
+  const std::vector<Vec3> normal = geometry::vertex_normals(mesh);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3 p = mesh.vertices[v];
     const double out = defects.noise * std::sqrt(0.5) * (longer.at(p) + shorter.at(p)) +
@@ -124,7 +124,8 @@ ScannedSurface scanned_surface(const ColouredMesh& hand, double wrist_y,
   return scan;
 }
 
-TexturedSurface textured_surface(const TriangleMesh& coarse, const ColouredMesh& fine, int side) {
+TexturedSurface textured_surface(const geometry::TriangleMesh& coarse,
+                                 const geometry::ColouredMesh& fine, int side) {
   if (side < 64) throw UsageError(fmt::format("side is {}; 64 pixels at least are required", side));
   const int squares = (coarse.triangle_count() + 1) / 2;
   const int per_row = static_cast<int>(std::ceil(std::sqrt(squares)));
@@ -134,8 +135,9 @@ TexturedSurface textured_surface(const TriangleMesh& coarse, const ColouredMesh&
                                  coarse.triangle_count(), side, side));
   }
   TexturedSurface result{coarse, {}};
-  RgbImage image{side, side,
-                 std::vector<std::uint8_t>(std::size_t{3} * static_cast<std::size_t>(side) * side)};
+  geometry::RgbImage image{
+      side, side,
+      std::vector<std::uint8_t>(std::size_t{3} * static_cast<std::size_t>(side) * side)};
   // The lower left half of a square shows one triangle, the upper right half the other, each with a
   // border of a pixel that goes on beyond it.
   const auto corner_of = [&](int t) {
@@ -150,7 +152,7 @@ TexturedSurface textured_surface(const TriangleMesh& coarse, const ColouredMesh&
     return std::array<V, 3>{V(x + far + 1.5, y + far), V(x + far + 1.5, y + near),
                             V(x + near + 1.5, y + near)};
   };
-  const ClosestPointQuery query(fine.mesh);
+  const geometry::ClosestPointQuery query(fine.mesh);
   parallel_for(coarse.triangle_count(), [&](int t) {
     const auto p = corner_of(t);
     const Triangle& c = coarse.triangles[t];
@@ -169,7 +171,7 @@ TexturedSurface textured_surface(const TriangleMesh& coarse, const ColouredMesh&
                        w[1] * coarse.vertices[c[2]];
         const auto near = query.closest(q, std::numeric_limits<double>::infinity(), hint);
         hint = near->triangle;
-        Srgb colour = Srgb::Zero();
+        geometry::Srgb colour = geometry::Srgb::Zero();
         for (std::size_t k = 0; k < 3; ++k) {
           colour += static_cast<float>(near->weights[k]) *
                     fine.colour[fine.mesh.triangles[near->triangle][k]];
@@ -193,4 +195,4 @@ TexturedSurface textured_surface(const TriangleMesh& coarse, const ColouredMesh&
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

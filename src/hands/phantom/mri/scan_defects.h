@@ -7,7 +7,7 @@
 #include "palmar/geometry/mesh/textured_mesh.h"
 #include "palmar/geometry/rigid3.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// What scanning programs do to a surface.
 struct ScanDefects {
@@ -25,19 +25,20 @@ struct ScanDefects {
 /// hidden, rough, and placed anywhere in space. `wrist_y`: where the forearm begins, in the
 /// surface's frame.
 struct ScannedSurface {
-  ColouredMesh surface;
-  Rigid3 scan_from_hand;
+  geometry::ColouredMesh surface;
+  geometry::Rigid3 scan_from_hand;
 };
-ScannedSurface scanned_surface(const ColouredMesh& hand, double wrist_y,
+ScannedSurface scanned_surface(const geometry::ColouredMesh& hand, double wrist_y,
                                const ScanDefects& defects = {});
 
 /// The same surface with its colours in an image of side x side pixels: every two triangles of it
 /// share a square. Triangles must be large enough to get three pixels each way. Throws UsageError
 /// otherwise, and for a side of less than 64.
 struct TexturedSurface {
-  TriangleMesh mesh;
-  SurfaceColours colours;
+  geometry::TriangleMesh mesh;
+  geometry::SurfaceColours colours;
 };
-TexturedSurface textured_surface(const TriangleMesh& coarse, const ColouredMesh& fine, int side);
+TexturedSurface textured_surface(const geometry::TriangleMesh& coarse,
+                                 const geometry::ColouredMesh& fine, int side);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 constexpr double kTipMargin = 6.0;      // mm above the fingertips
@@ -39,10 +39,10 @@ void ScanGridOptions::check() const {
   }
 }
 
-VolumeGrid scan_grid(const std::vector<Vec3>& skin, const ScanGridOptions& options) {
+imaging::VolumeGrid scan_grid(const std::vector<Vec3>& skin, const ScanGridOptions& options) {
   options.check();
   if (skin.empty()) throw UsageError("a scan needs a hand");
-  VolumeGrid grid;
+  imaging::VolumeGrid grid;
   Eigen::Matrix3d coronal;
   coronal << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0;
   const Vec3 axis = Vec3(2.0, 1.0, 1.0).normalized();  // so that all three axes become oblique
@@ -80,4 +80,4 @@ VolumeGrid scan_grid(const std::vector<Vec3>& skin, const ScanGridOptions& optio
   return grid;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

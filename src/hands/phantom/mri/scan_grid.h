@@ -4,7 +4,7 @@
 
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// How an operator places the slices through a hand.
 struct ScanGridOptions {
@@ -22,6 +22,6 @@ struct ScanGridOptions {
 /// left, j to the feet, k to the back. `skin`: the hand's vertices, patient frame. Fingertips lie 6
 /// mm below the upper edge; the lower edge cuts the forearm; in the other two directions the hand
 /// is in the middle.
-VolumeGrid scan_grid(const std::vector<Vec3>& skin, const ScanGridOptions& options = {});
+imaging::VolumeGrid scan_grid(const std::vector<Vec3>& skin, const ScanGridOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::phantom

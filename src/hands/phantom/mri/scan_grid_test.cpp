@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 using ::testing::HasSubstr;
@@ -24,7 +24,7 @@ std::vector<Vec3> hand_box() {
 }
 
 TEST(ScanGrid, HandLiesInTheMiddleWithItsFingertipsAtTheTop) {
-  const VolumeGrid grid = scan_grid(hand_box());
+  const imaging::VolumeGrid grid = scan_grid(hand_box());
   EXPECT_EQ(grid.size, (std::array<int, 3>{256, 256, 124}));              // 200 mm / 0.78 mm
   EXPECT_LT((grid.axes * Vec3(1, 2, 3) - Vec3(1, 3, -2)).norm(), 1e-12);  // left, back, feet
   const Vec3 top = grid.to_patient(Vec3(127.5, 0.0, 61.5));
@@ -35,10 +35,10 @@ TEST(ScanGrid, HandLiesInTheMiddleWithItsFingertipsAtTheTop) {
 TEST(ScanGrid, TheForearmsEndIsNeverSeen) {
   ScanGridOptions options;
   options.field = 400.0;
-  const VolumeGrid straight = scan_grid(hand_box(), options);
+  const imaging::VolumeGrid straight = scan_grid(hand_box(), options);
   EXPECT_GT(straight.to_patient(Vec3(0, straight.size[1] - 1, 0)).z(), -140.0 + 6.0 - 0.78);
   options.oblique = 0.35;
-  const VolumeGrid tilted = scan_grid(hand_box(), options);
+  const imaging::VolumeGrid tilted = scan_grid(hand_box(), options);
   for (const Vec3& corner : hand_box()) {
     if (corner.z() >= 0.0) continue;
     EXPECT_GT(tilted.to_voxel(corner)[1], tilted.size[1] - 1.0);
@@ -74,4 +74,4 @@ TEST(ScanGrid, OptionsAreChecked) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "hands/phantom/person/tube.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
-#include "hands/phantom/person/tube.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 // Signals of a T1-weighted spin echo at 1.5 T against fat.
@@ -20,25 +20,25 @@ constexpr double kFat = 200.0, kMarrow = 185.0, kMuscle = 78.0, kSkin = 95.0, kC
                  kLigament = 60.0, kTendon = 16.0, kCortex = 12.0, kClay = 62.0, kMarker = 225.0;
 constexpr double kSkinThickness = 1.7;  // mm
 
-TriangleMesh moved(const TriangleMesh& mesh, const Rigid3& by) {
-  TriangleMesh result = mesh;
+geometry::TriangleMesh moved(const geometry::TriangleMesh& mesh, const geometry::Rigid3& by) {
+  geometry::TriangleMesh result = mesh;
   for (Vec3& v : result.vertices) v = by * v;
   return result;
 }
 
-TriangleMesh shrunk_skin(const TriangleMesh& skin, double depth) {
-  TriangleMesh result = skin;
-  const std::vector<Vec3> normal = vertex_normals(skin);
+geometry::TriangleMesh shrunk_skin(const geometry::TriangleMesh& skin, double depth) {
+  geometry::TriangleMesh result = skin;
+  const std::vector<Vec3> normal = geometry::vertex_normals(skin);
   for (std::size_t i = 0; i < normal.size(); ++i) result.vertices[i] -= depth * normal[i];
   return result;
 }
 
 // Muscle fills palm and forearm below the fat; towards the fingers it ends in a thread within the
 // bones.
-TriangleMesh muscle(const PosedSubject& subject, const TriangleMesh& skin) {
-  TriangleMesh result = skin;
-  const std::vector<Vec3> normal = vertex_normals(skin);
-  const std::vector<Vec3> facing = vertex_normals(subject.person->skin);
+geometry::TriangleMesh muscle(const PosedSubject& subject, const geometry::TriangleMesh& skin) {
+  geometry::TriangleMesh result = skin;
+  const std::vector<Vec3> normal = geometry::vertex_normals(skin);
+  const std::vector<Vec3> facing = geometry::vertex_normals(subject.person->skin);
   for (int i = 0; i < skin.vertex_count(); ++i) {
     const Vec3 &v = skin.vertices[i], &core = subject.posed.core[i];
     // Pads of the palm are thicker than the back of the hand.
@@ -54,14 +54,15 @@ TriangleMesh muscle(const PosedSubject& subject, const TriangleMesh& skin) {
 // Tendons run through points that are fixed to bones.
 class Tendons {
  public:
-  Tendons(const PosedSubject& subject, const TriangleMesh& skin) : subject_(subject), skin_(skin) {}
+  Tendons(const PosedSubject& subject, const geometry::TriangleMesh& skin)
+      : subject_(subject), skin_(skin) {}
 
   void draw(std::vector<ImagedPart>& sheaths, std::vector<ImagedPart>& tendons) const {
     const SubjectPerson& person = *subject_.person;
-    const Vec3 wrist = person.skeleton.joint(JointId::kWrist).centre;
-    const double size = person.skeleton.joint(JointId::kMiddleMcp).centre.norm() / 92.5;
-    for (int f = 0; f < kFingerCount; ++f) {
-      const auto segments = segments_of(static_cast<Finger>(f));
+    const Vec3 wrist = person.skeleton.joint(hand::JointId::kWrist).centre;
+    const double size = person.skeleton.joint(hand::JointId::kMiddleMcp).centre.norm() / 92.5;
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      const auto segments = hand::segments_of(static_cast<hand::Finger>(f));
       const int count = f == 0 ? 2 : 3;
       const double w = person.finger_width[f];
       std::array<const RollingJoint*, 3> joint{};
@@ -126,7 +127,7 @@ class Tendons {
       path.push_back(through[i]);
     }
     const double least = radius + kSkinThickness + 0.7;
-    std::vector<DistanceSample> sample(path.size());
+    std::vector<geometry::DistanceSample> sample(path.size());
     for (int round = 0; round < 3; ++round) {  // the nearest skin changes with the point
       skin_.sample(path, std::numeric_limits<double>::infinity(), sample);
       for (std::size_t i = 0; i < path.size(); ++i) {
@@ -138,17 +139,17 @@ class Tendons {
   }
   Vec3 at_body(int body, const Vec3& reference) const { return subject_.motion[body] * reference; }
   const PosedSubject& subject_;
-  MeshDistance skin_;
+  geometry::MeshDistance skin_;
 };
 
 // Cartilage and capsule of a joint: what shows of an ellipsoid between two bones.
-TriangleMesh joint_filling(const Vec3& centre, const Vec3& along, const Vec3& lateral,
-                           const Vec3& half) {
+geometry::TriangleMesh joint_filling(const Vec3& centre, const Vec3& along, const Vec3& lateral,
+                                     const Vec3& half) {
   Eigen::Matrix3d axes;
   axes.col(0) = (lateral - lateral.dot(along) * along).normalized();
   axes.col(1) = along;
   axes.col(2) = axes.col(0).cross(axes.col(1));
-  TriangleMesh blob = make_icosphere(1.0, 3);
+  geometry::TriangleMesh blob = geometry::make_icosphere(1.0, 3);
   for (Vec3& v : blob.vertices) v = centre + axes * v.cwiseProduct(half);
   return blob;
 }
@@ -157,10 +158,10 @@ TriangleMesh joint_filling(const Vec3& centre, const Vec3& along, const Vec3& la
 
 std::vector<int> marker_vertices(const SubjectPerson& person, const SoftTissue& tissue, int count) {
   const std::vector<Vec3>& skin = person.skin.vertices;
-  const std::vector<Vec3> normal = vertex_normals(person.skin);
+  const std::vector<Vec3> normal = geometry::vertex_normals(person.skin);
   const Vec3 ball = skin[tissue.thumb_ball_vertex()];
   const Vec3 facing = normal[tissue.thumb_ball_vertex()];
-  const double size = person.skeleton.joint(JointId::kMiddleMcp).centre.norm() / 92.5;
+  const double size = person.skeleton.joint(hand::JointId::kMiddleMcp).centre.norm() / 92.5;
   std::vector<int> candidates;
   for (int i = 0; i < person.skin.vertex_count(); ++i) {
     if ((skin[i] - ball).norm() < 27.0 * size && normal[i].dot(facing) > 0.1) {
@@ -188,10 +189,10 @@ std::vector<int> marker_vertices(const SubjectPerson& person, const SoftTissue& 
 
 std::vector<ImagedPart> tissue_parts(const PosedSubject& subject, bool has_fixture) {
   const SubjectPerson& person = *subject.person;
-  const Vec3 wrist = person.skeleton.joint(JointId::kWrist).centre;
-  const double size = person.skeleton.joint(JointId::kMiddleMcp).centre.norm() / 92.5;
+  const Vec3 wrist = person.skeleton.joint(hand::JointId::kWrist).centre;
+  const double size = person.skeleton.joint(hand::JointId::kMiddleMcp).centre.norm() / 92.5;
   std::vector<ImagedPart> parts, tendons;
-  const TriangleMesh skin{subject.posed.skin, person.skin.triangles};
+  const geometry::TriangleMesh skin{subject.posed.skin, person.skin.triangles};
   if (has_fixture) parts.push_back({fixture_mesh(skin, wrist), kClay});
   parts.push_back({skin, kSkin});
   parts.push_back({shrunk_skin(skin, kSkinThickness), kFat, ImagedTissue::kFat});
@@ -205,11 +206,12 @@ std::vector<ImagedPart> tissue_parts(const PosedSubject& subject, bool has_fixtu
   parts.push_back(
       {joint_filling(cmc.centre, cmc.along, cmc.abduction_axis, Vec3(6.5, 4.5, 6.5) * size),
        kCartilage});
-  for (int body = 1; body < kSegmentCount; ++body) {
+  for (int body = 1; body < hand::kSegmentCount; ++body) {
     const RollingJoint& joint = person.joints.phalanx[body];
     const double r = joint.radius;
-    const TriangleMesh filling = joint_filling(joint.centre + 0.7 * r * joint.along, joint.along,
-                                               joint.axis, Vec3(1.15 * r, 0.9 * r, 0.95 * r));
+    const geometry::TriangleMesh filling =
+        joint_filling(joint.centre + 0.7 * r * joint.along, joint.along, joint.axis,
+                      Vec3(1.15 * r, 0.9 * r, 0.95 * r));
     parts.push_back({moved(filling, subject.motion[body]), kCartilage});
   }
   parts.insert(parts.end(), tendons.begin(), tendons.end());
@@ -221,11 +223,11 @@ std::vector<ImagedPart> tissue_parts(const PosedSubject& subject, bool has_fixtu
         {moved(bone.marrow, subject.motion[bone.body]), kMarrow, ImagedTissue::kMarrow});
   }
   for (const Vec3& centre : subject.markers) {
-    TriangleMesh ball = make_icosphere(kMarkerRadius, 3);
+    geometry::TriangleMesh ball = geometry::make_icosphere(kMarkerRadius, 3);
     for (Vec3& v : ball.vertices) v += centre;
     parts.push_back({ball, kMarker});
   }
   return parts;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

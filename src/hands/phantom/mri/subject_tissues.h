@@ -9,7 +9,7 @@
 #include "hands/phantom/person/soft_tissue.h"
 #include "hands/phantom/person/subject_bones.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 inline constexpr double kMarkerRadius = 2.5;  ///< mm; capsules of 5 mm (Xie 2014, table 2-1)
 
@@ -19,7 +19,7 @@ struct PosedSubject {
   const std::vector<SubjectBone>* bones = nullptr;
   const SoftTissue* tissue = nullptr;
   PosedTissue posed;
-  std::array<Rigid3, kBodyCount> motion;
+  std::array<geometry::Rigid3, kBodyCount> motion;
   std::vector<Vec3> markers;
 };
 
@@ -33,6 +33,6 @@ std::vector<int> marker_vertices(const SubjectPerson& person, const SoftTissue& 
 
 /// A block of paper clay that wrist and forearm were pressed into: it touches the skin in places
 /// and stands off by up to 3 mm in others. Hand frame, closed.
-TriangleMesh fixture_mesh(const TriangleMesh& skin, const Vec3& wrist);
+geometry::TriangleMesh fixture_mesh(const geometry::TriangleMesh& skin, const Vec3& wrist);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

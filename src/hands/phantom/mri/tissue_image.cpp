@@ -12,14 +12,14 @@
 #include <limits>
 #include <numbers>
 
+#include "hands/phantom/person/smooth_noise.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
-#include "hands/phantom/person/smooth_noise.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 // Rays are shifted by these shares of a sub-sample, so that none meets a corner of a mesh whose
@@ -107,9 +107,9 @@ void add_interval(double from, double to, double signal, std::size_t row_begin, 
 }
 
 // Mean signal of every voxel of one slice, without field and noise.
-std::vector<double> slice_signal(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
-                                 const SliceRays& rays, double fat_shift,
-                                 const std::vector<double>& marrow,
+std::vector<double> slice_signal(const std::vector<ImagedPart>& parts,
+                                 const imaging::VolumeGrid& grid, const SliceRays& rays,
+                                 double fat_shift, const std::vector<double>& marrow,
                                  std::vector<Crossing>& crossings) {
   const std::vector<double> even;
   std::sort(crossings.begin(), crossings.end(), [](const Crossing& p, const Crossing& q) {
@@ -146,8 +146,8 @@ std::vector<double> slice_signal(const std::vector<ImagedPart>& parts, const Vol
 }
 
 // Relative signal of marrow in the voxels of a slice; empty: even.
-std::vector<double> marrow_texture(const VolumeGrid& grid, int slice, const SmoothNoise& noise,
-                                   double deviation) {
+std::vector<double> marrow_texture(const imaging::VolumeGrid& grid, int slice,
+                                   const SmoothNoise& noise, double deviation) {
   std::vector<double> texture;
   if (deviation <= 0.0) return texture;
   for (int j = 0; j < grid.size[1]; ++j) {
@@ -193,7 +193,7 @@ void limit_resolution(std::vector<double>& slice, int columns, int rows, double 
 // wave on it, in directions that follow from the seed.
 class ReceiveField {
  public:
-  ReceiveField(const VolumeGrid& grid, double bias, std::uint64_t seed) : bias_(bias) {
+  ReceiveField(const imaging::VolumeGrid& grid, double bias, std::uint64_t seed) : bias_(bias) {
     RandomStream random(seed, std::numeric_limits<std::uint64_t>::max());
     for (Vec3* direction : {&ramp_, &wave_}) {
       for (int d = 0; d < 3; ++d) (*direction)[d] = random.normal();
@@ -214,7 +214,7 @@ class ReceiveField {
   Vec3 ramp_, wave_, half_;
 };
 
-void check_grid(const VolumeGrid& grid) {
+void check_grid(const imaging::VolumeGrid& grid) {
   for (std::size_t d = 0; d < 3; ++d) {
     if (grid.size[d] < 1 || !(grid.spacing[static_cast<int>(d)] > 0.0)) {
       throw UsageError(
@@ -227,8 +227,8 @@ void check_grid(const VolumeGrid& grid) {
 
 }  // namespace
 
-Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
-                const ScannerOptions& options, const Progress& progress) {
+imaging::Volume image_of(const std::vector<ImagedPart>& parts, const imaging::VolumeGrid& grid,
+                         const ScannerOptions& options, const Progress& progress) {
   options.check();
   check_grid(grid);
   const int slices = grid.size[2];
@@ -239,12 +239,12 @@ Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
   // Triangles that each slice meets, part by part.
   std::vector<std::vector<std::array<int, 2>>> in_slice(slices);
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const TriangleMesh& mesh = parts[p].mesh;
+    const geometry::TriangleMesh& mesh = parts[p].mesh;
     const std::string name = fmt::format("part {} of {} of the image", p + 1, parts.size());
-    if (!examine_topology(mesh).is_closed) {
+    if (!geometry::examine_topology(mesh).is_closed) {
       throw InputError(name + ": the surface isn't closed; a closed one is required");
     }
-    if (signed_volume(mesh) < 0.0) {
+    if (geometry::signed_volume(mesh) < 0.0) {
       throw InputError(name + ": the surface is turned inside out");
     }
     brightest = std::max(brightest, parts[p].signal);
@@ -270,7 +270,7 @@ Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
   // Half of the field's fall is lost on average.
   const double noise =
       options.snr > 0.0 ? brightest * (1.0 - 0.5 * options.bias) / options.snr : 0.0;
-  Volume image{.grid = grid, .value = std::vector<float>(grid.count())};
+  imaging::Volume image{.grid = grid, .value = std::vector<float>(grid.count())};
   parallel_for(slices, [&](int k) {
     progress.throw_if_cancelled();
     const SliceRays rays{k, grid.size[1] * options.subsamples, options.subsamples};
@@ -304,4 +304,4 @@ Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
   return image;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "hands/imaging/volume.h"
 #include "palmar/core/progress.h"
 #include "palmar/geometry/types.h"
-#include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// What decides where and how evenly a tissue shows: fat lies off by the chemical shift; marrow is
 /// fat in a mesh of bone.
@@ -18,8 +18,8 @@ enum class ImagedTissue : std::uint8_t { kWater, kFat, kMarrow };
 /// A closed surface and the T1-weighted signal of what it encloses. Later parts cover earlier ones
 /// (skin, fat, muscle, cortical bone, marrow, marker).
 struct ImagedPart {
-  TriangleMesh mesh;    ///< closed, oriented outwards; patient frame, mm
-  double signal = 0.0;  ///< of the tissue; air 0, marrow and fat about 200
+  geometry::TriangleMesh mesh;  ///< closed, oriented outwards; patient frame, mm
+  double signal = 0.0;          ///< of the tissue; air 0, marrow and fat about 200
   ImagedTissue tissue = ImagedTissue::kWater;
 };
 
@@ -42,7 +42,7 @@ struct ScannerOptions {
 /// The image that an ideal scanner makes of the parts: partial volume by subsampling, a smooth
 /// multiplicative field, Rician noise (Gudbjartsson, Patz 1995). Deterministic, whatever the number
 /// of threads. Throws UsageError, Cancelled; InputError for a part that is not closed.
-Volume image_of(const std::vector<ImagedPart>& parts, const VolumeGrid& grid,
-                const ScannerOptions& options = {}, const Progress& progress = {});
+imaging::Volume image_of(const std::vector<ImagedPart>& parts, const imaging::VolumeGrid& grid,
+                         const ScannerOptions& options = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::phantom

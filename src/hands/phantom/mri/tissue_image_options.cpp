@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "palmar/core/error.h"
 #include "hands/phantom/mri/tissue_image.h"
+#include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 void ScannerOptions::check() const {
   if (subsamples < 1 || subsamples > 8) {
@@ -27,4 +27,4 @@ void ScannerOptions::check() const {
   require(mask >= 0.0 && mask <= 20.0, "mask", mask, "0 to 20");
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

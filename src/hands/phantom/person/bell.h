@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// exp(-distance^2 / (2 width^2)).
 inline double bell(double distance, double width) {
   return std::exp(-0.5 * distance * distance / (width * width));
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

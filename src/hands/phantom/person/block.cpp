@@ -6,16 +6,16 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
-ColouredMesh make_block(const Vec3& edges) {
+geometry::ColouredMesh make_block(const Vec3& edges) {
   if (!(edges.minCoeff() >= 5.0 && edges.maxCoeff() <= 200.0)) {
     throw UsageError(
         fmt::format("a block of {:g} x {:g} x {:g} mm; edges of 5 to 200 mm are allowed", edges.x(),
                     edges.y(), edges.z()));
   }
-  const Srgb cardboard(0.74F, 0.57F, 0.42F);
-  ColouredMesh block;
+  const geometry::Srgb cardboard(0.74F, 0.57F, 0.42F);
+  geometry::ColouredMesh block;
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-0.5, 0.5}) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -43,4 +43,4 @@ ColouredMesh make_block(const Vec3& edges) {
   return block;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

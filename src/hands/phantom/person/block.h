@@ -4,10 +4,10 @@
 
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// A cardboard box of these edges (x, y, z, mm), its middle at the origin; corners of its faces are
 /// apart, so that each face has its own normals. Throws UsageError unless edges are 5 to 200 mm.
-ColouredMesh make_block(const Vec3& edges);
+geometry::ColouredMesh make_block(const Vec3& edges);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -12,7 +12,7 @@
 #include "palmar/geometry/remesh/smooth.h"
 #include "palmar/hand/bones/bone_shape.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 constexpr int kAround = 36;
@@ -99,7 +99,7 @@ double JointSurface::at(double w) const {
   return (radius - groove * std::exp(-valley * valley)) * std::cbrt(1.0 - std::pow(share, 5.0));
 }
 
-TriangleMesh long_bone_mesh(const LongBoneShape& shape) {
+geometry::TriangleMesh long_bone_mesh(const LongBoneShape& shape) {
   const double length = (shape.head - shape.base).norm();
   const Vec3 along = (shape.head - shape.base) / length;
   const Vec3 lateral = (shape.lateral - shape.lateral.dot(along) * along).normalized();
@@ -126,7 +126,7 @@ TriangleMesh long_bone_mesh(const LongBoneShape& shape) {
   }
   vertices.push_back(place(end, 0.0, 0.0));
   // Takes the corners off where base, shaft and head meet.
-  return smooth_taubin(close_rings(std::move(vertices), kAround), {.rounds = 6});
+  return geometry::smooth_taubin(hand::close_rings(std::move(vertices), kAround), {.rounds = 6});
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -7,7 +7,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/hand/bones/bone_shape.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// Joint surface that a flexion axis turns into itself: points at distance
 ///   r(w) = (radius - groove exp(-(w / 0.3 W)^2)) (1 - |w / W|^5)^(1/3)
@@ -33,6 +33,6 @@ struct LongBoneShape {
 };
 
 /// Closed mesh, triangles outward, of about 0.8 mm edges.
-TriangleMesh long_bone_mesh(const LongBoneShape& shape);
+geometry::TriangleMesh long_bone_mesh(const LongBoneShape& shape);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// How far a synthetic person is from the hand that it starts from, beside its size. The defaults
 /// are a near relative: the start hand's proportions, webs and reference posture (posed by
@@ -41,4 +41,4 @@ inline constexpr PersonDispersion kFreePerson{.is_free = true,
                                               .crease_slope = 0.08,
                                               .table = 0.015};
 
-}  // namespace palmar
+}  // namespace palmar::phantom

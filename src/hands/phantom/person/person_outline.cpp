@@ -7,14 +7,14 @@
 #include <cmath>
 #include <vector>
 
-#include "palmar/core/enum_index.h"
-#include "palmar/geometry/mesh/mesh_measures.h"
-#include "palmar/hand/skin/creases.h"
 #include "hands/phantom/person/bell.h"
 #include "hands/phantom/person/person_random.h"
 #include "hands/phantom/person/person_size.h"
+#include "palmar/core/enum_index.h"
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/hand/skin/creases.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 enum OutlineStream : std::uint64_t { kOutline = 2, kFingers = 7 };
@@ -51,14 +51,14 @@ double smooth(double u) { return u * u * (3.0 - 2.0 * u); }
 // How much thicker a broader finger is: our choice, as surveys measured no depths.
 constexpr double kDepth = 0.7;
 
-void move_webs(TriangleMesh& skin, const Skeleton& skeleton, double deviation,
+void move_webs(geometry::TriangleMesh& skin, const hand::Skeleton& skeleton, double deviation,
                RandomStream& random) {
-  const HandCreases creases(skin, skeleton);
-  for (int k = 0; k + 1 < kFingerCount; ++k) {
+  const hand::HandCreases creases(skin, skeleton);
+  for (int k = 0; k + 1 < hand::kFingerCount; ++k) {
     const auto towards = [&](int f) {
-      const auto segments = segments_of(static_cast<Finger>(f));
-      return Vec3((skeleton.joint(joint_of(*segments[1])).centre -
-                   skeleton.joint(joint_of(*segments[0])).centre)
+      const auto segments = hand::segments_of(static_cast<hand::Finger>(f));
+      return Vec3((skeleton.joint(hand::joint_of(*segments[1])).centre -
+                   skeleton.joint(hand::joint_of(*segments[0])).centre)
                       .normalized());
     };
     const Vec3 shift = spread(random, deviation) * (towards(k) + towards(k + 1)).normalized();
@@ -69,24 +69,25 @@ void move_webs(TriangleMesh& skin, const Skeleton& skeleton, double deviation,
 
 }  // namespace
 
-void shape_fingers(TriangleMesh& skin, const Hand& hand, std::uint64_t seed,
+void shape_fingers(geometry::TriangleMesh& skin, const hand::Hand& hand, std::uint64_t seed,
                    const PersonDispersion& dispersion) {
   RandomStream random(seed, kFingers);
-  const std::array<double, kFingerCount> widening = surveyed_widenings(hand, seed, dispersion);
-  const HandCreases creases(hand.skin, hand.skeleton);
+  const std::array<double, hand::kFingerCount> widening =
+      surveyed_widenings(hand, seed, dispersion);
+  const hand::HandCreases creases(hand.skin, hand.skeleton);
   const double blunter = spread(random, dispersion.fingertip);
   const double thicker = dispersion.knuckle + spread(random, dispersion.knuckle);
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
-    const auto segments = segments_of(finger);
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
+    const auto segments = hand::segments_of(finger);
     FingerAxis axis;
     std::vector<double> joint;  // mm along the axis
     for (const auto& segment : segments) {
-      if (segment) axis.node.push_back(hand.skeleton.joint(joint_of(*segment)).centre);
+      if (segment) axis.node.push_back(hand.skeleton.joint(hand::joint_of(*segment)).centre);
     }
     axis.node.push_back(hand.skeleton.fingertips[f]);
-    const Vec3& across = hand.skeleton.joint(joint_of(*segments[1])).dofs.back().axis;
-    const CreasePlane& crease = creases.proximal_crease(*segments[0]);
+    const Vec3& across = hand.skeleton.joint(hand::joint_of(*segments[1])).dofs.back().axis;
+    const hand::CreasePlane& crease = creases.proximal_crease(*segments[0]);
     const double rise = 0.6 * crease.value(axis.node[1]);
     double length = 0.0;
     for (std::size_t k = 0; k + 1 < axis.node.size(); ++k) {
@@ -96,7 +97,7 @@ void shape_fingers(TriangleMesh& skin, const Hand& hand, std::uint64_t seed,
     const double own_tip = blunter + spread(random, 0.5 * dispersion.fingertip);
     const double own_joint = thicker + spread(random, 0.5 * dispersion.knuckle);
     for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
-      if (finger_of(hand.segment[i]) != finger) continue;
+      if (hand::finger_of(hand.segment[i]) != finger) continue;
       const FingerAxis::Foot foot = axis.foot(hand.skin.vertices[i]);
       // Grows from the base crease to 0.6 of the way to the PIP joint.
       const double base = std::clamp(crease.value(hand.skin.vertices[i]) / rise, 0.0, 1.0);
@@ -117,9 +118,10 @@ void shape_fingers(TriangleMesh& skin, const Hand& hand, std::uint64_t seed,
   if (dispersion.web > 0.0) move_webs(skin, hand.skeleton, dispersion.web, random);
 }
 
-void give_relief(TriangleMesh& skin, const Skeleton& skeleton, std::uint64_t seed, double relief) {
+void give_relief(geometry::TriangleMesh& skin, const hand::Skeleton& skeleton, std::uint64_t seed,
+                 double relief) {
   RandomStream random(seed, kOutline);
-  const std::vector<Vec3> normal = vertex_normals(skin);
+  const std::vector<Vec3> normal = geometry::vertex_normals(skin);
   struct Bump {
     Vec3 place;
     double width, height;
@@ -130,7 +132,7 @@ void give_relief(TriangleMesh& skin, const Skeleton& skeleton, std::uint64_t see
     const double width = 8.0 + 14.0 * random.uniform();
     bumps.push_back({place, width, spread(random, 0.35 * relief)});
   }
-  const double wrist = skeleton.joint(JointId::kWrist).centre.y();
+  const double wrist = skeleton.joint(hand::JointId::kWrist).centre.y();
   for (std::size_t i = 0; i < skin.vertices.size(); ++i) {
     const Vec3 v = skin.vertices[i];
     double out = 0.0;
@@ -143,11 +145,11 @@ void give_relief(TriangleMesh& skin, const Skeleton& skeleton, std::uint64_t see
   }
 }
 
-void lengthen_forearm(TriangleMesh& skin, const Vec3& wrist) {
+void lengthen_forearm(geometry::TriangleMesh& skin, const Vec3& wrist) {
   constexpr double kEnd = -85.0;  // mm from the wrist joint
   const double begin = wrist.y() - 4.0;
   // The cut: y = c . (1, x, z) through the vertices that face backwards.
-  const std::vector<Vec3> normal = vertex_normals(skin);
+  const std::vector<Vec3> normal = geometry::vertex_normals(skin);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   Vec3 right = Vec3::Zero();
   for (std::size_t i = 0; i < normal.size(); ++i) {
@@ -171,4 +173,4 @@ void lengthen_forearm(TriangleMesh& skin, const Vec3& wrist) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

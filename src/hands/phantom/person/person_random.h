@@ -6,7 +6,7 @@
 
 #include "palmar/core/random.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// Normal about 0 with the deviation, held to two and a half of it.
 inline double spread(RandomStream& random, double deviation) {
@@ -18,4 +18,4 @@ inline double about_zero(RandomStream& random, double most) {
   return most * (2.0 * random.uniform() - 1.0);
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -6,23 +6,23 @@
 #include <cstdint>
 #include <vector>
 
+#include "hands/phantom/person/person_dispersion.h"
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/hand/hand.h"
-#include "hands/phantom/person/person_dispersion.h"
 #include "palmar/population/survey_figures.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 struct PersonSize {
-  Sex sex = Sex::kMale;
+  grasp::Sex sex = grasp::Sex::kMale;
   double length = 0.0, girth = 0.0;  ///< of the hand, mm
 };
 /// Women and men alike often; hand length and circumference of ANSUR II (Gordon et al. 2014).
 PersonSize drawn_size(std::uint64_t seed, const PersonDispersion& dispersion);
 
 /// Lengths of palm and phalanges of a free person, mm. See sized_hand().
-std::vector<SizedDimension> surveyed_lengths(const HandDimensions& base, const PersonSize& size,
-                                             std::uint64_t seed);
+std::vector<hand::SizedDimension> surveyed_lengths(const hand::HandDimensions& base,
+                                                   const PersonSize& size, std::uint64_t seed);
 
 /// The start hand in a person's size and proportions, in its own posture.
 ///
@@ -42,17 +42,19 @@ std::vector<SizedDimension> surveyed_lengths(const HandDimensions& base, const P
 ///                           creases
 ///   thumb, distal           Greiner 1991; proximal: the start hand's within 8.5 %
 /// Widths and thicknesses follow in surveyed_widenings().
-Hand sized_hand(const Hand& base, std::uint64_t seed, const PersonDispersion& dispersion);
+hand::Hand sized_hand(const hand::Hand& base, std::uint64_t seed,
+                      const PersonDispersion& dispersion);
 
 /// By how much a free person's fingers are broader than those of `hand` (sized_hand()), so that
 /// index and middle finger have the survey's breadth at their PIP joints over circumference
 /// (Greiner 1991); half of the scatter's variance is common to all fingers.
-std::array<double, kFingerCount> surveyed_widenings(const Hand& hand, std::uint64_t seed,
-                                                    const PersonDispersion& dispersion);
+std::array<double, hand::kFingerCount> surveyed_widenings(const hand::Hand& hand,
+                                                          std::uint64_t seed,
+                                                          const PersonDispersion& dispersion);
 
 /// Breadth of a finger at a joint along its axis, mm: of the section across `along` whose middle is
 /// nearest.
-double finger_breadth(const TriangleMesh& skin, const Vec3& joint, const Vec3& axis,
+double finger_breadth(const geometry::TriangleMesh& skin, const Vec3& joint, const Vec3& axis,
                       const Vec3& along);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -4,14 +4,14 @@
 
 #include "palmar/geometry/distance/mesh_distance.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 inline constexpr double kLeastSkinCover = 2.0;  ///< over bone at the reference posture, mm
 
 /// `point` moved along `direction` (unit length) until it lies `depth` under the skin or as deep as
 /// it gets there, at most by `most`. mm.
-inline Vec3 sunk(const MeshDistance& skin, const Vec3& point, const Vec3& direction, double depth,
-                 double most) {
+inline Vec3 sunk(const geometry::MeshDistance& skin, const Vec3& point, const Vec3& direction,
+                 double depth, double most) {
   constexpr double kStep = 0.05;
   Vec3 at = point;
   double cover = -skin.at(at).distance;
@@ -25,4 +25,4 @@ inline Vec3 sunk(const MeshDistance& skin, const Vec3& point, const Vec3& direct
   return at;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -10,7 +10,7 @@
 #include "palmar/core/random.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// Smooth noise in space: 24 cosines in random directions, wavelengths from 0.7 to 1.3 of that
 /// given [mm]; mean 0, variance 1.
@@ -40,4 +40,4 @@ class SmoothNoise {
   std::array<Wave, kCount> wave_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -16,13 +16,13 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/repair/self_intersection.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 constexpr double kBand = 10.0;        // mm, between bands of constant volume
 constexpr double kLeastShare = 0.01;  // smaller shares of a part are dropped
-constexpr int kChains = kFingerCount + 1;
-constexpr int kPalmChain = kFingerCount;
+constexpr int kChains = hand::kFingerCount + 1;
+constexpr int kPalmChain = hand::kFingerCount;
 
 struct Link {
   int body;
@@ -46,14 +46,14 @@ struct DualQuaternion {
   Eigen::Vector4d real = Eigen::Vector4d::Zero(), dual = Eigen::Vector4d::Zero();
 };
 
-DualQuaternion dual_quaternion(const Rigid3& motion) {
+DualQuaternion dual_quaternion(const geometry::Rigid3& motion) {
   const Quat& q = motion.rotation;
   const Quat t(0.0, motion.translation.x(), motion.translation.y(), motion.translation.z());
   const Quat d = t * q;
   return {q.coeffs(), 0.5 * d.coeffs()};
 }
 
-Rigid3 rigid(const DualQuaternion& sum) {
+geometry::Rigid3 rigid(const DualQuaternion& sum) {
   const double length = sum.real.norm();
   const Quat q(Eigen::Vector4d(sum.real / length));
   const Quat d(Eigen::Vector4d(sum.dual / length));
@@ -105,7 +105,7 @@ struct SoftTissue::Impl {
   std::vector<std::vector<int>> neighbour;
   std::vector<double> band_volume;
   std::vector<std::array<int, 2>> neighbour_band;
-  std::vector<std::unique_ptr<MeshDistance>> bone_distance;
+  std::vector<std::unique_ptr<geometry::MeshDistance>> bone_distance;
   Vec3 ball, ball_radial, web;  ///< places of the thumb ball's swelling, reference
   Vec3 towards_wrist;           ///< along the thumb's metacarpal
   int ball_vertex = 0;
@@ -114,11 +114,11 @@ struct SoftTissue::Impl {
   explicit Impl(const SubjectPerson& p, const std::vector<SubjectBone>& b) : person(&p), bones(&b) {
     place_links();
     find_nearest();
-    neighbour = vertex_neighbours(build_topology(p.skin));
+    neighbour = geometry::vertex_neighbours(geometry::build_topology(p.skin));
     find_shares();
     place_bands();
     for (const SubjectBone& bone : b) {
-      bone_distance.push_back(std::make_unique<MeshDistance>(bone.bone.mesh));
+      bone_distance.push_back(std::make_unique<geometry::MeshDistance>(bone.bone.mesh));
     }
     find_thumb_ball();
     band_volume = volumes(p.skin.vertices, core_point);
@@ -126,11 +126,11 @@ struct SoftTissue::Impl {
 
   void place_links() {
     const SubjectJoints& joints = person->joints;
-    const Vec3 wrist = person->skeleton.joint(JointId::kWrist).centre;
+    const Vec3 wrist = person->skeleton.joint(hand::JointId::kWrist).centre;
     links.push_back({kThumbMetacarpalBody, joints.cmc.centre,
-                     joints.phalanx[static_cast<int>(Segment::kThumbProximal)].centre});
-    for (int f = 0; f < kFingerCount; ++f) {
-      const auto segments = segments_of(static_cast<Finger>(f));
+                     joints.phalanx[static_cast<int>(hand::Segment::kThumbProximal)].centre});
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      const auto segments = hand::segments_of(static_cast<hand::Finger>(f));
       const int count = f == 0 ? 2 : 3;
       const auto centre = [&](int k) -> Vec3 {
         return k < count ? joints.phalanx[index_of(*segments[k])].centre
@@ -171,7 +171,7 @@ struct SoftTissue::Impl {
   }
 
   void find_shares() {
-    const TriangleMesh& skin = person->skin;
+    const geometry::TriangleMesh& skin = person->skin;
     const int n = skin.vertex_count();
     std::vector<Eigen::Triplet<double>> entries;
     for (const Triangle& t : skin.triangles) {
@@ -186,7 +186,7 @@ struct SoftTissue::Impl {
         entries.emplace_back(b, b, cotangent);
       }
     }
-    const std::vector<double> area = vertex_areas(skin);
+    const std::vector<double> area = geometry::vertex_areas(skin);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n, kBodyCount);
     for (int i = 0; i < n; ++i) {
       const double heat = area[i] / (depth[i] * depth[i]);
@@ -214,7 +214,7 @@ struct SoftTissue::Impl {
   static int chain_of(int body) {
     if (body == 0) return kPalmChain;
     if (body == kThumbMetacarpalBody) return 0;
-    return static_cast<int>(*finger_of(static_cast<Segment>(body)));
+    return static_cast<int>(*hand::finger_of(static_cast<hand::Segment>(body)));
   }
 
   // Bands: for every chain of bones the stations kBand apart along it, with linear hats, times the
@@ -230,7 +230,7 @@ struct SoftTissue::Impl {
     low.fill(std::numeric_limits<double>::max());
     high.fill(-std::numeric_limits<double>::max());
     for (std::size_t i = 0; i < skin.size(); ++i) {
-      for (int c = 0; c < kFingerCount; ++c) {
+      for (int c = 0; c < hand::kFingerCount; ++c) {
         double along = 0.0, best = std::numeric_limits<double>::max();
         for (const Link& link : chain[c]) {
           const Near here = near_link(link, skin[i]);
@@ -274,11 +274,11 @@ struct SoftTissue::Impl {
 
   void find_thumb_ball() {
     const SubjectJoints& joints = person->joints;
-    const RollingJoint& mp = joints.phalanx[static_cast<int>(Segment::kThumbProximal)];
+    const RollingJoint& mp = joints.phalanx[static_cast<int>(hand::Segment::kThumbProximal)];
     const Vec3 palmar = mp.axis.cross(mp.along);
     const Vec3 middle = joints.cmc.centre + 0.45 * (mp.centre - joints.cmc.centre);
     const std::vector<Vec3>& skin = person->skin.vertices;
-    size = person->skeleton.joint(JointId::kMiddleMcp).centre.norm() / 92.5;
+    size = person->skeleton.joint(hand::JointId::kMiddleMcp).centre.norm() / 92.5;
     const auto nearest_to = [&](const Vec3& p) {
       int best = 0;
       for (int i = 0; i < static_cast<int>(skin.size()); ++i) {
@@ -290,7 +290,7 @@ struct SoftTissue::Impl {
     ball = skin[ball_vertex];
     ball_radial = skin[static_cast<std::size_t>(
         nearest_to(middle + 18.0 * size * (palmar + 0.8 * Vec3::UnitX()).normalized()))];
-    const Vec3 index = joints.phalanx[static_cast<int>(Segment::kIndexProximal)].centre;
+    const Vec3 index = joints.phalanx[static_cast<int>(hand::Segment::kIndexProximal)].centre;
     web = skin[static_cast<std::size_t>(
         nearest_to(0.5 * (mp.centre + index) + 8.0 * size * Vec3::UnitZ()))];
     towards_wrist = -joints.cmc.along;
@@ -307,7 +307,7 @@ struct SoftTissue::Impl {
     return volume;
   }
 
-  void blend(const std::array<Rigid3, kBodyCount>& motion, std::vector<Vec3>& skin,
+  void blend(const std::array<geometry::Rigid3, kBodyCount>& motion, std::vector<Vec3>& skin,
              std::vector<Vec3>& core) const {
     std::array<DualQuaternion, kBodyCount> dual;
     for (std::size_t b = 0; b < dual.size(); ++b) dual[b] = dual_quaternion(motion[b]);
@@ -319,20 +319,21 @@ struct SoftTissue::Impl {
         sum.real += s.weight * dual[s.body].real;
         sum.dual += s.weight * dual[s.body].dual;
       }
-      const Rigid3 turn = rigid(sum);
+      const geometry::Rigid3 turn = rigid(sum);
       skin[i] = turn * skin[i];
       core[i] = turn * core[i];
     }
   }
 
   // Muscle that shortens swells: out along the skin's normal, and a little towards the wrist.
-  void swell(const Posture& posture, const Rigid3& metacarpal, std::vector<Vec3>& skin) const {
-    constexpr double kFull = 22.0 * kDegree;
+  void swell(const hand::Posture& posture, const geometry::Rigid3& metacarpal,
+             std::vector<Vec3>& skin) const {
+    constexpr double kFull = 22.0 * geometry::kDegree;
     const SaddleJoint& cmc = person->joints.cmc;
-    const double f = (posture[Dof::kThumbCmcFlexion] - cmc.flexion_reference) / kFull;
-    const double a = (posture[Dof::kThumbCmcAbduction] - cmc.abduction_reference) / kFull;
+    const double f = (posture[hand::Dof::kThumbCmcFlexion] - cmc.flexion_reference) / kFull;
+    const double a = (posture[hand::Dof::kThumbCmcAbduction] - cmc.abduction_reference) / kFull;
     const auto rising = [](double s) { return s > 0.0 ? std::pow(s, 1.25) : 0.0; };
-    const std::vector<Vec3> normal = vertex_normals(skin, person->skin.triangles);
+    const std::vector<Vec3> normal = geometry::vertex_normals(skin, person->skin.triangles);
     const Vec3 slide = metacarpal.rotation * towards_wrist;
     for (std::size_t i = 0; i < skin.size(); ++i) {
       const Vec3& v = person->skin.vertices[i];
@@ -357,9 +358,9 @@ struct SoftTissue::Impl {
     constexpr double kEven = 0.15;
     for (int round = 0; round < 4; ++round) {
       const std::vector<double> volume = volumes(skin, core);
-      const TriangleMesh posed{skin, person->skin.triangles};
-      const std::vector<double> area = vertex_areas(posed);
-      const std::vector<Vec3> normal = vertex_normals(posed);
+      const geometry::TriangleMesh posed{skin, person->skin.triangles};
+      const std::vector<double> area = geometry::vertex_areas(posed);
+      const std::vector<Vec3> normal = geometry::vertex_normals(posed);
       // d volume_b / d offset_c; the offset of a vertex is its softness times its hats' offsets.
       Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(bands, bands);
       Eigen::VectorXd missing(bands);
@@ -403,14 +404,15 @@ struct SoftTissue::Impl {
   void part_touching_skin(std::vector<Vec3>& skin) const {
     constexpr double kMost = 3.0;  // mm in one round
     for (int round = 0; round < 6; ++round) {
-      const CrossingDepth crossing = crossing_depth({skin, person->skin.triangles});
+      const geometry::CrossingDepth crossing =
+          geometry::crossing_depth({skin, person->skin.triangles});
       if (crossing.vertex.empty()) return;
       std::vector<double> in(skin.size(), 0.0);
       for (std::size_t k = 0; k < crossing.vertex.size(); ++k) {
         in[crossing.vertex[k]] = 0.5 * std::min(crossing.depth[k], kMost) + 0.1;
       }
       in = widened(std::move(in), 2);
-      const std::vector<Vec3> normal = vertex_normals(skin, person->skin.triangles);
+      const std::vector<Vec3> normal = geometry::vertex_normals(skin, person->skin.triangles);
       for (std::size_t i = 0; i < skin.size(); ++i) skin[i] -= in[i] * normal[i];
     }
   }
@@ -429,14 +431,15 @@ struct SoftTissue::Impl {
     return height;
   }
 
-  void lift_off_bones(const std::array<Rigid3, kBodyCount>& motion, std::vector<Vec3>& skin) const {
+  void lift_off_bones(const std::array<geometry::Rigid3, kBodyCount>& motion,
+                      std::vector<Vec3>& skin) const {
     for (int round = 0; round < 3; ++round) {
       std::vector<double> lift(skin.size(), 0.0);
       parallel_for(static_cast<int>(skin.size()), [&](int i) {
         for (std::size_t b = 0; b < bones->size(); ++b) {
           const Vec3 p = motion[(*bones)[b].body].inverse() * skin[i];
           if (bone_distance[b]->bounding_box().exteriorDistance(p) > kLeastPosedCover) continue;
-          DistanceSample sample;
+          geometry::DistanceSample sample;
           bone_distance[b]->sample({&p, 1}, 4.0, {&sample, 1});
           lift[i] = std::max(lift[i], kLeastPosedCover - sample.distance);
         }
@@ -445,7 +448,7 @@ struct SoftTissue::Impl {
       for (const double l : lift) is_free = is_free && l < 0.01;
       if (is_free) return;
       lift = widened(std::move(lift), 3);
-      const std::vector<Vec3> normal = vertex_normals(skin, person->skin.triangles);
+      const std::vector<Vec3> normal = geometry::vertex_normals(skin, person->skin.triangles);
       for (std::size_t i = 0; i < skin.size(); ++i) skin[i] += lift[i] * normal[i];
     }
   }
@@ -465,8 +468,9 @@ double SoftTissue::finger_share(int vertex) const {
   return sum;
 }
 
-PosedTissue SoftTissue::pose(const Posture& posture) const {
-  const std::array<Rigid3, kBodyCount> motion = body_motions(impl_->person->joints, posture);
+PosedTissue SoftTissue::pose(const hand::Posture& posture) const {
+  const std::array<geometry::Rigid3, kBodyCount> motion =
+      body_motions(impl_->person->joints, posture);
   PosedTissue posed;
   impl_->blend(motion, posed.skin, posed.core);
   impl_->swell(posture, motion[kThumbMetacarpalBody], posed.skin);
@@ -476,4 +480,4 @@ PosedTissue SoftTissue::pose(const Posture& posture) const {
   return posed;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

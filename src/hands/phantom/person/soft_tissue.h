@@ -6,11 +6,11 @@
 #include <memory>
 #include <vector>
 
-#include "palmar/geometry/distance/mesh_distance.h"
 #include "hands/phantom/person/subject_bones.h"
 #include "hands/phantom/person/subject_person.h"
+#include "palmar/geometry/distance/mesh_distance.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 inline constexpr double kLeastPosedCover = 1.5;  ///< of skin over bone in any posture, mm
 
@@ -37,7 +37,7 @@ class SoftTissue {
   ~SoftTissue();
 
   /// The skin in a posture, hand frame (palm still), vertex for vertex.
-  PosedTissue pose(const Posture& posture) const;
+  PosedTissue pose(const hand::Posture& posture) const;
 
   /// Share of the phalanges in a vertex: 0 on the palm, 1 on a finger.
   double finger_share(int vertex) const;
@@ -49,4 +49,4 @@ class SoftTissue {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <string>
 
+#include "hands/phantom/person/long_bone.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
@@ -17,16 +18,15 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/smooth.h"
 #include "palmar/hand/bones/bone_shape.h"
-#include "hands/phantom/person/long_bone.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 constexpr std::uint64_t kStream = 20;
 // Buryanov & Kotiuk 2010, Table I (66 adults): metacarpals I to V, soft tissue beyond the tip, mm;
 // in hands whose third MCP joint lies 92.5 mm from the wrist joint.
-constexpr std::array<double, kFingerCount> kMetacarpal{46.22, 68.12, 64.60, 58.00, 53.69};
-constexpr std::array<double, kFingerCount> kTipTissue{5.67, 3.84, 3.95, 3.95, 3.73};
+constexpr std::array<double, hand::kFingerCount> kMetacarpal{46.22, 68.12, 64.60, 58.00, 53.69};
+constexpr std::array<double, hand::kFingerCount> kTipTissue{5.67, 3.84, 3.95, 3.95, 3.73};
 constexpr double kTypicalWristToMcp = 92.5;
 
 struct Draft {
@@ -40,15 +40,16 @@ class BoneMaker {
  public:
   BoneMaker(const SubjectPerson& person, std::uint64_t seed)
       : person_(person), skin_(person.skin), random_(seed, kStream) {
-    const Skeleton& skeleton = person.skeleton;
-    wrist_ = skeleton.joint(JointId::kWrist).centre;
-    scale_ = (skeleton.joint(JointId::kMiddleMcp).centre - wrist_).norm() / kTypicalWristToMcp;
+    const hand::Skeleton& skeleton = person.skeleton;
+    wrist_ = skeleton.joint(hand::JointId::kWrist).centre;
+    scale_ =
+        (skeleton.joint(hand::JointId::kMiddleMcp).centre - wrist_).norm() / kTypicalWristToMcp;
     for (const auto& [name, posture] : person.postures) {
       motions_.push_back(body_motions(person.joints, posture));
     }
     // Half way, where joints may be nearer to each other than at their ends.
     for (const auto& [name, posture] : person.postures) {
-      Posture half = person.reference;
+      hand::Posture half = person.reference;
       for (std::size_t k = 0; k < half.angle.size(); ++k) {
         half.angle[k] = 0.5 * (half.angle[k] + posture.angle[k]);
       }
@@ -57,7 +58,7 @@ class BoneMaker {
   }
 
   std::vector<SubjectBone> make() {
-    for (int f = 0; f < kFingerCount; ++f) make_ray(f);
+    for (int f = 0; f < hand::kFingerCount; ++f) make_ray(f);
     make_carpals();
     make_forearm();
     std::vector<SubjectBone> bones(placed_.size());
@@ -75,26 +76,26 @@ class BoneMaker {
 
   void place(Draft draft);
   void draw_in(Draft& draft, const std::function<bool(const Vec3&)>& is_free) const;
-  TriangleMesh marrow_of(const Draft& draft) const;
+  geometry::TriangleMesh marrow_of(const Draft& draft) const;
   void make_ray(int finger);
   void make_carpals();
   void make_forearm();
   Vec3 metacarpal_base(int finger, double head_radius) const;
 
   const SubjectPerson& person_;
-  MeshDistance skin_;
+  geometry::MeshDistance skin_;
   RandomStream random_;
   Vec3 wrist_;
   double scale_ = 1.0;
-  std::vector<std::array<Rigid3, kBodyCount>> motions_;
+  std::vector<std::array<geometry::Rigid3, kBodyCount>> motions_;
   std::vector<Draft> placed_;
-  std::vector<std::unique_ptr<MeshDistance>> distance_;
-  std::array<Vec3, kFingerCount> base_;
+  std::vector<std::unique_ptr<geometry::MeshDistance>> distance_;
+  std::array<Vec3, hand::kFingerCount> base_;
 };
 
 // Draws vertices in until each is free; neighbours follow, so that no dent has a sharp rim.
 void BoneMaker::draw_in(Draft& draft, const std::function<bool(const Vec3&)>& is_free) const {
-  TriangleMesh& mesh = draft.bone.bone.mesh;
+  geometry::TriangleMesh& mesh = draft.bone.bone.mesh;
   const int count = mesh.vertex_count();
   std::vector<double> share(count, 1.0);
   parallel_for(count, [&](int i) {
@@ -125,20 +126,20 @@ void BoneMaker::draw_in(Draft& draft, const std::function<bool(const Vec3&)>& is
 
 void BoneMaker::place(Draft draft) {
   draw_in(draft, [&](const Vec3& p) {
-    DistanceSample sample;
+    geometry::DistanceSample sample;
     skin_.sample({&p, 1}, kLeastSkinCover + 0.5, {&sample, 1});
     return sample.distance <= -kLeastSkinCover;
   });
-  const Box3 box = bounding_box(draft.bone.bone.mesh);
+  const Box3 box = geometry::bounding_box(draft.bone.bone.mesh);
   for (std::size_t i = 0; i < placed_.size(); ++i) {
     const int mine = draft.bone.body, other = placed_[i].bone.body;
-    std::vector<Rigid3> relative{Rigid3{}};
+    std::vector<geometry::Rigid3> relative{geometry::Rigid3{}};
     if (mine != other) {
       for (const auto& m : motions_) relative.push_back(m[other].inverse() * m[mine]);
     }
     const Box3 placed_box = distance_[i]->bounding_box();
-    std::vector<Rigid3> near;
-    for (const Rigid3& r : relative) {
+    std::vector<geometry::Rigid3> near;
+    for (const geometry::Rigid3& r : relative) {
       // The box's image in a box of its own, which is somewhat too large.
       const Vec3 half = r.rotation.toRotationMatrix().cwiseAbs() * (0.5 * box.sizes());
       const Vec3 middle = r * Vec3(box.center());
@@ -147,24 +148,24 @@ void BoneMaker::place(Draft draft) {
     }
     if (near.empty()) continue;
     draw_in(draft, [&](const Vec3& p) {
-      for (const Rigid3& r : near) {
+      for (const geometry::Rigid3& r : near) {
         const Vec3 q = r * p;
         if (placed_box.exteriorDistance(q) > kLeastBoneGap) continue;
-        DistanceSample sample;
+        geometry::DistanceSample sample;
         distance_[i]->sample({&q, 1}, kLeastBoneGap + 0.5, {&sample, 1});
         if (sample.distance < kLeastBoneGap) return false;
       }
       return true;
     });
   }
-  distance_.push_back(std::make_unique<MeshDistance>(draft.bone.bone.mesh));
+  distance_.push_back(std::make_unique<geometry::MeshDistance>(draft.bone.bone.mesh));
   placed_.push_back(std::move(draft));
 }
 
-TriangleMesh BoneMaker::marrow_of(const Draft& draft) const {
+geometry::TriangleMesh BoneMaker::marrow_of(const Draft& draft) const {
   // Cortex: thick in the shaft, 0.6 mm at the ends; never more than leaves a canal.
-  TriangleMesh marrow = draft.bone.bone.mesh;
-  const std::vector<Vec3> normal = vertex_normals(marrow);
+  geometry::TriangleMesh marrow = draft.bone.bone.mesh;
+  const std::vector<Vec3> normal = geometry::vertex_normals(marrow);
   const Vec3 along = draft.to - draft.from;
   for (std::size_t i = 0; i < marrow.vertices.size(); ++i) {
     Vec3& v = marrow.vertices[i];
@@ -177,7 +178,8 @@ TriangleMesh BoneMaker::marrow_of(const Draft& draft) const {
   return marrow;
 }
 
-std::vector<Vec3> core_on_chord(const TriangleMesh& mesh, const Vec3& from, const Vec3& to) {
+std::vector<Vec3> core_on_chord(const geometry::TriangleMesh& mesh, const Vec3& from,
+                                const Vec3& to) {
   const double length = (to - from).norm();
   const Vec3 along = (to - from) / length;
   std::vector<Vec3> core;
@@ -189,8 +191,8 @@ std::vector<Vec3> core_on_chord(const TriangleMesh& mesh, const Vec3& from, cons
 }
 
 Vec3 BoneMaker::metacarpal_base(int f, double head_radius) const {
-  const auto finger = static_cast<Finger>(f);
-  const Vec3 head = person_.joints.phalanx[index_of(*segments_of(finger)[0])].centre;
+  const auto finger = static_cast<hand::Finger>(f);
+  const Vec3 head = person_.joints.phalanx[index_of(*hand::segments_of(finger)[0])].centre;
   // Bases stand closer together than heads, and more dorsal.
   const double length = kMetacarpal[f] * scale_ - head_radius;
   Vec3 base(wrist_.x() + 0.58 * (head.x() - wrist_.x()), 0.0,
@@ -201,9 +203,9 @@ Vec3 BoneMaker::metacarpal_base(int f, double head_radius) const {
 }
 
 void BoneMaker::make_ray(int f) {
-  const auto finger = static_cast<Finger>(f);
+  const auto finger = static_cast<hand::Finger>(f);
   const bool is_thumb = f == 0;
-  const auto segments = segments_of(finger);
+  const auto segments = hand::segments_of(finger);
   const int count = is_thumb ? 2 : 3;
   const std::string name(name_of(finger));
   const double w = person_.finger_width[f];
@@ -221,7 +223,7 @@ void BoneMaker::make_ray(int f) {
   const Vec3 tip = person_.skeleton.fingertips[f];
   node[count] = tip;
 
-  const auto add = [&](const std::string& bone_name, std::optional<Segment> segment, int body,
+  const auto add = [&](const std::string& bone_name, std::optional<hand::Segment> segment, int body,
                        const LongBoneShape& shape, double thickness) {
     Draft draft;
     draft.bone.bone.name = bone_name;
@@ -253,12 +255,12 @@ void BoneMaker::make_ray(int f) {
   metacarpal.bow = 1.6 * scale_ * varied(0.25);
   metacarpal.ripple = 0.05;
   metacarpal.twist = 0.5 * varied(0.5);
-  add(is_thumb ? "thumb_metacarpal" : name + "_metacarpal", Segment::kPalm,
+  add(is_thumb ? "thumb_metacarpal" : name + "_metacarpal", hand::Segment::kPalm,
       is_thumb ? kThumbMetacarpalBody : 0, metacarpal, 1.7);
 
   for (int k = 0; k < count; ++k) {
     const bool is_last = k + 1 == count;
-    const Segment segment = *segments[k];
+    const hand::Segment segment = *segments[k];
     LongBoneShape shape;
     shape.base = node[k];
     shape.socket = head[k];
@@ -295,9 +297,9 @@ void BoneMaker::make_ray(int f) {
 // Carpals: each direction from a bone's middle ends at its own bumpy outline, or half way to a
 // neighbour less half of the joint space.
 void BoneMaker::make_carpals() {
-  const Vec3 away =
-      (person_.joints.cmc.centre - person_.joints.phalanx[index_of(Segment::kThumbProximal)].centre)
-          .normalized();
+  const Vec3 away = (person_.joints.cmc.centre -
+                     person_.joints.phalanx[index_of(hand::Segment::kThumbProximal)].centre)
+                        .normalized();
   struct Carpal {
     const char* name;
     Vec3 centre, half;
@@ -374,8 +376,9 @@ void BoneMaker::make_carpals() {
     push(std::numbers::pi, 0.0);
     Draft draft;
     draft.bone.bone.name = c.name;
-    draft.bone.bone.segment = Segment::kPalm;
-    draft.bone.bone.mesh = smooth_taubin(close_rings(std::move(vertices), kAround), {.rounds = 8});
+    draft.bone.bone.segment = hand::Segment::kPalm;
+    draft.bone.bone.mesh =
+        geometry::smooth_taubin(hand::close_rings(std::move(vertices), kAround), {.rounds = 8});
     draft.core.assign(draft.bone.bone.mesh.vertices.size(), c.centre);
     draft.from = c.centre - Vec3(0.0, c.half.y(), 0.0);
     draft.to = c.centre + Vec3(0.0, c.half.y(), 0.0);
@@ -426,4 +429,4 @@ std::vector<SubjectBone> make_subject_bones(const SubjectPerson& person, std::ui
   return BoneMaker(person, seed).make();
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

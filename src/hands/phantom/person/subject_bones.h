@@ -8,15 +8,15 @@
 #include "hands/phantom/person/skin_cover.h"
 #include "hands/phantom/person/subject_person.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 inline constexpr double kLeastBoneGap = 1.0;  ///< between two bones in every posture, mm
 
 /// A bone with its marrow; hand frame, reference posture.
 struct SubjectBone {
-  Bone bone;
+  hand::Bone bone;
   int body = 0;  ///< that it moves with, see subject_joints.h
-  TriangleMesh marrow;
+  geometry::TriangleMesh marrow;
 };
 
 /// 29 bones of a person, named and ordered as Hand::bones has them. Heads are surfaces of
@@ -26,4 +26,4 @@ struct SubjectBone {
 /// smaller.
 std::vector<SubjectBone> make_subject_bones(const SubjectPerson& person, std::uint64_t seed);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -4,22 +4,23 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
-Rigid3 about(const Vec3& axis, const Vec3& point, double angle) {
-  return Rigid3::about_axis(axis, point, angle);
+geometry::Rigid3 about(const Vec3& axis, const Vec3& point, double angle) {
+  return geometry::Rigid3::about_axis(axis, point, angle);
 }
 
 }  // namespace
 
-Rigid3 joint_motion(const RollingJoint& joint, const Posture& posture) {
+geometry::Rigid3 joint_motion(const RollingJoint& joint, const hand::Posture& posture) {
   const double f = posture[joint.flexion], f0 = joint.reference;
   const auto h = [&](double flexion) {
     return std::hypot(std::cos(flexion), (1.0 + joint.ellipse) * std::sin(flexion));
   };
   const Vec3& c = joint.centre;
-  Rigid3 turn = about(joint.axis, c, f - f0) * about(joint.along, c, joint.twist * (f - f0));
+  geometry::Rigid3 turn =
+      about(joint.axis, c, f - f0) * about(joint.along, c, joint.twist * (f - f0));
   const Vec3 e = turn.rotation * joint.along;
   const Vec3 n = turn.rotation * joint.axis.cross(joint.along);
   turn.translation +=
@@ -29,12 +30,12 @@ Rigid3 joint_motion(const RollingJoint& joint, const Posture& posture) {
                       posture[*joint.abduction] - joint.abduction_reference);
 }
 
-Rigid3 joint_motion(const SaddleJoint& joint, const Posture& posture) {
-  const double f = posture[Dof::kThumbCmcFlexion] - joint.flexion_reference;
-  const double a = posture[Dof::kThumbCmcAbduction] - joint.abduction_reference;
+geometry::Rigid3 joint_motion(const SaddleJoint& joint, const hand::Posture& posture) {
+  const double f = posture[hand::Dof::kThumbCmcFlexion] - joint.flexion_reference;
+  const double a = posture[hand::Dof::kThumbCmcAbduction] - joint.abduction_reference;
   const double pronation = joint.by_flexion * f + joint.by_abduction * a + joint.by_both * f * a;
   const auto screw = [&](const Vec3& axis, const Vec3& point, double angle) {
-    Rigid3 turn = about(axis, point, angle);
+    geometry::Rigid3 turn = about(axis, point, angle);
     turn.translation += joint.glide * angle * axis;
     return turn;
   };
@@ -43,37 +44,39 @@ Rigid3 joint_motion(const SaddleJoint& joint, const Posture& posture) {
 }
 
 std::optional<int> parent_of(int body) {
-  if (body == static_cast<int>(Segment::kPalm)) return {};
-  if (body == kThumbMetacarpalBody) return static_cast<int>(Segment::kPalm);
-  if (body == static_cast<int>(Segment::kThumbProximal)) return kThumbMetacarpalBody;
-  const Finger finger = *finger_of(static_cast<Segment>(body));
-  const bool is_first = segments_of(finger)[0] == static_cast<Segment>(body);
-  return is_first ? static_cast<int>(Segment::kPalm) : body - 1;
+  if (body == static_cast<int>(hand::Segment::kPalm)) return {};
+  if (body == kThumbMetacarpalBody) return static_cast<int>(hand::Segment::kPalm);
+  if (body == static_cast<int>(hand::Segment::kThumbProximal)) return kThumbMetacarpalBody;
+  const hand::Finger finger = *hand::finger_of(static_cast<hand::Segment>(body));
+  const bool is_first = hand::segments_of(finger)[0] == static_cast<hand::Segment>(body);
+  return is_first ? static_cast<int>(hand::Segment::kPalm) : body - 1;
 }
 
-std::array<Rigid3, kBodyCount> body_motions(const SubjectJoints& joints, const Posture& posture) {
-  std::array<Rigid3, kBodyCount> motion;
+std::array<geometry::Rigid3, kBodyCount> body_motions(const SubjectJoints& joints,
+                                                      const hand::Posture& posture) {
+  std::array<geometry::Rigid3, kBodyCount> motion;
   motion[kThumbMetacarpalBody] = joint_motion(joints.cmc, posture);
   // Segments stand from proximal to distal, so a parent comes first.
-  for (int body = 1; body < kSegmentCount; ++body) {
+  for (int body = 1; body < hand::kSegmentCount; ++body) {
     motion[body] = motion[*parent_of(body)] * joint_motion(joints.phalanx[body], posture);
   }
   return motion;
 }
 
-InstantAxis instant_axis(const SubjectJoints& joints, const Posture& reference, int body, Dof dof) {
+InstantAxis instant_axis(const SubjectJoints& joints, const hand::Posture& reference, int body,
+                         hand::Dof dof) {
   constexpr double kStep = 1.0e-5;  // rad
   const bool is_cmc = body == kThumbMetacarpalBody;
   const auto motion = [&](double step) {
-    Posture posture = reference;
+    hand::Posture posture = reference;
     posture[dof] += step;
     return is_cmc ? joint_motion(joints.cmc, posture) : joint_motion(joints.phalanx[body], posture);
   };
   const Vec3& centre = is_cmc ? joints.cmc.centre : joints.phalanx[body].centre;
-  const Rigid3 step = motion(kStep) * motion(-kStep).inverse();
+  const geometry::Rigid3 step = motion(kStep) * motion(-kStep).inverse();
   const Vec3 turn = 2.0 * step.rotation.vec() / (2.0 * kStep);     // per rad
   const Vec3 velocity = (step * centre - centre) / (2.0 * kStep);  // mm per rad
   return {turn.normalized(), centre + turn.cross(velocity) / turn.squaredNorm()};
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -9,12 +9,12 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// Rigid parts of a subject: the palm and the 14 phalanges by their Segment, then the thumb's
 /// metacarpal.
-inline constexpr int kThumbMetacarpalBody = kSegmentCount;
-inline constexpr int kBodyCount = kSegmentCount + 1;
+inline constexpr int kThumbMetacarpalBody = hand::kSegmentCount;
+inline constexpr int kBodyCount = hand::kSegmentCount + 1;
 
 /// Joint of a phalanx that rolls and glides on an elliptic head. Hand frame, reference posture.
 ///
@@ -26,7 +26,7 @@ inline constexpr int kBodyCount = kSegmentCount + 1;
 /// e along the phalanx, n its palmar direction, f0 the reference. So no axis is fixed. Abduction
 /// happens first, about an axis that the phalanx carries.
 struct RollingJoint {
-  Dof flexion{};
+  hand::Dof flexion{};
   Vec3 centre = Vec3::Zero();
   Vec3 axis = Vec3::UnitX();   ///< of flexion
   Vec3 along = Vec3::UnitY();  ///< of the phalanx
@@ -34,7 +34,7 @@ struct RollingJoint {
   double ellipse = 0.0, twist = 0.0;
   double creep = 0.0;  ///< mm
   double reference = 0.0;
-  std::optional<Dof> abduction;
+  std::optional<hand::Dof> abduction;
   Vec3 abduction_axis = Vec3::UnitZ(), abduction_point = Vec3::Zero();
   double abduction_reference = 0.0;
 };
@@ -56,17 +56,19 @@ struct SaddleJoint {
 
 struct SubjectJoints {
   SaddleJoint cmc;
-  std::array<RollingJoint, kSegmentCount> phalanx;  ///< by Segment; that of the palm isn't used
+  std::array<RollingJoint, hand::kSegmentCount> phalanx;  ///< by Segment; that of the palm isn't
+                                                          ///< used
 };
 
 /// posed_from_reference of a phalanx against the next more proximal part, both in the frame of the
 /// reference posture.
-Rigid3 joint_motion(const RollingJoint& joint, const Posture& posture);
-Rigid3 joint_motion(const SaddleJoint& joint, const Posture& posture);
+geometry::Rigid3 joint_motion(const RollingJoint& joint, const hand::Posture& posture);
+geometry::Rigid3 joint_motion(const SaddleJoint& joint, const hand::Posture& posture);
 
 /// posed_from_reference of every part, the palm standing still. Quaternions along a finger turn
 /// without a jump of sign.
-std::array<Rigid3, kBodyCount> body_motions(const SubjectJoints& joints, const Posture& posture);
+std::array<geometry::Rigid3, kBodyCount> body_motions(const SubjectJoints& joints,
+                                                      const hand::Posture& posture);
 
 /// The part that carries a body; nothing for the palm.
 std::optional<int> parent_of(int body);
@@ -76,6 +78,7 @@ std::optional<int> parent_of(int body);
 struct InstantAxis {
   Vec3 axis, point;
 };
-InstantAxis instant_axis(const SubjectJoints& joints, const Posture& reference, int body, Dof dof);
+InstantAxis instant_axis(const SubjectJoints& joints, const hand::Posture& reference, int body,
+                         hand::Dof dof);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -12,33 +12,33 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 // A PIP joint at the origin: phalanx along y, flexion about x, towards z.
 SubjectJoints one_finger() {
   SubjectJoints joints;
-  for (int body = 1; body < kSegmentCount; ++body) {
-    joints.phalanx[body].flexion = Dof::kRingPipFlexion;
+  for (int body = 1; body < hand::kSegmentCount; ++body) {
+    joints.phalanx[body].flexion = hand::Dof::kRingPipFlexion;
   }
-  RollingJoint& pip = joints.phalanx[index_of(Segment::kIndexMiddle)];
-  pip.flexion = Dof::kIndexPipFlexion;
+  RollingJoint& pip = joints.phalanx[index_of(hand::Segment::kIndexMiddle)];
+  pip.flexion = hand::Dof::kIndexPipFlexion;
   pip.radius = 4.0;
   pip.ellipse = 0.1;
   pip.creep = 0.3;
   return joints;
 }
 
-constexpr int kPip = static_cast<int>(Segment::kIndexMiddle);
+constexpr int kPip = static_cast<int>(hand::Segment::kIndexMiddle);
 
-Posture bent(double degrees) {
-  Posture posture;
-  posture[Dof::kIndexPipFlexion] = degrees * kDegree;
+hand::Posture bent(double degrees) {
+  hand::Posture posture;
+  posture[hand::Dof::kIndexPipFlexion] = degrees * geometry::kDegree;
   return posture;
 }
 
 TEST(SubjectJoints, NothingMovesAtTheReference) {
-  for (const Rigid3& m : body_motions(one_finger(), Posture{})) {
+  for (const geometry::Rigid3& m : body_motions(one_finger(), hand::Posture{})) {
     EXPECT_EQ(m.rotation.vec().norm(), 0.0);
     EXPECT_EQ(m.translation.norm(), 0.0);
   }
@@ -47,7 +47,7 @@ TEST(SubjectJoints, NothingMovesAtTheReference) {
 TEST(SubjectJoints, APhalanxFollowsTheEllipseOfTheHead) {
   // Bent by 90 degrees the base stands on the long half axis: 4 (1.1 - 1) mm farther out along the
   // phalanx, which then points to z, and has crept by 0.3 mm along its palmar side, then -y.
-  const Rigid3 m = joint_motion(one_finger().phalanx[kPip], bent(90.0));
+  const geometry::Rigid3 m = joint_motion(one_finger().phalanx[kPip], bent(90.0));
   const Vec3 centre = m * Vec3::Zero();
   EXPECT_NEAR(centre.z(), 0.4, 1e-12);
   EXPECT_NEAR(centre.y(), -0.3, 1e-12);
@@ -57,7 +57,8 @@ TEST(SubjectJoints, APhalanxFollowsTheEllipseOfTheHead) {
 TEST(SubjectJoints, TheInstantCentreMovesByTenthsOfAMillimetre) {
   std::vector<Vec3> centre;
   for (const double degrees : {0.0, 20.0, 40.0, 60.0, 80.0}) {
-    centre.push_back(instant_axis(one_finger(), bent(degrees), kPip, Dof::kIndexPipFlexion).point);
+    centre.push_back(
+        instant_axis(one_finger(), bent(degrees), kPip, hand::Dof::kIndexPipFlexion).point);
   }
   double most = 0.0;
   for (const Vec3& a : centre) {
@@ -72,7 +73,7 @@ TEST(SubjectJoints, APulleyWithoutEllipseAndCreepIsAHinge) {
   RollingJoint& pip = joints.phalanx[kPip];
   pip.ellipse = pip.creep = 0.0;
   pip.centre = Vec3(3.0, 40.0, -2.0);
-  const InstantAxis axis = instant_axis(joints, bent(30.0), kPip, Dof::kIndexPipFlexion);
+  const InstantAxis axis = instant_axis(joints, bent(30.0), kPip, hand::Dof::kIndexPipFlexion);
   EXPECT_NEAR((axis.axis - Vec3::UnitX()).norm(), 0.0, 1e-9);
   EXPECT_NEAR((axis.point - pip.centre).norm(), 0.0, 1e-7);
 }
@@ -86,9 +87,9 @@ TEST(SubjectJoints, NoFixedAxisReproducesTheSaddleJoint) {
   cmc.by_abduction = -0.12;
   std::vector<Quat> limit;
   for (const auto& [f, a] : {std::pair{22.0, 0.0}, {-22.0, 0.0}, {0.0, 22.0}, {0.0, -22.0}}) {
-    Posture posture;
-    posture[Dof::kThumbCmcFlexion] = f * kDegree;
-    posture[Dof::kThumbCmcAbduction] = a * kDegree;
+    hand::Posture posture;
+    posture[hand::Dof::kThumbCmcFlexion] = f * geometry::kDegree;
+    posture[hand::Dof::kThumbCmcAbduction] = a * geometry::kDegree;
     limit.push_back(joint_motion(cmc, posture).rotation);
   }
   // Whatever the axis: after the best turn about it a swing perpendicular to it is left, which
@@ -115,25 +116,26 @@ TEST(SubjectJoints, NoFixedAxisReproducesTheSaddleJoint) {
 TEST(SubjectJoints, QuaternionsAlongAFingerDontJump) {
   // Three joints bent by 80 degrees each: 240 degrees in all, more than half a turn.
   SubjectJoints joints;
-  Posture posture;
-  const std::array<Dof, 3> dof{Dof::kIndexMcpFlexion, Dof::kIndexPipFlexion, Dof::kIndexDipFlexion};
-  for (int body = 1; body < kSegmentCount; ++body) {
-    joints.phalanx[body].flexion = Dof::kWristFlexion;
+  hand::Posture posture;
+  const std::array<hand::Dof, 3> dof{hand::Dof::kIndexMcpFlexion, hand::Dof::kIndexPipFlexion,
+                                     hand::Dof::kIndexDipFlexion};
+  for (int body = 1; body < hand::kSegmentCount; ++body) {
+    joints.phalanx[body].flexion = hand::Dof::kWristFlexion;
   }
-  const int first = static_cast<int>(Segment::kIndexProximal);
+  const int first = static_cast<int>(hand::Segment::kIndexProximal);
   for (int k = 0; k < 3; ++k) {
     RollingJoint& joint = joints.phalanx[first + k];
     joint.flexion = dof[k];
     joint.centre = Vec3(0.0, 30.0 * k, 0.0);
-    posture[joint.flexion] = 80.0 * kDegree;
+    posture[joint.flexion] = 80.0 * geometry::kDegree;
   }
   const auto motion = body_motions(joints, posture);
   for (int k = 0; k < 2; ++k) {
     const Quat& a = motion[first + k].rotation;
     const Quat& b = motion[first + k + 1].rotation;
-    EXPECT_NEAR(a.dot(b), std::cos(40.0 * kDegree), 1e-12);
+    EXPECT_NEAR(a.dot(b), std::cos(40.0 * geometry::kDegree), 1e-12);
   }
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::phantom

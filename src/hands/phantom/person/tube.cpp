@@ -8,7 +8,7 @@
 
 #include "palmar/hand/bones/bone_shape.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 constexpr int kAround = 10;
@@ -33,7 +33,7 @@ std::vector<Vec3> curve_through(const std::vector<Vec3>& p) {
 
 }  // namespace
 
-TriangleMesh tube_mesh(const std::vector<Vec3>& through, double radius) {
+geometry::TriangleMesh tube_mesh(const std::vector<Vec3>& through, double radius) {
   const std::vector<Vec3> curve = curve_through(through);
   std::vector<Vec3> vertices{curve.front()};
   Vec3 side = (curve[1] - curve[0]).unitOrthogonal();
@@ -49,7 +49,7 @@ TriangleMesh tube_mesh(const std::vector<Vec3>& through, double radius) {
     }
   }
   vertices.push_back(curve.back());
-  return close_rings(std::move(vertices), kAround);
+  return hand::close_rings(std::move(vertices), kAround);
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -6,10 +6,10 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// Closed tube of round section along a smooth curve (Catmull-Rom) through at least two points,
 /// tapered at both ends; mm.
-TriangleMesh tube_mesh(const std::vector<Vec3>& through, double radius);
+geometry::TriangleMesh tube_mesh(const std::vector<Vec3>& through, double radius);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -14,7 +14,7 @@
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 float linear_of(float srgb) {
@@ -26,7 +26,7 @@ float srgb_of(float linear) {
   return c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F;
 }
 
-Vec3f linear_of(const Vec3f& srgb) {
+capture::Vec3f linear_of(const capture::Vec3f& srgb) {
   return {linear_of(srgb[0]), linear_of(srgb[1]), linear_of(srgb[2])};
 }
 
@@ -42,7 +42,7 @@ std::uint32_t scrambled(std::uint32_t x) {
 float unit_of(std::uint32_t bits) { return (static_cast<float>(bits >> 8) + 0.5F) * 0x1p-24F; }
 
 /// Smooth noise about 0 with a deviation of about 0.4, one swell per unit.
-float swell(const Vec3f& at, std::uint32_t seed) {
+float swell(const capture::Vec3f& at, std::uint32_t seed) {
   std::array<int, 3> low{};
   std::array<float, 3> f{};
   for (int a = 0; a < 3; ++a) {
@@ -66,7 +66,7 @@ float swell(const Vec3f& at, std::uint32_t seed) {
 }
 
 /// Unevenness of skin at a point fixed to it: swells of 0.6 to 9 mm; deviation about 1.
-float unevenness(const Vec3f& at, std::uint32_t seed) {
+float unevenness(const capture::Vec3f& at, std::uint32_t seed) {
   float sum = 0.0F;
   float size = 0.6F;  // mm
   constexpr int kOctaves = 5;
@@ -83,8 +83,8 @@ struct Lamp {
 };
 
 struct Colours {
-  Vec3f paper = Vec3f::Constant(0.80F), ink = Vec3f::Constant(0.04F);
-  Vec3f cloth = linear_of(Vec3f(0.13F, 0.27F, 0.62F));
+  capture::Vec3f paper = capture::Vec3f::Constant(0.80F), ink = capture::Vec3f::Constant(0.04F);
+  capture::Vec3f cloth = linear_of(capture::Vec3f(0.13F, 0.27F, 0.62F));
 };
 
 constexpr float kAmbient = 0.42F;
@@ -95,16 +95,16 @@ constexpr int kSide = 2;  // points of a pixel along an edge
 struct PhotographsStage::Impl {
   PhotographsOptions options;
   PrintedBoard board;
-  TriangleMesh mesh;
-  std::vector<Vec3f> albedo;  ///< per vertex, linear
-  std::vector<Vec3f> normals;
+  geometry::TriangleMesh mesh;
+  std::vector<capture::Vec3f> albedo;  ///< per vertex, linear
+  std::vector<capture::Vec3f> normals;
   Box3 box;
-  std::unique_ptr<RayQuery> query;
+  std::unique_ptr<geometry::RayQuery> query;
   Colours colours;
 
   /// Most rays don't come near the hand.
-  std::optional<RayHit> first_hit(const Vec3& origin, const Vec3& direction, double from,
-                                  double to) const {
+  std::optional<geometry::RayHit> first_hit(const Vec3& origin, const Vec3& direction, double from,
+                                            double to) const {
     double enter = from, leave = to;
     for (int a = 0; a < 3; ++a) {
       const double inverse = 1.0 / direction[a];
@@ -149,8 +149,8 @@ namespace {
 /// What one photograph needs.
 class Shutter {
  public:
-  Shutter(const PhotographsStage::Impl& stage, const PhotoShot& shot, const Rigid3& board_from_hand,
-          int number)
+  Shutter(const PhotographsStage::Impl& stage, const PhotoShot& shot,
+          const geometry::Rigid3& board_from_hand, int number)
       : stage_(stage), shot_(shot), hand_from_board_(board_from_hand.inverse()), number_(number) {
     const double turn = stage.options.light_on_rig
                             ? stage.options.step * shot.position * std::numbers::pi / 180.0
@@ -160,8 +160,8 @@ class Shutter {
     focus_ = stage.options.distance + stage.options.focus;
   }
 
-  RgbImage take() {
-    const PhotoLens& lens = shot_.pose.lens;
+  geometry::RgbImage take() {
+    const capture::PhotoLens& lens = shot_.pose.lens;
     // Directions at the corners of the pixels; between them they are as good as linear.
     const int columns = lens.width + 1;
     const LensTerms terms = lens_terms(stage_.options, shot_.camera);
@@ -172,10 +172,10 @@ class Shutter {
             bent(terms, lens.direction_of({x - 0.5, y - 0.5}));
       }
     });
-    std::vector<Vec3f> light(static_cast<std::size_t>(lens.width) * lens.height);
+    std::vector<capture::Vec3f> light(static_cast<std::size_t>(lens.width) * lens.height);
     parallel_for(lens.height, [&](int y) {
       for (int x = 0; x < lens.width; ++x) {
-        Vec3f sum = Vec3f::Zero();
+        capture::Vec3f sum = capture::Vec3f::Zero();
         for (int s = 0; s < kSide * kSide; ++s) sum += sample(x, y, s);
         light[static_cast<std::size_t>(y) * lens.width + x] =
             darkened(x, y) * sum / static_cast<float>(kSide * kSide);
@@ -188,13 +188,13 @@ class Shutter {
  private:
   /// What the lens leaves of the light.
   float darkened(int x, int y) const {
-    const PhotoLens& lens = shot_.pose.lens;
+    const capture::PhotoLens& lens = shot_.pose.lens;
     const Eigen::Vector2d half(0.5 * lens.width, 0.5 * lens.height);
     const double out = (Eigen::Vector2d(x, y) - half).squaredNorm() / half.squaredNorm();
     return static_cast<float>(1.0 - stage_.options.vignetting * out);
   }
 
-  Vec3f sample(int x, int y, int s) const {
+  capture::Vec3f sample(int x, int y, int s) const {
     const std::uint32_t key =
         scrambled(static_cast<std::uint32_t>(x) ^
                   scrambled(static_cast<std::uint32_t>(y * kSide * kSide + s) ^
@@ -220,7 +220,8 @@ class Shutter {
   }
 
   template <typename Random>
-  Vec3f seen(const Vec3& origin, const Vec3& direction, int x, int y, Random& random) const {
+  capture::Vec3f seen(const Vec3& origin, const Vec3& direction, int x, int y,
+                      Random& random) const {
     double far = std::numeric_limits<double>::infinity();
     const PrintedBoard& board = stage_.board;
     double to_board = -1.0;
@@ -246,10 +247,11 @@ class Shutter {
     if (to_board > 0.0) {
       const Vec3 at = origin + to_board * direction;
       const float ink = stage_.ink_at(at.x(), at.y());
-      Vec3f albedo = stage_.colours.paper + ink * (stage_.colours.ink - stage_.colours.paper);
+      capture::Vec3f albedo =
+          stage_.colours.paper + ink * (stage_.colours.ink - stage_.colours.paper);
       if (!is_sheet) {
-        const Vec3f grain(static_cast<float>(at.x()) / 60.0F, static_cast<float>(at.y()) / 4.0F,
-                          0.0F);
+        const capture::Vec3f grain(static_cast<float>(at.x()) / 60.0F,
+                                   static_cast<float>(at.y()) / 4.0F, 0.0F);
         albedo = linear_of(*board.table) *
                  std::max(0.3F, 1.0F + static_cast<float>(board.grain) * swell(grain, 23U));
       }
@@ -281,7 +283,7 @@ class Shutter {
   }
 
   template <typename Random>
-  Vec3f skin(const Vec3& at, const Vec3& direction, int triangle, Random& random) const {
+  capture::Vec3f skin(const Vec3& at, const Vec3& direction, int triangle, Random& random) const {
     const Triangle& t = stage_.mesh.triangles[triangle];
     const auto corner = [&](std::size_t c) -> const Vec3& { return stage_.mesh.vertices[t[c]]; };
     const Vec3 cross = (corner(1) - corner(0)).cross(corner(2) - corner(0));
@@ -291,7 +293,7 @@ class Shutter {
       share[c] = static_cast<float>(
           (corner((c + 1) % 3) - at).cross(corner((c + 2) % 3) - at).dot(cross) / area);
     }
-    Vec3f albedo = Vec3f::Zero(), normal = Vec3f::Zero();
+    capture::Vec3f albedo = capture::Vec3f::Zero(), normal = capture::Vec3f::Zero();
     for (std::size_t c = 0; c < 3; ++c) {
       albedo += share[c] * stage_.albedo[t[c]];
       normal += share[c] * stage_.normals[t[c]];
@@ -303,7 +305,7 @@ class Shutter {
                                             static_cast<std::uint32_t>(stage_.options.seed)));
     }
     const Vec3 n = normal.cast<double>().normalized();
-    Vec3f light = albedo * irradiance(at, n, random);
+    capture::Vec3f light = albedo * irradiance(at, n, random);
     if (stage_.options.gloss > 0.0) {
       const Vec3 mirrored = direction - 2.0 * n.dot(direction) * n;
       for (const Lamp& lamp : lamps_) {
@@ -311,28 +313,29 @@ class Shutter {
         constexpr double kExponent = 30.0;
         const double along = mirrored.dot(way);
         if (along > 0.0 && n.dot(way) > 0.0) {
-          light += Vec3f::Constant(static_cast<float>(stage_.options.gloss * lamp.strength *
-                                                      std::pow(along, kExponent)));
+          light += capture::Vec3f::Constant(static_cast<float>(
+              stage_.options.gloss * lamp.strength * std::pow(along, kExponent)));
         }
       }
     }
     return light;
   }
 
-  Vec3f behind(int x, int y, const Vec3& direction) const {
+  capture::Vec3f behind(int x, int y, const Vec3& direction) const {
     if (!stage_.options.clutter) {
       return stage_.colours.cloth * static_cast<float>(0.75 + 0.25 * direction.z());
     }
-    const Vec3f at(static_cast<float>(x) / 37.0F, static_cast<float>(y) / 37.0F,
-                   static_cast<float>(shot_.camera) * 17.0F);
+    const capture::Vec3f at(static_cast<float>(x) / 37.0F, static_cast<float>(y) / 37.0F,
+                            static_cast<float>(shot_.camera) * 17.0F);
     const float a = swell(at, 11U) + 0.5F * swell(4.0F * at, 12U);
     const float b = swell(1.7F * at, 13U);
-    return linear_of(Vec3f(0.62F + 0.3F * a, 0.46F + 0.25F * a + 0.05F * b, 0.36F + 0.2F * a))
+    return linear_of(
+               capture::Vec3f(0.62F + 0.3F * a, 0.46F + 0.25F * a + 0.05F * b, 0.36F + 0.2F * a))
         .cwiseMax(0.02F)
         .cwiseMin(0.9F);
   }
 
-  void blur(std::vector<Vec3f>& light, int width, int height) const {
+  void blur(std::vector<capture::Vec3f>& light, int width, int height) const {
     const double sigma = stage_.options.blur;
     if (sigma <= 0.0) return;
     const int reach = static_cast<int>(std::ceil(3.0 * sigma));
@@ -340,11 +343,12 @@ class Shutter {
     for (int i = -reach; i <= reach; ++i) {
       weight.push_back(static_cast<float>(std::exp(-0.5 * i * i / (sigma * sigma))));
     }
-    std::vector<Vec3f> other(light.size());
-    const auto pass = [&](const std::vector<Vec3f>& from, std::vector<Vec3f>& to, int dx, int dy) {
+    std::vector<capture::Vec3f> other(light.size());
+    const auto pass = [&](const std::vector<capture::Vec3f>& from, std::vector<capture::Vec3f>& to,
+                          int dx, int dy) {
       parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
-          Vec3f sum = Vec3f::Zero();
+          capture::Vec3f sum = capture::Vec3f::Zero();
           float whole = 0.0F;
           for (int i = -reach; i <= reach; ++i) {
             const int u = std::clamp(x + i * dx, 0, width - 1);
@@ -361,9 +365,9 @@ class Shutter {
     pass(other, light, 0, 1);
   }
 
-  RgbImage developed(const std::vector<Vec3f>& light) const {
-    const PhotoLens& lens = shot_.pose.lens;
-    RgbImage image{lens.width, lens.height, {}};
+  geometry::RgbImage developed(const std::vector<capture::Vec3f>& light) const {
+    const capture::PhotoLens& lens = shot_.pose.lens;
+    geometry::RgbImage image{lens.width, lens.height, {}};
     image.rgb.resize(3 * light.size());
     const auto noise = static_cast<float>(stage_.options.noise);
     const auto tone = static_cast<float>(stage_.options.tone);
@@ -371,7 +375,7 @@ class Shutter {
       RandomStream random(stage_.options.seed, (static_cast<std::uint64_t>(number_ + 1) << 32) +
                                                    static_cast<std::uint64_t>(y));
       for (int x = 0; x < lens.width; ++x) {
-        const std::size_t at = pixel_offset(image, x, y);
+        const std::size_t at = capture::pixel_offset(image, x, y);
         for (std::size_t c = 0; c < 3; ++c) {
           const float even = srgb_of(light[at / 3][static_cast<int>(c)]);
           float value = 255.0F * (even + tone * even * (1.0F - even) * (2.0F * even - 1.0F));
@@ -392,7 +396,7 @@ class Shutter {
 
   const PhotographsStage::Impl& stage_;
   const PhotoShot& shot_;
-  Rigid3 hand_from_board_, board_from_camera_;
+  geometry::Rigid3 hand_from_board_, board_from_camera_;
   int number_;
   std::array<Lamp, 2> lamps_;
   std::vector<Eigen::Vector2d> corners_;
@@ -401,7 +405,7 @@ class Shutter {
 
 }  // namespace
 
-PhotographsStage::PhotographsStage(const ColouredMesh& hand, const PrintedBoard& board,
+PhotographsStage::PhotographsStage(const geometry::ColouredMesh& hand, const PrintedBoard& board,
                                    const PhotographsOptions& options) {
   options.check();
   if (hand.colour.size() != hand.mesh.vertices.size()) {
@@ -412,19 +416,20 @@ PhotographsStage::PhotographsStage(const ColouredMesh& hand, const PrintedBoard&
   impl->board = board;
   if (board.paper) impl->colours.paper = linear_of(*board.paper);
   impl->mesh = hand.mesh;
-  for (const Vec3f& colour : hand.colour) impl->albedo.push_back(linear_of(colour));
-  for (const Vec3& normal : vertex_normals(hand.mesh))
+  for (const capture::Vec3f& colour : hand.colour) impl->albedo.push_back(linear_of(colour));
+  for (const Vec3& normal : geometry::vertex_normals(hand.mesh))
     impl->normals.push_back(normal.cast<float>());
-  impl->box = bounding_box(hand.mesh);
-  if (!hand.mesh.triangles.empty()) impl->query = std::make_unique<RayQuery>(hand.mesh);
+  impl->box = geometry::bounding_box(hand.mesh);
+  if (!hand.mesh.triangles.empty()) impl->query = std::make_unique<geometry::RayQuery>(hand.mesh);
   impl_ = std::move(impl);
 }
 
 PhotographsStage::~PhotographsStage() = default;
 
-RgbImage PhotographsStage::take(const PhotoShot& shot, const Rigid3& board_from_hand,
-                                int number) const {
+geometry::RgbImage PhotographsStage::take(const PhotoShot& shot,
+                                          const geometry::Rigid3& board_from_hand,
+                                          int number) const {
   return Shutter(*impl_, shot, board_from_hand, number).take();
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -11,7 +11,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// The rig of the thesis and what can go wrong with it. Cameras stand round a board with a pattern,
 /// at two heights by turns, and look at the hand that stands on its middle; the rig goes round in
@@ -66,23 +66,24 @@ struct PrintedBoard {
   double sheet = 420.0;       ///< of the white sheet that it is on, mm
   double sheet_height = 0.0;  ///< of the sheet along y; 0: square
   /// Of the table that it lies on, with a grain along x; nothing: a blue cloth.
-  std::optional<Srgb> table = std::nullopt;
+  std::optional<geometry::Srgb> table = std::nullopt;
   double grain = 0.6;      ///< contrast of its grain
   double corner = 0.0;     ///< radius of the sheet's corners, mm
   double thickness = 0.0;  ///< with a table: of the sheet, a card, on it, mm; it throws no shadow
-  std::optional<Srgb> paper = std::nullopt;  ///< colour of the sheet; nothing: white
+  std::optional<geometry::Srgb> paper = std::nullopt;  ///< colour of the sheet; nothing: white
 };
 
 /// Where and how one photograph is taken.
 struct PhotoShot {
   int camera = 0, position = 0;
-  PhotoCamera pose;
+  capture::PhotoCamera pose;
   double gain = 1.0;  ///< of its exposure
 };
 
 struct PhotoShoot {
-  std::vector<PhotoShot> shots;         ///< position by position
-  std::vector<Rigid3> board_from_hand;  ///< per position: how the hand moved; the first not
+  std::vector<PhotoShot> shots;                   ///< position by position
+  std::vector<geometry::Rigid3> board_from_hand;  ///< per position: how the hand moved; the first
+                                                  ///< not
 };
 
 /// Cameras, lenses and motions, drawn from the seed.
@@ -98,11 +99,12 @@ std::vector<PhotoShot> plan_calibration(const PhotographsOptions& options, int c
 class PhotographsStage {
  public:
   /// `hand`: in the board's frame; keeps copies. An empty one: the board alone.
-  PhotographsStage(const ColouredMesh& hand, const PrintedBoard& board,
+  PhotographsStage(const geometry::ColouredMesh& hand, const PrintedBoard& board,
                    const PhotographsOptions& options);
   ~PhotographsStage();
   /// `number` distinguishes photographs' noise. The same for any number of threads.
-  RgbImage take(const PhotoShot& shot, const Rigid3& board_from_hand, int number) const;
+  geometry::RgbImage take(const PhotoShot& shot, const geometry::Rigid3& board_from_hand,
+                          int number) const;
 
   struct Impl;
 
@@ -110,4 +112,4 @@ class PhotographsStage {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::phantom

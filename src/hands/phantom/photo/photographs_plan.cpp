@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "hands/phantom/photo/photographs.h"
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/degrees.h"
-#include "hands/phantom/photo/photographs.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 // Streams of the seed.
@@ -19,9 +19,9 @@ constexpr std::uint64_t kLenses = 1000, kShots = 2000, kMotions = 3000, kTilts =
                         kTerms = 5000;
 
 /// One body of a make: focal lengths within 1 %, middles within 1 % of the picture.
-PhotoLens lens_of(const PhotographsOptions& options, int camera) {
+capture::PhotoLens lens_of(const PhotographsOptions& options, int camera) {
   RandomStream random(options.seed, kLenses + static_cast<std::uint64_t>(camera));
-  PhotoLens lens;
+  capture::PhotoLens lens;
   lens.width = options.width;
   lens.height = options.height;
   lens.focal_x = lens.focal_y = options.focal * options.height * (1.0 + 0.005 * random.normal());
@@ -92,8 +92,8 @@ PhotoShoot plan_photographs(const PhotographsOptions& options) {
       RandomStream random(options.seed,
                           kShots + static_cast<std::uint64_t>(p * options.cameras + c));
       const bool is_high = c % 2 == 1 && !options.one_ring;
-      const double azimuth = (360.0 / options.cameras * c + options.step * p) * kDegree;
-      const double elevation = (is_high ? options.high : options.low) * kDegree;
+      const double azimuth = (360.0 / options.cameras * c + options.step * p) * geometry::kDegree;
+      const double elevation = (is_high ? options.high : options.low) * geometry::kDegree;
       const Vec3 target(0.0, 0.0, options.middle);
       // Stands are never quite where they should be.
       const Vec3 aim =
@@ -104,22 +104,23 @@ PhotoShoot plan_photographs(const PhotographsOptions& options) {
       shot.position = p;
       shot.pose.lens = lens_of(options, c);
       shot.pose.camera_from_world =
-          looking_at(target + on_sphere(far, azimuth + 0.01 * random.normal(),
-                                        elevation + 0.01 * random.normal()),
-                     aim);
+          capture::looking_at(target + on_sphere(far, azimuth + 0.01 * random.normal(),
+                                                 elevation + 0.01 * random.normal()),
+                              aim);
       shot.gain = std::exp(options.exposure * random.normal());
       shoot.shots.push_back(shot);
     }
-    Rigid3 motion;
+    geometry::Rigid3 motion;
     if (p > 0) {
       RandomStream random(options.seed, kMotions + static_cast<std::uint64_t>(p));
       const auto vector = [&] {
         return Vec3(Vec3(random.normal(), random.normal(), random.normal()) / std::sqrt(3.0));
       };
-      const Vec3 turn = vector() * (options.motion_turn * kDegree);
+      const Vec3 turn = vector() * (options.motion_turn * geometry::kDegree);
       const Vec3 shift = vector() * options.motion;
       const Vec3 centre(0.0, 0.0, options.middle);
-      if (turn.norm() > 0.0) motion = Rigid3::about_axis(turn.normalized(), centre, turn.norm());
+      if (turn.norm() > 0.0)
+        motion = geometry::Rigid3::about_axis(turn.normalized(), centre, turn.norm());
       motion.translation += shift;
     }
     shoot.board_from_hand.push_back(motion);
@@ -136,18 +137,19 @@ std::vector<PhotoShot> plan_calibration(const PhotographsOptions& options, int c
                                             static_cast<std::uint64_t>(n));
       // All round, near and far, the board in another part of the picture each time.
       const double azimuth = 2.0 * std::numbers::pi * (n + 0.3 * random.uniform()) / count * 3.0;
-      const double elevation = (40.0 + 45.0 * random.uniform()) * kDegree;
+      const double elevation = (40.0 + 45.0 * random.uniform()) * geometry::kDegree;
       const double far = options.distance * (0.8 + 0.6 * random.uniform());
       PhotoShot shot;
       shot.camera = c;
       shot.position = n;
       shot.pose.lens = lens_of(options, c);
-      const Rigid3 level =
-          looking_at(on_sphere(far, azimuth, elevation),
-                     Vec3(80.0 * (random.uniform() - 0.5), 80.0 * (random.uniform() - 0.5), 0.0));
+      const geometry::Rigid3 level = capture::looking_at(
+          on_sphere(far, azimuth, elevation),
+          Vec3(80.0 * (random.uniform() - 0.5), 80.0 * (random.uniform() - 0.5), 0.0));
       // Rolled as well.
       const double roll = (n % 2 == 0 ? 0.0 : 0.5 * std::numbers::pi) + 0.2 * random.normal();
-      shot.pose.camera_from_world = Rigid3::about_axis(Vec3::UnitZ(), Vec3::Zero(), roll) * level;
+      shot.pose.camera_from_world =
+          geometry::Rigid3::about_axis(Vec3::UnitZ(), Vec3::Zero(), roll) * level;
       shot.gain = std::exp(options.exposure * random.normal());
       shots.push_back(shot);
     }
@@ -155,4 +157,4 @@ std::vector<PhotoShot> plan_calibration(const PhotographsOptions& options, int c
   return shots;
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -9,11 +9,11 @@
 #include <limits>
 #include <numbers>
 
+#include "hands/phantom/person/person_random.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
-#include "hands/phantom/person/person_random.h"
 
-namespace palmar {
+namespace palmar::phantom {
 namespace {
 
 constexpr double kCardGap = 9.0;  // mm, between the hand and the card
@@ -60,9 +60,9 @@ PrintedBoard board_of(const SheetPhotographOptions& options) {
 
 /// Where a card lies from the wrist's middle: beside the broadest part of the palm's lower half, on
 /// the little finger's side.
-double beside(const TriangleMesh& lying, const Vec3& wrist, Side side) {
+double beside(const geometry::TriangleMesh& lying, const Vec3& wrist, hand::Side side) {
   double reach = 0.0;
-  const double towards = side == Side::kRight ? 1.0 : -1.0;
+  const double towards = side == hand::Side::kRight ? 1.0 : -1.0;
   for (const Vec3& p : lying.vertices) {
     if (p.y() < wrist.y() - 10.0 || p.y() > wrist.y() + 70.0) continue;
     reach = std::max(reach, towards * (p.x() - wrist.x()));
@@ -92,7 +92,8 @@ void SheetPhotographOptions::check() const {
   }
 }
 
-TriangleMesh hand_on_sheet(const SpreadHand& hand, const SheetPhotographOptions& options) {
+geometry::TriangleMesh hand_on_sheet(const SpreadHand& hand,
+                                     const SheetPhotographOptions& options) {
   options.check();
   RandomStream random(options.seed, 77);
   // The pads lie on the paper; what of palm and thumb would be lower is flattened on it.
@@ -103,8 +104,8 @@ TriangleMesh hand_on_sheet(const SpreadHand& hand, const SheetPhotographOptions&
       if ((v - tip).squaredNorm() < kPad * kPad) paper = std::min(paper, -v.z());
     }
   }
-  TriangleMesh lying = hand.skin;
-  const double turn = about_zero(random, 8.0) * kDegree, aside = about_zero(random, 8.0);
+  geometry::TriangleMesh lying = hand.skin;
+  const double turn = about_zero(random, 8.0) * geometry::kDegree, aside = about_zero(random, 8.0);
   const Eigen::AngleAxisd about(turn, Vec3::UnitZ());
   const Vec3 wrist = palm_down(hand.wrist);
   for (Vec3& p : lying.vertices) {
@@ -122,14 +123,16 @@ TriangleMesh hand_on_sheet(const SpreadHand& hand, const SheetPhotographOptions&
   return lying;
 }
 
-RgbImage photograph_on_sheet(const SpreadHand& hand, const SheetPhotographOptions& options) {
-  ColouredMesh lying{hand_on_sheet(hand, options), {}};
+geometry::RgbImage photograph_on_sheet(const SpreadHand& hand,
+                                       const SheetPhotographOptions& options) {
+  geometry::ColouredMesh lying{hand_on_sheet(hand, options), {}};
   lying.colour.assign(lying.mesh.vertices.size(), options.skin);
   PhotographsOptions stage;
   stage.seed = options.seed;
   stage.distance = options.distance;
   RandomStream random(options.seed, 78);
-  const double about = 2.0 * std::numbers::pi * random.uniform(), tilt = options.tilt * kDegree;
+  const double about = 2.0 * std::numbers::pi * random.uniform(),
+               tilt = options.tilt * geometry::kDegree;
   Vec3 target(about_zero(random, 12.0), about_zero(random, 12.0), 0.0);
   if (options.is_card) {
     // Between the card and the hand.
@@ -144,7 +147,7 @@ RgbImage photograph_on_sheet(const SpreadHand& hand, const SheetPhotographOption
     target.y() += 0.5 * (low.y() + high.y());
   }
   PhotoShot shot;
-  PhotoLens& lens = shot.pose.lens;
+  capture::PhotoLens& lens = shot.pose.lens;
   lens.width = options.pixels_wide;
   lens.height = options.pixels_high;
   lens.focal_x = lens.focal_y = options.focal * std::max(lens.width, lens.height);
@@ -156,7 +159,7 @@ RgbImage photograph_on_sheet(const SpreadHand& hand, const SheetPhotographOption
                                        std::sin(tilt) * std::sin(about), std::cos(tilt));
   // The camera held with the sheet's upper edge up, turned a little.
   const Vec3 forward = (target - eye).normalized();
-  const double roll = about_zero(random, 5.0) * kDegree;
+  const double roll = about_zero(random, 5.0) * geometry::kDegree;
   const Vec3 hint(std::cos(roll), std::sin(roll), 0.0);
   const Vec3 right = (hint - hint.dot(forward) * forward).normalized();
   Eigen::Matrix3d turn;
@@ -168,4 +171,4 @@ RgbImage photograph_on_sheet(const SpreadHand& hand, const SheetPhotographOption
   return PhotographsStage(lying, board_of(options), stage).take(shot, {}, 0);
 }
 
-}  // namespace palmar
+}  // namespace palmar::phantom

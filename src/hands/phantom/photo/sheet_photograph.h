@@ -5,7 +5,7 @@
 #include "hands/phantom/person/spread_hand.h"
 #include "hands/phantom/photo/photographs.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// A hand flat on a sheet of paper, or on a table beside a bank card, and a photographer above it.
 struct SheetPhotographOptions {
@@ -19,22 +19,23 @@ struct SheetPhotographOptions {
   double tilt = 6.0;        ///< of the camera from the sheet's normal, deg, anywhere about
   double distance = 420.0;  ///< of the camera from the table below the middle of the picture, mm
   int pixels_wide = 1512, pixels_high = 2016;
-  double focal = 0.74;              ///< of the longer side
-  double k1 = 0.0;                  ///< of the lens' distortion, see PhotoLens
-  Srgb table{0.42F, 0.28F, 0.18F};  ///< its grain is up to 30 % darker and brighter
-  bool is_plain = false;            ///< the table has no grain
-  Srgb skin{0.80F, 0.60F, 0.50F};
-  Srgb card{0.12F, 0.42F, 0.30F};  ///< its face, with dark print
-  double wrist_inside = 0.0;       ///< wrist crease inside of the sheet's or card's edge, mm
-  void check() const;              ///< throws UsageError: field, value, allowed range
+  double focal = 0.74;                        ///< of the longer side
+  double k1 = 0.0;                            ///< of the lens' distortion, see PhotoLens
+  geometry::Srgb table{0.42F, 0.28F, 0.18F};  ///< its grain is up to 30 % darker and brighter
+  bool is_plain = false;                      ///< the table has no grain
+  geometry::Srgb skin{0.80F, 0.60F, 0.50F};
+  geometry::Srgb card{0.12F, 0.42F, 0.30F};  ///< its face, with dark print
+  double wrist_inside = 0.0;  ///< wrist crease inside of the sheet's or card's edge, mm
+  void check() const;         ///< throws UsageError: field, value, allowed range
 };
 
 /// The hand palm down, the fingers' pads on the paper, the middle of its wrist crease over the
 /// sheet's lower edge or level with the card's. Frame of the sheet or card: its middle the origin,
 /// y up, z towards the camera, the table or paper at 0.
-TriangleMesh hand_on_sheet(const SpreadHand& hand, const SheetPhotographOptions& options);
+geometry::TriangleMesh hand_on_sheet(const SpreadHand& hand, const SheetPhotographOptions& options);
 
 /// The photograph of it.
-RgbImage photograph_on_sheet(const SpreadHand& hand, const SheetPhotographOptions& options);
+geometry::RgbImage photograph_on_sheet(const SpreadHand& hand,
+                                       const SheetPhotographOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::phantom

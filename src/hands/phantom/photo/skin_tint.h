@@ -5,12 +5,12 @@
 #include <array>
 #include <cstdint>
 
-#include "palmar/geometry/mesh/textured_mesh.h"
-#include "palmar/hand/skin/creases.h"
 #include "hands/phantom/person/smooth_noise.h"
 #include "hands/phantom/person/subject_person.h"
+#include "palmar/geometry/mesh/textured_mesh.h"
+#include "palmar/hand/skin/creases.h"
 
-namespace palmar {
+namespace palmar::phantom {
 
 /// Colours of bare skin on a hand: redder where blood shows through (fingertips, knuckles, the heel
 /// of the palm, blotches of 12 and 30 mm), with nails on the backs of the last phalanges. How
@@ -19,10 +19,10 @@ namespace palmar {
 class SkinTint {
  public:
   /// `creases` of the reference posture.
-  SkinTint(const SubjectPerson& person, const HandCreases& creases, std::uint64_t seed);
+  SkinTint(const SubjectPerson& person, const hand::HandCreases& creases, std::uint64_t seed);
   /// Colour at a point of the skin in the reference posture, of which `even` is the skin's without
   /// blood; `segment` is the point's.
-  Srgb at(const Vec3& p, Segment segment, const Srgb& even) const;
+  geometry::Srgb at(const Vec3& p, hand::Segment segment, const geometry::Srgb& even) const;
 
  private:
   struct Tip {
@@ -33,11 +33,11 @@ class SkinTint {
   /// Share of the nail, 0 to 1, and of its white edge.
   std::array<double, 2> nail(const Tip& tip, const Vec3& p) const;
 
-  const HandCreases* creases_;
-  std::array<Tip, kFingerCount> tip_;
+  const hand::HandCreases* creases_;
+  std::array<Tip, hand::kFingerCount> tip_;
   Vec3 thenar_, hypothenar_;
   SmoothNoise blotch_, cloud_;
   double redness_ = 1.0;
 };
 
-}  // namespace palmar
+}  // namespace palmar::phantom

@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr int kFewestPoles = 8, kMorePoles = 4;
@@ -100,4 +100,4 @@ ClosedSpline fit_closed_spline(const Eigen::MatrixXd& points, double tolerance, 
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

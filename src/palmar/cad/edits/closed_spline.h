@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace palmar {
+namespace palmar::cad {
 
 /// A closed, evenly knotted cubic B-spline: curvature is continuous everywhere, the start included.
 struct ClosedSpline {
@@ -20,4 +20,4 @@ struct ClosedSpline {
 ClosedSpline fit_closed_spline(const Eigen::MatrixXd& points, double tolerance,
                                int most_poles = 40);
 
-}  // namespace palmar
+}  // namespace palmar::cad

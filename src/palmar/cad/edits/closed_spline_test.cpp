@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 using ::testing::HasSubstr;
@@ -53,4 +53,4 @@ TEST(ClosedSpline, ThreePointsAreNone) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -44,7 +44,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kNear = 5.0;     // mm; points of a line farther from the surface aren't on it
@@ -261,4 +261,4 @@ void cut_groove(SolidEdit& edit, const GrooveEdit& groove, const gp_Ax1& axis) {
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -7,7 +7,7 @@
 #include "palmar/cad/edits/groove.h"
 #include "palmar/cad/edits/solid_edit.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// Cuts a groove with a ball cutter: the solid less a round bar of the groove's radius whose axis
 /// runs `radius - depth` above the surface along its normals; beyond both ends of an open line it
@@ -16,4 +16,4 @@ namespace palmar {
 /// sharply than the cutter, nothing cut.
 void cut_groove(SolidEdit& edit, const GrooveEdit& groove, const gp_Ax1& axis);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -19,7 +19,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 bool has(const std::vector<int>& numbers, int number) {
@@ -182,4 +182,4 @@ void make_fillets(SolidEdit& edit, std::vector<RoundedEdge> edges, const std::st
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -11,7 +11,7 @@
 #include "palmar/cad/edits/solid_edit.h"
 #include "palmar/cad/model/face_relations.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// The edge at which two faces meet, or would meet without the fillet between them.
 struct RoundedEdge {
@@ -38,4 +38,4 @@ void remove_blends(SolidEdit& edit, const std::vector<int>& faces);
 /// which was asked for. Throws NumericalError naming `feature`.
 void make_fillets(SolidEdit& edit, std::vector<RoundedEdge> edges, const std::string& feature);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -15,7 +15,7 @@
 #include "palmar/cad/model/face_relations.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kAlong =
@@ -259,4 +259,4 @@ std::string words_of(const EdgeChoice& choice) {
   return text;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

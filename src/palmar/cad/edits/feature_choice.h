@@ -7,7 +7,7 @@
 
 #include "palmar/cad/model/cad_model.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// Edges that a fillet is asked for: sharp ones by their number, rounded ones by the face that
 /// rounds them. Numbers are those of the model, ascending.
@@ -40,4 +40,4 @@ std::vector<int> choose_faces(const CadModel& model, const std::string& words);
 /// "edges 1, 3 and fillets 7, 8"; for messages.
 std::string words_of(const EdgeChoice& choice);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -21,7 +21,7 @@
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 double degrees(double radians) { return radians * 180 / std::numbers::pi; }
@@ -270,4 +270,4 @@ EditedModel edit_features(const CadModel& model, const FeatureEdits& edits) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -10,7 +10,7 @@
 #include "palmar/cad/model/cad_model.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// Changes of a CAD model's features, as a designer would make them. Which edges and faces: in
 /// words, see feature_choice.h; all numbers are those of the model before any change.
@@ -52,4 +52,4 @@ struct EditedModel {
 /// and NumericalError naming the feature and its value if it can't be made.
 EditedModel edit_features(const CadModel& model, const FeatureEdits& edits);
 
-}  // namespace palmar
+}  // namespace palmar::cad

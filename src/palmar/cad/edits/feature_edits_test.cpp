@@ -21,7 +21,7 @@
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 using ::testing::HasSubstr;
@@ -291,4 +291,4 @@ TEST(ChooseEdges, ATurnedBodyGivesTheSameChoice) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -6,7 +6,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 void GrooveEdit::check() const {
   const auto require = [](bool holds, const char* field, double value, const char* allowed) {
@@ -30,4 +30,4 @@ std::string GrooveEdit::title() const {
   return fmt::format("groove of {:.4g} mm radius, {:.4g} mm deep", radius, depth);
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

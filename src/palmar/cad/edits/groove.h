@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// A groove whose section is an arc of a circle, along a line on the surface: where a finger lies.
 /// Along the line given as points, or around the model's longest axis.
@@ -26,4 +26,4 @@ struct GrooveEdit {
   std::string title() const;  ///< "groove of 8 mm radius, 1.5 mm deep"
 };
 
-}  // namespace palmar
+}  // namespace palmar::cad

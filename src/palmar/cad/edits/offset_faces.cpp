@@ -26,7 +26,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kSameWay = 0.9;     // rad; a taper tilts by less than 0.79, other faces lie across
@@ -172,4 +172,4 @@ void taper_faces(SolidEdit& edit, const std::vector<int>& faces, double angle,
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

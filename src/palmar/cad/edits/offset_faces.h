@@ -9,7 +9,7 @@
 
 #include "palmar/cad/edits/solid_edit.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// Moves faces along their outward normals by a distance each, mm, positive outwards; the faces
 /// beside are extended or cut back until they meet. Planes, cylinders, cones, spheres, tori and
@@ -23,4 +23,4 @@ void offset_faces(SolidEdit& edit, const std::map<int, double>& distance,
 void taper_faces(SolidEdit& edit, const std::vector<int>& faces, double angle,
                  const gp_Ax1& neutral, const std::string& feature);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -40,7 +40,7 @@
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -82,7 +82,7 @@ double deviation(const Handle(Geom_BSplineCurve) & curve, const std::vector<Vec3
   return largest;
 }
 
-TopoDS_Wire make_wire(const NamedCurve& given, CurveReport& report) {
+TopoDS_Wire make_wire(const records::NamedCurve& given, CurveReport& report) {
   const std::size_t least = 4;
   if (given.points.size() < least) {
     throw UsageError("curve \"" + given.name + "\": " + std::to_string(given.points.size()) +
@@ -98,52 +98,52 @@ TopoDS_Wire make_wire(const NamedCurve& given, CurveReport& report) {
 }
 
 /// The surface with its seam on the side where the points aren't.
-Handle(Geom_Surface) surface_of(const SimpleSurface& s, const std::vector<Vec3>& points) {
+Handle(Geom_Surface) surface_of(const redesign::SimpleSurface& s, const std::vector<Vec3>& points) {
   Vec3 middle = Vec3::Zero();
   for (const Vec3& x : points) middle += x / static_cast<double>(points.size());
   Vec3 out = middle - s.point;
-  if (s.kind != FaceKind::kSphere) out -= out.dot(s.axis) * s.axis;
+  if (s.kind != product::FaceKind::kSphere) out -= out.dot(s.axis) * s.axis;
   if (out.norm() < 1e-6) out = s.axis.unitOrthogonal();
-  const Vec3 axis = s.kind == FaceKind::kSphere ? out.unitOrthogonal() : s.axis;
+  const Vec3 axis = s.kind == product::FaceKind::kSphere ? out.unitOrthogonal() : s.axis;
   const gp_Ax3 frame(point(s.point), direction(axis), direction(-out));
   switch (s.kind) {
-    case FaceKind::kPlane:
+    case product::FaceKind::kPlane:
       return new Geom_Plane(frame);
-    case FaceKind::kCylinder:
+    case product::FaceKind::kCylinder:
       return new Geom_CylindricalSurface(frame, s.radius);
-    case FaceKind::kCone:
+    case product::FaceKind::kCone:
       return new Geom_ConicalSurface(frame, s.half_angle, s.radius);
-    case FaceKind::kSphere:
+    case product::FaceKind::kSphere:
       return new Geom_SphericalSurface(frame, s.radius);
-    case FaceKind::kTorus:
+    case product::FaceKind::kTorus:
       return new Geom_ToroidalSurface(frame, s.radius, s.tube_radius);
-    case FaceKind::kFreeform:
+    case product::FaceKind::kFreeform:
       break;
   }
   throw UsageError("a freeform surface is no simple one");
 }
 
 /// Parameters of the nearest point; angles about where the points are.
-gp_Pnt2d parameters(const Handle(Geom_Surface) & surface, FaceKind kind, const Vec3& x) {
+gp_Pnt2d parameters(const Handle(Geom_Surface) & surface, product::FaceKind kind, const Vec3& x) {
   double u = 0.0, v = 0.0;
   const gp_Pnt p = point(x);
   switch (kind) {
-    case FaceKind::kPlane:
+    case product::FaceKind::kPlane:
       ElSLib::Parameters(Handle(Geom_Plane)::DownCast(surface)->Pln(), p, u, v);
       break;
-    case FaceKind::kCylinder:
+    case product::FaceKind::kCylinder:
       ElSLib::Parameters(Handle(Geom_CylindricalSurface)::DownCast(surface)->Cylinder(), p, u, v);
       break;
-    case FaceKind::kCone:
+    case product::FaceKind::kCone:
       ElSLib::Parameters(Handle(Geom_ConicalSurface)::DownCast(surface)->Cone(), p, u, v);
       break;
-    case FaceKind::kSphere:
+    case product::FaceKind::kSphere:
       ElSLib::Parameters(Handle(Geom_SphericalSurface)::DownCast(surface)->Sphere(), p, u, v);
       break;
-    case FaceKind::kTorus:
+    case product::FaceKind::kTorus:
       ElSLib::Parameters(Handle(Geom_ToroidalSurface)::DownCast(surface)->Torus(), p, u, v);
       break;
-    case FaceKind::kFreeform:
+    case product::FaceKind::kFreeform:
       break;
   }
   return {u, v};
@@ -206,14 +206,14 @@ TopoDS_Face inside_of(const Handle(Geom_Surface) & surface, const std::vector<gp
   return {};
 }
 
-TopoDS_Face make_face(const NamedSurface& given, SurfaceReport& report) {
+TopoDS_Face make_face(const records::NamedSurface& given, SurfaceReport& report) {
   if (given.points.empty()) {
     throw UsageError("surface \"" + given.name + "\": no points that it covers");
   }
-  const SimpleSurface& s = given.surface;
+  const redesign::SimpleSurface& s = given.surface;
   const Handle(Geom_Surface) surface = surface_of(s, given.points);
-  const bool is_round_u = s.kind != FaceKind::kPlane;
-  const bool is_round_v = s.kind == FaceKind::kTorus;
+  const bool is_round_u = s.kind != product::FaceKind::kPlane;
+  const bool is_round_v = s.kind == product::FaceKind::kTorus;
   double about_v = 0.0;
   if (is_round_v) {
     double sine = 0.0, cosine = 0.0;
@@ -262,11 +262,12 @@ TopoDS_Face make_face(const NamedSurface& given, SurfaceReport& report) {
 
 }  // namespace
 
-RegionModel make_region_model(const CadModel& product, const std::vector<NamedCurve>& curves,
-                              const std::vector<NamedSurface>& surfaces) {
+RegionModel make_region_model(const CadModel& product,
+                              const std::vector<records::NamedCurve>& curves,
+                              const std::vector<records::NamedSurface>& surfaces) {
   RegionModel region;
   std::vector<CadModel::Impl::Body> bodies = product.impl().bodies;
-  for (const NamedCurve& one : curves) {
+  for (const records::NamedCurve& one : curves) {
     try_feature("curve \"" + one.name + "\"", [&] {
       CurveReport report;
       const TopoDS_Wire wire = make_wire(one, report);
@@ -274,7 +275,7 @@ RegionModel make_region_model(const CadModel& product, const std::vector<NamedCu
       region.curves.push_back(report);
     });
   }
-  for (const NamedSurface& one : surfaces) {
+  for (const records::NamedSurface& one : surfaces) {
     try_feature("surface \"" + one.name + "\"", [&] {
       SurfaceReport report;
       const TopoDS_Face face = make_face(one, report);
@@ -290,4 +291,4 @@ RegionModel make_region_model(const CadModel& product, const std::vector<NamedCu
   return region;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

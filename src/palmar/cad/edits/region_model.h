@@ -7,7 +7,7 @@
 #include "palmar/cad/model/cad_model.h"
 #include "palmar/records/region_json.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// What came of a curve: a periodic cubic B-spline.
 struct CurveReport {
@@ -32,7 +32,8 @@ struct RegionModel {
 /// points within 0.1 mm, at most 40 (closed_spline.h). Throws UsageError on a curve of fewer than 4
 /// points or a surface without points, NumericalError naming the curve or surface that OpenCASCADE
 /// can't make.
-RegionModel make_region_model(const CadModel& product, const std::vector<NamedCurve>& curves,
-                              const std::vector<NamedSurface>& surfaces);
+RegionModel make_region_model(const CadModel& product,
+                              const std::vector<records::NamedCurve>& curves,
+                              const std::vector<records::NamedSurface>& surfaces);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -22,21 +22,21 @@
 #include "palmar/formats/file.h"
 #include "palmar/product/parametric_kinds.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 namespace fs = std::filesystem;
 
 CadModel prism() {
-  const ParametricKind& kind = parametric_kind("prism");
+  const product::ParametricKind& kind = product::parametric_kind("prism");
   return make_kind_solid(
-      kind, complete_values(
+      kind, product::complete_values(
                 kind, {{"width_mm", 35}, {"depth_mm", 35}, {"length_mm", 130}, {"fillet_mm", 3}}));
 }
 
 /// A circle of radius 10 mm on the prism's +x side.
-NamedCurve circle() {
-  NamedCurve curve{
+records::NamedCurve circle() {
+  records::NamedCurve curve{
       .name = "outline palm, half of 30 hands, 1", .colour = {0.2F, 0.4F, 0.7F}, .points = {}};
   for (int i = 0; i < 63; ++i) {
     const double a = 2.0 * std::numbers::pi * i / 63;
@@ -46,12 +46,12 @@ NamedCurve circle() {
 }
 
 /// A patch of 60 degrees and 40 mm of a cylinder of radius 15 mm about z.
-NamedSurface patch(bool with_outline) {
-  NamedSurface surface{.name = "contact palm, patch 1: cylinder r 15 mm",
-                       .colour = {0.2F, 0.4F, 0.7F},
-                       .surface = {.kind = FaceKind::kCylinder, .radius = 15.0},
-                       .points = {},
-                       .outline = {}};
+records::NamedSurface patch(bool with_outline) {
+  records::NamedSurface surface{.name = "contact palm, patch 1: cylinder r 15 mm",
+                                .colour = {0.2F, 0.4F, 0.7F},
+                                .surface = {.kind = product::FaceKind::kCylinder, .radius = 15.0},
+                                .points = {},
+                                .outline = {}};
   for (int i = 0; i <= 12; ++i) {
     for (int j = 0; j <= 20; ++j) {
       const double a = (i / 12.0 - 0.5) * std::numbers::pi / 3.0;
@@ -111,7 +111,7 @@ TEST(RegionModel, OneStepHoldsSolidWiresAndFacesByTheirNames) {
   const RegionModel region = make_region_model(before, {circle()}, {patch(true)});
   write_step(folder.file("region.step"), region.model);
   // As text: B-spline curve, cylinder, names.
-  const std::string text = read_file(folder.file("region.step"));
+  const std::string text = formats::read_file(folder.file("region.step"));
   EXPECT_GE(occurrences(text, "B_SPLINE_CURVE"), 1);
   EXPECT_GE(occurrences(text, "'outline palm, half of 30 hands, 1'"), 1);
   EXPECT_GE(occurrences(text, "'contact palm, patch 1: cylinder r 15 mm'"), 1);
@@ -131,8 +131,8 @@ TEST(RegionModel, OneStepHoldsSolidWiresAndFacesByTheirNames) {
               1e-6 * volume_of(before));
 }
 
-RidgeRelief corner(double radius) {
-  RidgeRelief relief;
+redesign::RidgeRelief corner(double radius) {
+  redesign::RidgeRelief relief;
   relief.name = "relief 1";
   relief.start = Vec3(17.5 - radius, 17.5 - radius, -30);
   relief.end = Vec3(17.5 - radius, 17.5 - radius, 20);
@@ -147,7 +147,7 @@ RidgeRelief corner(double radius) {
 // Colours hang on shapes by their address, which is another one every time.
 TEST(RegionModel, TheSameRegionGivesTheSameBytesWhereverItsShapesLie) {
   const TempFolder folder;
-  std::vector<NamedCurve> curves;
+  std::vector<records::NamedCurve> curves;
   for (int i = 0; i < 6; ++i) {
     curves.push_back(circle());
     curves.back().name = "outline " + std::to_string(i + 1);
@@ -159,14 +159,14 @@ TEST(RegionModel, TheSameRegionGivesTheSameBytesWhereverItsShapesLie) {
     kept.push_back(make_region_model(prism(), curves, {patch(false), patch(true)}));
     write_step(folder.file(name), kept.back().model);
   }
-  const std::string one = read_file(folder.file("one.step"));
+  const std::string one = formats::read_file(folder.file("one.step"));
   EXPECT_EQ(occurrences(one, "STYLED_ITEM("), 8);
-  EXPECT_TRUE(one == read_file(folder.file("two.step")));
-  EXPECT_TRUE(one == read_file(folder.file("three.step")));
+  EXPECT_TRUE(one == formats::read_file(folder.file("two.step")));
+  EXPECT_TRUE(one == formats::read_file(folder.file("three.step")));
 }
 
 TEST(CutReliefs, AllAlongAnEdgeEqualsALargerFillet) {
-  RidgeRelief relief = corner(14.0);
+  redesign::RidgeRelief relief = corner(14.0);
   relief.is_open_start = relief.is_open_end = true;
   relief.start.z() = -65.0;
   relief.end.z() = 65.0;
@@ -190,14 +190,14 @@ TEST(CutReliefs, LeavesAValidSolidOfSimpleFacesAndSaysWhichAreNew) {
   const CadModel again = read_step(folder.file("redesign.step")).model;
   EXPECT_TRUE(check_cad(again).is_good());
   EXPECT_NEAR(volume_of(again), cut.volume_after, 1e-3 * cut.volume_after);
-  const std::string text = read_file(folder.file("redesign.step"));
+  const std::string text = formats::read_file(folder.file("redesign.step"));
   EXPECT_GE(occurrences(text, "TOROIDAL_SURFACE("), 2);  // run-outs
   EXPECT_EQ(occurrences(text, "'relief 1'"), 3);
   EXPECT_EQ(occurrences(text, "B_SPLINE_SURFACE"), 0);
 }
 
 TEST(CutReliefs, SayWhyNot) {
-  RidgeRelief relief = corner(14.0);
+  redesign::RidgeRelief relief = corner(14.0);
   relief.run_out = 5.0;
   EXPECT_THAT([&] { cut_reliefs(prism(), {relief}); },
               testing::ThrowsMessage<NumericalError>(
@@ -213,7 +213,7 @@ TEST(CutReliefs, SayWhyNot) {
 }
 
 TEST(RegionModel, SaysWhatItNeeds) {
-  NamedCurve curve = circle();
+  records::NamedCurve curve = circle();
   curve.points.resize(3);
   EXPECT_THAT([&] { make_region_model(CadModel(), {curve}, {}); },
               testing::ThrowsMessage<UsageError>(
@@ -221,4 +221,4 @@ TEST(RegionModel, SaysWhatItNeeds) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::cad

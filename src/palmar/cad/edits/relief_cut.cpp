@@ -33,7 +33,7 @@
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kCutterReach = 3.0;  // mm; the cutter's body reaches that far beyond the material
@@ -43,7 +43,7 @@ constexpr double kLeast = 0.01;          // mm^3; a cut of less takes nothing aw
 
 /// A relief's own frame: s along it, w across, h outwards, from the start of its axis.
 struct ToolFrame {
-  explicit ToolFrame(const RidgeRelief& relief)
+  explicit ToolFrame(const redesign::RidgeRelief& relief)
       : origin(relief.start),
         along((relief.end - relief.start).normalized()),
         outward(relief.outward),
@@ -59,7 +59,8 @@ struct ToolFrame {
 
 /// Corners of a roof over the ridge, from the right flank to the left one: parallel to both flanks,
 /// or with a flat top where they are steep.
-std::vector<gp_Pnt> cutter_roof(const RidgeRelief& relief, const ToolFrame& frame, double s) {
+std::vector<gp_Pnt> cutter_roof(const redesign::RidgeRelief& relief, const ToolFrame& frame,
+                                double s) {
   const double sine = std::sin(relief.half_angle), cosine = std::cos(relief.half_angle);
   const double far = relief.radius + kCutterReach;
   const double flat = relief.radius + relief.depth + kCutterReach;
@@ -82,7 +83,7 @@ TopoDS_Face cutter_face(BRepBuilderAPI_MakeWire& wire, const std::vector<gp_Pnt>
 }
 
 /// What the cutter takes away where it stands at s: between its circle and the roof.
-TopoDS_Face cutter_section(const RidgeRelief& relief, const ToolFrame& frame, double s) {
+TopoDS_Face cutter_section(const redesign::RidgeRelief& relief, const ToolFrame& frame, double s) {
   const double sine = std::sin(relief.half_angle), cosine = std::cos(relief.half_angle);
   const double r = relief.radius;
   const gp_Pnt left = frame.at(s, -r * sine, r * cosine), right = frame.at(s, r * sine, r * cosine);
@@ -97,7 +98,7 @@ TopoDS_Face cutter_section(const RidgeRelief& relief, const ToolFrame& frame, do
 
 /// The run-out at s: the space over the ridge turned about the centre of the cutter's path, less
 /// the ring that the cutter leaves standing, so that its face is a torus and nothing else.
-TopoDS_Shape run_out_body(const RidgeRelief& relief, const ToolFrame& frame, double s,
+TopoDS_Shape run_out_body(const redesign::RidgeRelief& relief, const ToolFrame& frame, double s,
                           const gp_Dir& turn, double angle) {
   const double sine = std::sin(relief.half_angle), cosine = std::cos(relief.half_angle);
   const double deep = relief.radius - std::min(2.0, 0.5 * relief.radius);
@@ -118,12 +119,12 @@ TopoDS_Shape run_out_body(const RidgeRelief& relief, const ToolFrame& frame, dou
 }
 
 /// Height of the cutter's roof above its axis.
-double roof_height(const RidgeRelief& relief) {
+double roof_height(const redesign::RidgeRelief& relief) {
   const double far = (relief.radius + kCutterReach) / std::max(std::cos(relief.half_angle), 1e-9);
   return std::min(far, relief.radius + relief.depth + 5.0 * kCutterReach);
 }
 
-TopTools_ListOfShape cutter_bodies(const RidgeRelief& relief) {
+TopTools_ListOfShape cutter_bodies(const redesign::RidgeRelief& relief) {
   const ToolFrame frame(relief);
   const double needed = roof_height(relief) - relief.radius + 1.0;
   if (relief.run_out < needed && !(relief.is_open_start && relief.is_open_end)) {
@@ -214,7 +215,7 @@ int round_junctions(SolidEdit& edit, const std::string& name, double radius, int
 
 }  // namespace
 
-RelievedModel cut_reliefs(const CadModel& model, const std::vector<RidgeRelief>& reliefs,
+RelievedModel cut_reliefs(const CadModel& model, const std::vector<redesign::RidgeRelief>& reliefs,
                           double junction_radius) {
   const CadModel::Impl& before = model.impl();
   const auto is_solid = [](const CadModel::Impl::Body& body) {
@@ -231,7 +232,7 @@ RelievedModel cut_reliefs(const CadModel& model, const std::vector<RidgeRelief>&
     edit.image[n] = {TopoDS::Face(before.faces(n))};
   }
   result.volume_before = result.volume_after = volume_of(body->shape);
-  for (const RidgeRelief& relief : reliefs) {
+  for (const redesign::RidgeRelief& relief : reliefs) {
     try_feature(relief.name, [&] {
       TopTools_ListOfShape arguments;
       arguments.Append(edit.solid);
@@ -296,4 +297,4 @@ RelievedModel cut_reliefs(const CadModel& model, const std::vector<RidgeRelief>&
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

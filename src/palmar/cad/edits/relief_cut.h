@@ -8,7 +8,7 @@
 #include "palmar/cad/model/cad_model.h"
 #include "palmar/redesign/ridge_relief.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// A solid with its reliefs cut.
 struct RelievedModel {
@@ -25,7 +25,7 @@ struct RelievedModel {
 ///
 /// Throws InputError if the model hasn't exactly one solid, NumericalError naming the relief whose
 /// cut gives no valid closed solid, or takes nothing away.
-RelievedModel cut_reliefs(const CadModel& model, const std::vector<RidgeRelief>& reliefs,
+RelievedModel cut_reliefs(const CadModel& model, const std::vector<redesign::RidgeRelief>& reliefs,
                           double junction_radius = 0.0);
 
-}  // namespace palmar
+}  // namespace palmar::cad

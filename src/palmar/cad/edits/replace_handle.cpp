@@ -20,7 +20,7 @@
 #include "palmar/cad/solids/loft.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kBeyond = 0.5;       // mm; what is cut out is so much wider than the outlines
@@ -30,8 +30,8 @@ constexpr int kToolColumns = 48;
 constexpr double kToolRows = 4.0;  // mm
 
 /// Everything within the outlines that the handle has now.
-CadModel old_handle(const HandleShape& shape) {
-  const HandleBody& body = shape.body;
+CadModel old_handle(const redesign::HandleShape& shape) {
+  const redesign::HandleBody& body = shape.body;
   const auto section = [&](double z, double t) {
     const double phi = 2.0 * std::numbers::pi * t;
     const Eigen::Vector2d centre = body.centre_at(z);
@@ -62,7 +62,7 @@ TopTools_ListOfShape solids_in(const TopoDS_Shape& shape) {
 
 }  // namespace
 
-CadModel replace_handle(const CadModel& product, const HandleShape& shape) {
+CadModel replace_handle(const CadModel& product, const redesign::HandleShape& shape) {
   const std::string feature = "the handle in its product";
   const CadModel::Impl& before = product.impl();
   if (before.bodies.size() != 1 || product.solid_count() != 1) {
@@ -71,7 +71,7 @@ CadModel replace_handle(const CadModel& product, const HandleShape& shape) {
   }
   // Outlines that nearly are those of the faces give slivers where they cross, or, made one, edges
   // off their faces: within them they meet in a clear step.
-  HandleShape within = shape;
+  redesign::HandleShape within = shape;
   for (std::vector<double>& row : within.body.outlines.radius) {
     for (double& one : row) one -= kStep;
   }
@@ -110,4 +110,4 @@ CadModel replace_handle(const CadModel& product, const HandleShape& shape) {
   return finished_solid(made, before.bodies.front().name);
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

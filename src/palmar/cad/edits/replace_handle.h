@@ -5,7 +5,7 @@
 #include "palmar/cad/model/cad_model.h"
 #include "palmar/redesign/handle_shape.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// The product with its handle shaped anew: what lies within the handle's outlines between its ends
 /// (HandleBody::bottom, top) is cut out, and make_handle_solid() united with the rest, which it
@@ -14,6 +14,6 @@ namespace palmar {
 ///
 /// Throws NumericalError saying why there is no such solid: several bodies, or no valid closed
 /// solid of the volume of both parts.
-CadModel replace_handle(const CadModel& product, const HandleShape& shape);
+CadModel replace_handle(const CadModel& product, const redesign::HandleShape& shape);
 
-}  // namespace palmar
+}  // namespace palmar::cad

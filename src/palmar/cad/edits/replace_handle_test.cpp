@@ -19,7 +19,7 @@
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 using std::numbers::pi;
@@ -40,9 +40,9 @@ TopoDS_Shape hammer() {
 }
 
 /// Its handle from -50 to 40 mm, `thicker` mm of width and depth more.
-HandleShape handle(double thicker) {
-  HandleShape shape;
-  HandleBody& body = shape.body;
+redesign::HandleShape handle(double thicker) {
+  redesign::HandleShape shape;
+  redesign::HandleBody& body = shape.body;
   body.bottom = -50.0;
   body.top = 40.0;
   body.run_out = 14.0;
@@ -106,4 +106,4 @@ TEST(ReplaceHandle, SeveralBodiesAreRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -18,7 +18,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 void SolidEdit::follow(const TopoDS_Shape& next,
                        const std::function<TopTools_ListOfShape(const TopoDS_Face&)>& images_of) {
@@ -79,4 +79,4 @@ void try_feature(const std::string& feature, const std::function<void()>& step) 
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

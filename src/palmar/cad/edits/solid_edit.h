@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::cad {
 
 /// A solid while it is changed, and what has become of the faces that it had.
 struct SolidEdit {
@@ -34,4 +34,4 @@ TopoDS_Shape checked_solid(const TopoDS_Shape& shape, const std::string& feature
 /// made (what the kernel calls it)".
 void try_feature(const std::string& feature, const std::function<void()>& step);
 
-}  // namespace palmar
+}  // namespace palmar::cad

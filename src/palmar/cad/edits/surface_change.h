@@ -6,7 +6,7 @@
 
 #include "palmar/cad/model/cad_model.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// How far a changed model's surface lies from the surface before, mm.
 struct SurfaceChange {
@@ -21,4 +21,4 @@ struct SurfaceChange {
 SurfaceChange surface_change(const CadModel& before, const CadModel& after,
                              const std::vector<int>& faces = {});
 
-}  // namespace palmar
+}  // namespace palmar::cad

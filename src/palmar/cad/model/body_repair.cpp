@@ -22,7 +22,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kSewShare = 1e-5;  // of the size: 1 micrometre on a handle of 100 mm
@@ -122,4 +122,4 @@ TopoDS_Shape placed(const TopoDS_Shape& shape, const TopLoc_Location& place, dou
   return BRepBuilderAPI_Transform(shape, all, Standard_True).Shape();
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -8,7 +8,7 @@
 #include <TopoDS_Shape.hxx>
 #include <vector>
 
-namespace palmar {
+namespace palmar::cad {
 
 /// A body of a file, looked after.
 struct RepairedBody {
@@ -32,4 +32,4 @@ std::vector<RepairedBody> sew(const std::vector<TopoDS_Face>& faces);
 /// The shape moved, then scaled. Keeps the order of faces.
 TopoDS_Shape placed(const TopoDS_Shape& shape, const TopLoc_Location& place, double scale);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -30,7 +30,7 @@
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr std::size_t kMostFindings = 20;
@@ -256,4 +256,4 @@ int most_poles(const CadModel& model) {
   return most;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

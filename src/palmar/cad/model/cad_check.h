@@ -8,7 +8,7 @@
 #include "palmar/cad/model/cad_model.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// What the CAD kernel says of a model.
 struct CadCheck {
@@ -41,4 +41,4 @@ double volume_of(const CadModel& model);
 /// Poles of the B-spline surface that has most of them; 0 if there is none.
 int most_poles(const CadModel& model);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -31,7 +31,7 @@
 #include "palmar/core/text.h"
 #include "palmar/records/product/cad_format.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 struct FileUnit {
@@ -172,7 +172,7 @@ CadFile read_step(const std::filesystem::path& path, const ReadCadOptions& optio
                   const Progress& progress) {
   options.check();
   const std::string object = path.string();
-  const CadFormatCheck format = check_cad_format(path);
+  const records::CadFormatCheck format = records::check_cad_format(path);
   CadFile file;
   file.format = "STEP " + schema_of(format.head);
   progress.update(0.0, "reading " + path.filename().string());
@@ -229,7 +229,7 @@ CadFile read_iges(const std::filesystem::path& path, const ReadCadOptions& optio
                   const Progress& progress) {
   options.check();
   const std::string object = path.string();
-  check_cad_format(path);
+  records::check_cad_format(path);
   CadFile file;
   file.format = "IGES";
   progress.update(0.0, "reading " + path.filename().string());
@@ -268,8 +268,9 @@ CadFile read_iges(const std::filesystem::path& path, const ReadCadOptions& optio
 
 CadFile read_cad(const std::filesystem::path& path, const ReadCadOptions& options,
                  const Progress& progress) {
-  return check_cad_format(path).format == CadFormat::kIges ? read_iges(path, options, progress)
-                                                           : read_step(path, options, progress);
+  return records::check_cad_format(path).format == records::CadFormat::kIges
+             ? read_iges(path, options, progress)
+             : read_step(path, options, progress);
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -10,7 +10,7 @@
 #include "palmar/cad/model/cad_model.h"
 #include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 struct ReadCadOptions {
   /// mm; what one unit of the file is if the user knows better than the file.
@@ -53,4 +53,4 @@ CadFile read_cad(const std::filesystem::path& path, const ReadCadOptions& option
 /// Throws OutputError.
 void write_step(const std::filesystem::path& path, const CadModel& model);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -29,7 +29,7 @@
 #include "palmar/cad/model/xcaf_bodies.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 using ::testing::AllOf;
@@ -88,7 +88,7 @@ TEST(WriteStep, ReadBackHasTheSameFacesByNumberNameAndColour) {
   EXPECT_THAT(body_names(file.model), ElementsAre("grip"));
   EXPECT_TRUE(check_cad(file.model).is_good());
   EXPECT_NEAR(volume_of(file.model), volume_of(model), 1e-6 * volume_of(model));
-  const ProductFaces before = describe_faces(model), after = describe_faces(file.model);
+  const product::ProductFaces before = describe_faces(model), after = describe_faces(file.model);
   ASSERT_EQ(after.face.size(), before.face.size());
   for (std::size_t f = 0; f < before.face.size(); ++f) {
     EXPECT_EQ(after.face[f].name, before.face[f].name) << f;
@@ -356,4 +356,4 @@ TEST(ReadIges, OpenShellsAndCutOffFilesAreReportedByName) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::cad

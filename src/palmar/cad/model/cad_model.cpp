@@ -20,7 +20,7 @@
 
 #include "palmar/cad/model/occt_model.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 CadModel::CadModel() : impl_(std::make_shared<const Impl>()) {}
 CadModel::CadModel(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
@@ -106,4 +106,4 @@ CadModel make_cad_model(const TopoDS_Shape& shape, const std::string& name) {
   return make_cad_model({{.shape = shape, .name = name, .colour = std::nullopt}});
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

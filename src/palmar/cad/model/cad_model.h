@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::cad {
 
 /// A boundary representation: one or more bodies with names and colours, mm. An immutable value,
 /// cheap to copy; operations give a new one. Faces and edges are numbered from 1 in the order in
@@ -32,4 +32,4 @@ class CadModel {
 /// In their order.
 std::vector<std::string> body_names(const CadModel& model);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -15,7 +15,7 @@
 #include <sstream>
 #include <string>
 
-namespace palmar {
+namespace palmar::cad {
 
 /// A folder for the files of one test.
 class TestFolder {
@@ -54,4 +54,4 @@ inline TopoDS_Shape rounded_box(double x, double y, double z, double radius) {
   return fillet.Shape();
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -22,25 +22,25 @@
 #include "palmar/cad/model/tessellation.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
-constexpr double kSmooth = kDegree;  // rad; a kink below 1 degree can't be felt
+constexpr double kSmooth = geometry::kDegree;  // rad; a kink below 1 degree can't be felt
 
-FaceKind kind_of(const BRepAdaptor_Surface& surface) {
+product::FaceKind kind_of(const BRepAdaptor_Surface& surface) {
   switch (surface.GetType()) {
     case GeomAbs_Plane:
-      return FaceKind::kPlane;
+      return product::FaceKind::kPlane;
     case GeomAbs_Cylinder:
-      return FaceKind::kCylinder;
+      return product::FaceKind::kCylinder;
     case GeomAbs_Cone:
-      return FaceKind::kCone;
+      return product::FaceKind::kCone;
     case GeomAbs_Sphere:
-      return FaceKind::kSphere;
+      return product::FaceKind::kSphere;
     case GeomAbs_Torus:
-      return FaceKind::kTorus;
+      return product::FaceKind::kTorus;
     default:
-      return FaceKind::kFreeform;
+      return product::FaceKind::kFreeform;
   }
 }
 
@@ -107,7 +107,7 @@ bool is_concave(const TopoDS_Face& face, const BRepAdaptor_Surface& surface) {
 struct Describer {
   const CadModel::Impl& impl;
   std::vector<BRepAdaptor_Surface> surfaces;
-  ProductFaces result;
+  product::ProductFaces result;
 
   explicit Describer(const CadModel::Impl& model) : impl(model) {
     for (int f = 1; f <= impl.faces.Extent(); ++f) {
@@ -119,7 +119,7 @@ struct Describer {
 
   void describe_faces() {
     for (int f = 0; f < impl.faces.Extent(); ++f) {
-      ProductFace one;
+      product::ProductFace one;
       one.number = f + 1;
       if (const auto name = impl.face_name.find(f + 1); name != impl.face_name.end()) {
         one.name = name->second;
@@ -137,7 +137,7 @@ struct Describer {
     }
     for (const CadModel::Impl::Body& body : impl.bodies) {
       for (TopExp_Explorer it(body.shape, TopAbs_FACE); it.More(); it.Next()) {
-        ProductFace& one = result.face[impl.faces.FindIndex(it.Current()) - 1];
+        product::ProductFace& one = result.face[impl.faces.FindIndex(it.Current()) - 1];
         if (!one.part.empty()) continue;  // a face between two solids belongs to the first
         one.part = body.name;
         if (!one.colour) one.colour = body.colour;
@@ -150,7 +150,7 @@ struct Describer {
     TopExp::MapShapesAndAncestors(impl.shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
     for (int e = 1; e <= impl.edges.Extent(); ++e) {
       const TopoDS_Edge& edge = TopoDS::Edge(impl.edges(e));
-      ProductEdge one;
+      product::ProductEdge one;
       one.number = e;
       if (const int found = faces_of.FindIndex(edge); found > 0) {
         int side = 0;
@@ -165,7 +165,7 @@ struct Describer {
   }
 
   /// Leaves `one` as it is where the geometry gives no finite numbers.
-  void measure(const TopoDS_Edge& edge, ProductEdge& one) const {
+  void measure(const TopoDS_Edge& edge, product::ProductEdge& one) const {
     BRepAdaptor_Curve curve;
     try {
       curve.Initialize(edge);
@@ -221,7 +221,7 @@ struct Describer {
 
 }  // namespace
 
-ProductFaces describe_faces(const CadModel& model) {
+product::ProductFaces describe_faces(const CadModel& model) {
   if (model.is_empty()) return {};
   Describer describer(model.impl());
   describer.describe_faces();
@@ -230,4 +230,4 @@ ProductFaces describe_faces(const CadModel& model) {
   return std::move(describer.result);
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

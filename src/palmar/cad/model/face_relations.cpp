@@ -31,7 +31,7 @@
 #include <numbers>
 #include <optional>
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kSmoothAngle =
@@ -269,4 +269,4 @@ LongAxis long_axis_of(const CadModel::Impl& model) {
   return axis;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -9,7 +9,7 @@
 
 #include "palmar/cad/model/occt_model.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// How two faces of a model meet along an edge. Numbers are those of the model, from 1.
 struct EdgeRelation {
@@ -56,4 +56,4 @@ struct LongAxis {
 };
 LongAxis long_axis_of(const CadModel::Impl& model);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -26,7 +26,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kShortest = 1e-6;  // mm; edges below the CAD kernel's own tolerance are left out
@@ -229,4 +229,4 @@ NamedSolid round_face(const NamedSolid& solid, const std::string& face, double r
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

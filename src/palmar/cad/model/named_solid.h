@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::cad {
 
 /// A solid while it is made, and what its faces are called, in the order in which they are numbered
 /// at the end (those without a name come last). For the sources of module cad only.
@@ -61,4 +61,4 @@ std::vector<SectionCorner> s_curve(const SectionPoint& from, const SectionPoint&
 NamedSolid round_face(const NamedSolid& solid, const std::string& face, double radius,
                       const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::cad

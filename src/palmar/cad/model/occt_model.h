@@ -12,7 +12,7 @@
 
 #include "palmar/cad/model/cad_model.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// What OpenCASCADE knows of a CadModel. Instances of assemblies are bodies of their own, moved to
 /// where they are.
@@ -36,4 +36,4 @@ CadModel make_cad_model(std::vector<CadModel::Impl::Body> bodies);
 /// One body.
 CadModel make_cad_model(const TopoDS_Shape& shape, const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace palmar {
+namespace palmar::cad {
 
 OcctProgress::OcctProgress(const Progress& progress, double begin, double end, std::string activity)
     : progress_(progress), begin_(begin), end_(end), last_(-1.0), activity_(std::move(activity)) {}
@@ -17,4 +17,4 @@ void OcctProgress::Show(const Message_ProgressScope&, const Standard_Boolean) {
   progress_.report(share, activity_);
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

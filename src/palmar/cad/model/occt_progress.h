@@ -7,7 +7,7 @@
 
 #include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// OpenCASCADE's progress as Palmar's: its whole stands for the shares [begin, end] of the work.
 /// When cancelled, OpenCASCADE stops early and what it gives is not to be used.
@@ -24,4 +24,4 @@ class OcctProgress : public Message_ProgressIndicator {
   std::string activity_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -13,7 +13,7 @@
 #include <set>
 #include <vector>
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 using Entity = const Standard_Transient*;
@@ -83,4 +83,4 @@ double count_instances(const Handle(StepData_StepModel) & model) {
   return std::max(products.count(), representations.count());
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

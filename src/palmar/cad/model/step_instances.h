@@ -4,7 +4,7 @@
 
 #include <StepData_StepModel.hxx>
 
-namespace palmar {
+namespace palmar::cad {
 
 /// How many parts the assemblies of a STEP file stand for, before anything is translated: products
 /// used in products (NEXT_ASSEMBLY_USAGE_OCCURRENCE) and representations mapped into
@@ -12,4 +12,4 @@ namespace palmar {
 /// assembly contains itself.
 double count_instances(const Handle(StepData_StepModel) & model);
 
-}  // namespace palmar
+}  // namespace palmar::cad

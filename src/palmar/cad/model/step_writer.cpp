@@ -27,7 +27,7 @@
 #include "palmar/core/version.h"
 #include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 void set_name(const TDF_Label& label, const std::string& name) {
@@ -158,4 +158,4 @@ void write_step(const std::filesystem::path& path, const CadModel& model) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

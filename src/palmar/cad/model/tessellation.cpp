@@ -25,7 +25,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kSizeShare = 2000.0;  // a 120 mm handle: 0.06 mm
@@ -136,12 +136,12 @@ void coarsen(Choice& choice, const TessellationOptions& options) {
       "so that there are no more than " + std::to_string(options.max_triangles) + " triangles";
 }
 
-Choice choose(const CadModel& model, const ProductFaces& faces,
+Choice choose(const CadModel& model, const product::ProductFaces& faces,
               const TessellationOptions& options) {
   if (options.chordal_error) return {*options.chordal_error, "as given", options.angle};
   const double size = size_of(model);
   double smallest = 0.0;
-  for (const ProductFace& face : faces.face) {
+  for (const product::ProductFace& face : faces.face) {
     if (face.radius > 0.0 && (smallest == 0.0 || face.radius < smallest)) smallest = face.radius;
   }
   Choice choice{size / kSizeShare, "a 2000th of its size of " + significant(size, 3) + " mm",
@@ -207,7 +207,7 @@ double area_of(const Poly_Triangulation& triangulation) {
 }
 
 /// Faces (by number) whose triangles don't cover them.
-std::vector<int> uncovered_faces(const CadModel& model, const ProductFaces& faces) {
+std::vector<int> uncovered_faces(const CadModel& model, const product::ProductFaces& faces) {
   constexpr double kWrong = 0.05;       // of the area; chords of a rounding in 0.25 rad lose 0.3 %
   constexpr double kNegligible = 1e-6;  // mm^2
   std::vector<int> uncovered;
@@ -223,7 +223,7 @@ std::vector<int> uncovered_faces(const CadModel& model, const ProductFaces& face
 }
 
 /// The fast algorithm; where it leaves faces uncovered, the thorough one, if that covers more.
-std::vector<int> mesh_and_examine(const CadModel& model, const ProductFaces& faces,
+std::vector<int> mesh_and_examine(const CadModel& model, const product::ProductFaces& faces,
                                   const Choice& choice, const Progress& progress) {
   mesh_shape(model, choice, IMeshTools_MeshAlgoType_Delabella, progress);
   std::vector<int> uncovered = uncovered_faces(model, faces);
@@ -438,4 +438,4 @@ Tessellation tessellate(const CadModel& model, const TessellationOptions& option
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -11,7 +11,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product_faces.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 struct TessellationOptions {
   /// mm; largest gap between a triangle's edge and the surface. Unset: a 2000th of the model's
@@ -24,8 +24,8 @@ struct TessellationOptions {
 };
 
 struct Tessellation {
-  TriangleMesh mesh;  ///< mm, outwards; closed 2-manifold for a closed solid
-  ProductFaces faces;
+  geometry::TriangleMesh mesh;  ///< mm, outwards; closed 2-manifold for a closed solid
+  product::ProductFaces faces;
   double chordal_error = 0.0;      ///< mm; what was used
   std::string chordal_reason;      ///< "a 2000th of its size"; "as given"
   std::vector<std::string> notes;  ///< faces that can't be meshed, by number
@@ -39,6 +39,6 @@ Tessellation tessellate(const CadModel& model, const TessellationOptions& option
                         const Progress& progress = {});
 
 /// Faces and edges alone, without points and triangles.
-ProductFaces describe_faces(const CadModel& model);
+product::ProductFaces describe_faces(const CadModel& model);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -14,15 +14,15 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 using ::testing::HasSubstr;
 
 CadModel model_of(const TopoDS_Shape& shape) { return make_cad_model(shape, "part"); }
 
-void expect_closed(const TriangleMesh& mesh) {
-  const TopologyReport topology = examine_topology(mesh);
+void expect_closed(const geometry::TriangleMesh& mesh) {
+  const geometry::TopologyReport topology = geometry::examine_topology(mesh);
   EXPECT_TRUE(topology.is_closed);
   EXPECT_EQ(topology.non_manifold_edges, 0);
 }
@@ -39,7 +39,7 @@ TEST(Tessellate, SphereIsClosedOutwardsAndWithinTheChordalError) {
     // Triangles cut corners off, so the volume is smaller; a shell of the error's thickness at most
     // (twice it, for triangles are tested along their edges).
     const double exact = 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3);
-    const double volume = signed_volume(result.mesh);
+    const double volume = geometry::signed_volume(result.mesh);
     EXPECT_LT(volume, exact);
     EXPECT_GT(volume, 4.0 / 3.0 * std::numbers::pi * std::pow(radius - 2.0 * error, 3));
   }
@@ -54,26 +54,26 @@ TEST(Tessellate, RoundedBoxHasItsVolumeFacesAndFillets) {
   const double volume = a * b * c + 2 * r * (a * b + b * c + c * a) +
                         std::numbers::pi * r * r * (a + b + c) +
                         4.0 / 3.0 * std::numbers::pi * r * r * r;
-  EXPECT_NEAR(signed_volume(result.mesh), volume, 1e-3 * volume);
-  std::map<FaceKind, int> kinds, fillets;
-  std::map<FaceKind, double> area;
-  for (const ProductFace& face : result.faces.face) {
+  EXPECT_NEAR(geometry::signed_volume(result.mesh), volume, 1e-3 * volume);
+  std::map<product::FaceKind, int> kinds, fillets;
+  std::map<product::FaceKind, double> area;
+  for (const product::ProductFace& face : result.faces.face) {
     ++kinds[face.kind];
     fillets[face.kind] += face.is_fillet;
     area[face.kind] += face.area;
     EXPECT_EQ(face.part, "part");
     EXPECT_FALSE(face.is_concave);
-    EXPECT_NEAR(face.radius, face.kind == FaceKind::kPlane ? 0.0 : r, 1e-9);
+    EXPECT_NEAR(face.radius, face.kind == product::FaceKind::kPlane ? 0.0 : r, 1e-9);
   }
-  EXPECT_EQ(kinds[FaceKind::kPlane], 6);
-  EXPECT_EQ(kinds[FaceKind::kCylinder], 12);
-  EXPECT_EQ(kinds[FaceKind::kSphere], 8);
-  EXPECT_EQ(fillets[FaceKind::kPlane], 0);
-  EXPECT_EQ(fillets[FaceKind::kCylinder], 12);
-  EXPECT_EQ(fillets[FaceKind::kSphere], 8);
-  EXPECT_NEAR(area[FaceKind::kPlane], 2 * (a * b + b * c + c * a), 1e-6);
-  EXPECT_NEAR(area[FaceKind::kCylinder], 2 * std::numbers::pi * r * (a + b + c), 1e-6);
-  EXPECT_NEAR(area[FaceKind::kSphere], 4 * std::numbers::pi * r * r, 1e-6);
+  EXPECT_EQ(kinds[product::FaceKind::kPlane], 6);
+  EXPECT_EQ(kinds[product::FaceKind::kCylinder], 12);
+  EXPECT_EQ(kinds[product::FaceKind::kSphere], 8);
+  EXPECT_EQ(fillets[product::FaceKind::kPlane], 0);
+  EXPECT_EQ(fillets[product::FaceKind::kCylinder], 12);
+  EXPECT_EQ(fillets[product::FaceKind::kSphere], 8);
+  EXPECT_NEAR(area[product::FaceKind::kPlane], 2 * (a * b + b * c + c * a), 1e-6);
+  EXPECT_NEAR(area[product::FaceKind::kCylinder], 2 * std::numbers::pi * r * (a + b + c), 1e-6);
+  EXPECT_NEAR(area[product::FaceKind::kSphere], 4 * std::numbers::pi * r * r, 1e-6);
   // Every triangle's corners lie on its face: areas by face agree.
   std::vector<double> meshed(result.faces.face.size(), 0.0);
   ASSERT_EQ(result.faces.face_of_triangle.size(), result.mesh.triangles.size());
@@ -85,7 +85,7 @@ TEST(Tessellate, RoundedBoxHasItsVolumeFacesAndFillets) {
   for (std::size_t f = 0; f < meshed.size(); ++f) {
     EXPECT_NEAR(meshed[f], result.faces.face[f].area, 0.02 * result.faces.face[f].area) << f;
   }
-  for (const ProductEdge& edge : result.faces.edge) {
+  for (const product::ProductEdge& edge : result.faces.edge) {
     if (edge.length == 0.0) continue;
     EXPECT_TRUE(edge.is_smooth) << edge.number;
     double length = 0.0;
@@ -101,13 +101,13 @@ TEST(DescribeFaces, DistinguishesOuterAndInnerEdgesOfAStep) {
   const TopoDS_Shape step = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(40, 30, 100).Shape(),
                                             BRepPrimAPI_MakeBox(20, 15, 100).Shape())
                                 .Shape();
-  const ProductFaces faces = describe_faces(model_of(step));
+  const product::ProductFaces faces = describe_faces(model_of(step));
   EXPECT_EQ(faces.face.size(), 8U);
   EXPECT_EQ(faces.edge.size(), 18U);
   const auto hollow = std::count_if(faces.edge.begin(), faces.edge.end(),
-                                    [](const ProductEdge& e) { return !e.is_convex; });
+                                    [](const product::ProductEdge& e) { return !e.is_convex; });
   EXPECT_EQ(hollow, 1);
-  for (const ProductEdge& edge : faces.edge) {
+  for (const product::ProductEdge& edge : faces.edge) {
     EXPECT_NEAR(edge.angle, std::numbers::pi / 2, 1e-9);
     EXPECT_FALSE(edge.is_smooth);
     EXPECT_TRUE(edge.is_convex || std::abs(edge.length - 100.0) < 1e-9);
@@ -115,14 +115,16 @@ TEST(DescribeFaces, DistinguishesOuterAndInnerEdgesOfAStep) {
 }
 
 TEST(DescribeFaces, DistinguishesAHoleFromARod) {
-  const ProductFaces rod = describe_faces(model_of(BRepPrimAPI_MakeCylinder(10, 50).Shape()));
-  const ProductFaces hole = describe_faces(
+  const product::ProductFaces rod =
+      describe_faces(model_of(BRepPrimAPI_MakeCylinder(10, 50).Shape()));
+  const product::ProductFaces hole = describe_faces(
       model_of(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(gp_Pnt(-30, -30, 0), gp_Pnt(30, 30, 50)).Shape(),
                                BRepPrimAPI_MakeCylinder(10, 50).Shape())
                    .Shape()));
-  const auto cylinder = [](const ProductFaces& faces) {
-    return *std::find_if(faces.face.begin(), faces.face.end(),
-                         [](const ProductFace& face) { return face.kind == FaceKind::kCylinder; });
+  const auto cylinder = [](const product::ProductFaces& faces) {
+    return *std::find_if(
+        faces.face.begin(), faces.face.end(),
+        [](const product::ProductFace& face) { return face.kind == product::FaceKind::kCylinder; });
   };
   EXPECT_FALSE(cylinder(rod).is_concave);
   EXPECT_TRUE(cylinder(hole).is_concave);
@@ -136,13 +138,13 @@ TEST(Tessellate, MovedInstancesAndMirroredOnesFaceOutwards) {
   turn.SetRotation(gp_Ax1(gp_Pnt(3, 2, 1), gp_Dir(1, 2, 3)), 1.0);
   mirror.SetMirror(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0)));
   const TopoDS_Shape box = rounded_box(40, 30, 120, 3);
-  const double volume = signed_volume(tessellate(model_of(box)).mesh);
+  const double volume = geometry::signed_volume(tessellate(model_of(box)).mesh);
   const TopoDS_Shape turned = box.Moved(TopLoc_Location(turn));
   const TopoDS_Shape mirrored = box.Moved(TopLoc_Location(mirror), Standard_False);
   for (const TopoDS_Shape& shape : {turned, mirrored}) {
     const Tessellation result = tessellate(model_of(shape));
     expect_closed(result.mesh);
-    EXPECT_NEAR(signed_volume(result.mesh), volume, 1e-3 * volume);
+    EXPECT_NEAR(geometry::signed_volume(result.mesh), volume, 1e-3 * volume);
   }
 }
 
@@ -182,4 +184,4 @@ TEST(Tessellate, SameModelGivesTheSameTriangles) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::cad

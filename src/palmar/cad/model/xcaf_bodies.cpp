@@ -23,7 +23,7 @@
 #include "palmar/cad/model/body_repair.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 using Colour = std::optional<std::array<float, 3>>;
@@ -343,4 +343,4 @@ Handle(TDocStd_Document) new_document() {
   return document;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

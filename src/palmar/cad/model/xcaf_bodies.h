@@ -11,7 +11,7 @@
 #include "palmar/cad/model/cad_file.h"
 #include "palmar/cad/model/occt_model.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// Bodies of the kernel's document (assembly tree with names and colours), flattened, with their
 /// names, colours and those of their faces; lengths times `scale`. `object` names the file in
@@ -23,4 +23,4 @@ void flatten(const Handle(TDocStd_Document) & document, double scale, const Read
 /// A new empty document.
 Handle(TDocStd_Document) new_document();
 
-}  // namespace palmar
+}  // namespace palmar::cad

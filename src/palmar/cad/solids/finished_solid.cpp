@@ -22,7 +22,7 @@
 #include "palmar/cad/model/occt_model.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 /// "" if the shape is one valid, closed solid with something inside.
@@ -74,7 +74,7 @@ TopoDS_Solid in_order(const NamedSolid& made) {
   return solid;
 }
 
-NamedSolid moved(const NamedSolid& made, const Rigid3& to) {
+NamedSolid moved(const NamedSolid& made, const geometry::Rigid3& to) {
   const Quat& q = to.rotation;
   gp_Trsf way;
   way.SetTransformation(gp_Quaternion(q.x(), q.y(), q.z(), q.w()),
@@ -89,7 +89,8 @@ NamedSolid moved(const NamedSolid& made, const Rigid3& to) {
 
 }  // namespace
 
-CadModel finished_solid(const NamedSolid& made, const std::string& name, const Rigid3& to) {
+CadModel finished_solid(const NamedSolid& made, const std::string& name,
+                        const geometry::Rigid3& to) {
   const bool stays = to.rotation.isApprox(Quat::Identity()) && to.translation.isZero();
   const NamedSolid flat = without_locations(stays ? made : moved(made, to));
   const std::string wrong = what_is_wrong(flat.shape);
@@ -103,4 +104,4 @@ CadModel finished_solid(const NamedSolid& made, const std::string& name, const R
   return CadModel(std::move(named));
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

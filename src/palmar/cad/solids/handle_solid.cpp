@@ -10,25 +10,25 @@
 #include "palmar/cad/solids/loft.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
-CadModel make_handle_solid(const HandleShape& shape) {
-  const HandleBody& body = shape.body;
+namespace palmar::cad {
+CadModel make_handle_solid(const redesign::HandleShape& shape) {
+  const redesign::HandleBody& body = shape.body;
   const auto section = [&](double z, double t) {
     // The surface begins where a face does, so that no face has its seam within.
-    const Eigen::Vector2d point = shape.side_point(z, t + HandleRows::kFirstTurn);
+    const Eigen::Vector2d point = shape.side_point(z, t + redesign::HandleRows::kFirstTurn);
     return SectionPoint{point.x(), point.y()};
   };
   try {
     // Ends are rounded in the same surface: rolled by the kernel, their faces have kinks in them
     // and curves beside them that offsets and shells fail on. Parted as the side they have no seam,
     // beside which offsets stray.
-    const HandleRows rows = rows_for(shape);
-    const double height = rows.end_radius * std::sin(kEndAngle);
+    const redesign::HandleRows rows = redesign::rows_for(shape);
+    const double height = rows.end_radius * std::sin(redesign::kEndAngle);
     const NamedSolid solid =
         make_loft(section, {.bottom = body.bottom,
                             .top = body.top,
                             .end_fillet = rows.end_radius,
-                            .end_angle = kEndAngle,
+                            .end_angle = redesign::kEndAngle,
                             .splits_fillets = true,
                             .columns = rows.columns,
                             .row_distance = rows.distance,
@@ -45,4 +45,4 @@ CadModel make_handle_solid(const HandleShape& shape) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

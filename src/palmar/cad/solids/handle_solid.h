@@ -5,7 +5,7 @@
 #include "palmar/cad/model/cad_model.h"
 #include "palmar/redesign/handle_shape.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// A handle shaped anew as a solid, product frame, mm: one bicubic B-spline surface through few
 /// sections round it, parted into the faces "right", "palm", "left" and "fingers" (by where they
@@ -14,6 +14,6 @@ namespace palmar {
 /// too ("bottom fillet, palm"). A handle that is only a part of its product ends in planes where it
 /// runs into it, with sharp edges. Throws NumericalError if OpenCASCADE makes no valid closed solid
 /// of it.
-CadModel make_handle_solid(const HandleShape& shape);
+CadModel make_handle_solid(const redesign::HandleShape& shape);
 
-}  // namespace palmar
+}  // namespace palmar::cad

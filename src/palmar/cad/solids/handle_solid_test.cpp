@@ -13,14 +13,14 @@
 #include "palmar/cad/model/tessellation.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 using std::numbers::pi;
 
 /// A bar of 120 mm along (1, 1, 0), about (10, 0, 0).
-HandleShape bar() {
-  HandleShape shape;
+redesign::HandleShape bar() {
+  redesign::HandleShape shape;
   shape.body.is_whole = true;
   shape.body.bottom = -60.0;
   shape.body.top = 60.0;
@@ -42,8 +42,8 @@ TEST(HandleSolid, OfAnEllipticBarHasItsVolumeAndItsPlace) {
 }
 
 TEST(HandleSolid, IsValidWithFewPolesAndNamedFacesAndNearTheShapeForEveryFeature) {
-  for (const HandleFeature& feature : handle_features()) {
-    HandleShape shape = bar();
+  for (const redesign::HandleFeature& feature : redesign::handle_features()) {
+    redesign::HandleShape shape = bar();
     shape.end_radius = 3.0;
     const double usual = feature.unit == "mm" ? 3.0 : feature.unit.empty() ? 0.15 : 8.0;
     if (feature.name != "width" && feature.name != "depth") {
@@ -62,7 +62,7 @@ TEST(HandleSolid, IsValidWithFewPolesAndNamedFacesAndNearTheShapeForEveryFeature
       EXPECT_EQ(names.count(name), 1U) << feature.name << ": " << name;
     }
     // The solid's side against the shape that hands are to hold.
-    const Rigid3 to_handle = shape.body.product_from_handle.inverse();
+    const geometry::Rigid3 to_handle = shape.body.product_from_handle.inverse();
     double farthest = 0.0;
     for (const Vec3& vertex : tessellate(model, {.chordal_error = 0.02}).mesh.vertices) {
       const Vec3 x = to_handle * vertex;
@@ -76,7 +76,7 @@ TEST(HandleSolid, IsValidWithFewPolesAndNamedFacesAndNearTheShapeForEveryFeature
 }
 
 TEST(HandleSolid, IsRoundedUpToFlatEndsThatItMeetsAtAnAngle) {
-  HandleShape shape = bar();
+  redesign::HandleShape shape = bar();
   shape.end_radius = 3.0;
   const CadModel model = make_handle_solid(shape);
   EXPECT_EQ(model.face_count(), 14);  // side and roundings in four, two ends
@@ -87,14 +87,15 @@ TEST(HandleSolid, IsRoundedUpToFlatEndsThatItMeetsAtAnAngle) {
   double lost = 0.0;
   constexpr int kSteps = 10000;
   for (int k = 0; k < kSteps; ++k) {
-    const double a = kEndAngle * (k + 0.5) / kSteps, inset = 3.0 * (1.0 - std::cos(a));
-    lost += 2.0 * (perimeter * inset - pi * inset * inset) * 3.0 * std::cos(a) * kEndAngle / kSteps;
+    const double a = redesign::kEndAngle * (k + 0.5) / kSteps, inset = 3.0 * (1.0 - std::cos(a));
+    lost += 2.0 * (perimeter * inset - pi * inset * inset) * 3.0 * std::cos(a) *
+            redesign::kEndAngle / kSteps;
   }
   EXPECT_NEAR(volume_of(make_handle_solid(bar())) - volume_of(model), lost, 0.02 * lost);
 }
 
 TEST(HandleSolid, OfALeaningHandleEndsInThePlanesOfItsEnds) {
-  HandleShape shape = bar();
+  redesign::HandleShape shape = bar();
   shape.body.product_from_handle = {};
   shape.body.centre[1] = {0.0, 0.3};
   const CadModel model = make_handle_solid(shape);
@@ -105,4 +106,4 @@ TEST(HandleSolid, OfALeaningHandleEndsInThePlanesOfItsEnds) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::cad

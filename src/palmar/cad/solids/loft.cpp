@@ -25,7 +25,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 constexpr double kSewing = 1e-5;  // mm; faces share their borders to rounding
@@ -240,4 +240,4 @@ NamedSolid make_loft(const std::function<SectionPoint(double z, double turn)>& s
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

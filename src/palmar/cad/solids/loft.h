@@ -9,7 +9,7 @@
 
 #include "palmar/cad/model/named_solid.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// Rises from 0 at t = 0 to 1 at t = 1 with no slope and no curvature at both; 0 before, 1 behind.
 double smoother_step(double t);
@@ -64,4 +64,4 @@ struct LoftOptions {
 NamedSolid make_loft(const std::function<SectionPoint(double z, double turn)>& section,
                      const LoftOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -7,7 +7,7 @@
 #include "palmar/cad/solids/kind_makers.h"
 #include "palmar/cad/solids/loft.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 /// Superellipse's exponent: 2 is an ellipse, 5 nearly a rectangle.
@@ -21,7 +21,7 @@ LoftBand four_sides(double begin, double end, const std::string& right, const st
 
 }  // namespace
 
-NamedSolid make_knife_handle(const KindValues& v) {
+NamedSolid make_knife_handle(const product::KindValues& v) {
   const double length = v.at("length_mm");
   const double fillet = v.at("end_fillet_mm");
   const double half_width = 0.5 * v.at("width_mm");
@@ -55,7 +55,7 @@ NamedSolid make_knife_handle(const KindValues& v) {
                              .bands = {four_sides(-end, end, "right", "spine", "left", "belly")}});
 }
 
-NamedSolid make_pistol_grip(const KindValues& v) {
+NamedSolid make_pistol_grip(const product::KindValues& v) {
   const double height = v.at("height_mm");
   const double fillet = v.at("end_fillet_mm");
   const double half_width = 0.5 * v.at("width_mm");
@@ -92,7 +92,7 @@ NamedSolid make_pistol_grip(const KindValues& v) {
                              .bands = {four_sides(-end, end, "right", "back", "left", "front")}});
 }
 
-NamedSolid make_screwdriver_handle(const KindValues& v) {
+NamedSolid make_screwdriver_handle(const product::KindValues& v) {
   const double length = v.at("length_mm");
   const double radius = 0.5 * v.at("diameter_mm");
   const double neck = 0.5 * v.at("neck_diameter_mm");
@@ -133,4 +133,4 @@ NamedSolid make_screwdriver_handle(const KindValues& v) {
                              .bands = {{bottom + fillet, grip, {}, {"neck"}}, grip_band}});
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

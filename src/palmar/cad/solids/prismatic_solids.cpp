@@ -18,7 +18,7 @@
 
 #include "palmar/cad/solids/kind_makers.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 /// Width along x, height along y; sides "right", `top`, "left", `bottom`.
@@ -44,7 +44,7 @@ NamedSolid one_face(const TopoDS_Shape& shape) {
 
 }  // namespace
 
-NamedSolid make_prism(const KindValues& v) {
+NamedSolid make_prism(const product::KindValues& v) {
   NamedSolid solid =
       extrude_section(rounded_rectangle(v.at("width_mm"), v.at("depth_mm"), v.at("fillet_mm"),
                                         "fillet", "back", "front"),
@@ -55,7 +55,7 @@ NamedSolid make_prism(const KindValues& v) {
                            "fillet 4", "bottom", "top"});
 }
 
-NamedSolid make_phone(const KindValues& v) {
+NamedSolid make_phone(const product::KindValues& v) {
   NamedSolid flat =
       extrude_section(rounded_rectangle(v.at("width_mm"), v.at("height_mm"), v.at("corner_mm"),
                                         "corner", "top side", "bottom side"),
@@ -77,7 +77,7 @@ NamedSolid make_phone(const KindValues& v) {
   return solid;
 }
 
-NamedSolid make_elliptic_handle(const KindValues& v) {
+NamedSolid make_elliptic_handle(const product::KindValues& v) {
   const double x = 0.5 * v.at("width_mm");
   const double y = 0.5 * v.at("depth_mm");
   const double length = v.at("length_mm");
@@ -96,11 +96,11 @@ NamedSolid make_elliptic_handle(const KindValues& v) {
   return round_face(solid, "top", v.at("end_fillet_mm"), "top fillet");
 }
 
-NamedSolid make_sphere(const KindValues& v) {
+NamedSolid make_sphere(const product::KindValues& v) {
   return one_face(BRepPrimAPI_MakeSphere(0.5 * v.at("diameter_mm")).Shape());
 }
 
-NamedSolid make_ellipsoid(const KindValues& v) {
+NamedSolid make_ellipsoid(const product::KindValues& v) {
   gp_GTrsf stretch;
   stretch.SetValue(1, 1, 0.5 * v.at("x_mm"));
   stretch.SetValue(2, 2, 0.5 * v.at("y_mm"));
@@ -109,4 +109,4 @@ NamedSolid make_ellipsoid(const KindValues& v) {
   return one_face(BRepBuilderAPI_GTransform(ball, stretch, true).Shape());
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -10,11 +10,11 @@
 #include "palmar/cad/solids/kind_makers.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
-const std::map<std::string, std::function<NamedSolid(const KindValues&)>>& makers() {
-  static const std::map<std::string, std::function<NamedSolid(const KindValues&)>> all = {
+const std::map<std::string, std::function<NamedSolid(const product::KindValues&)>>& makers() {
+  static const std::map<std::string, std::function<NamedSolid(const product::KindValues&)>> all = {
       {"cylinder", make_cylinder},
       {"elliptic_handle", make_elliptic_handle},
       {"tapered_handle", make_tapered_handle},
@@ -30,9 +30,9 @@ const std::map<std::string, std::function<NamedSolid(const KindValues&)>>& maker
   return all;
 }
 
-std::string with_values(const ParametricKind& kind, const KindValues& values) {
+std::string with_values(const product::ParametricKind& kind, const product::KindValues& values) {
   std::string text = kind.name;
-  for (const KindParameter& one : kind.parameters) {
+  for (const product::KindParameter& one : kind.parameters) {
     std::string number = std::to_string(values.at(one.name));
     number.erase(number.find_last_not_of('0') + 1);
     if (number.back() == '.') number.pop_back();
@@ -43,7 +43,7 @@ std::string with_values(const ParametricKind& kind, const KindValues& values) {
 
 }  // namespace
 
-CadModel make_kind_solid(const ParametricKind& kind, const KindValues& values) {
+CadModel make_kind_solid(const product::ParametricKind& kind, const product::KindValues& values) {
   const auto refuse = [&](const std::string& why) -> NumericalError {
     return NumericalError(with_values(kind, values) + ": no solid can be made: " + why);
   };
@@ -58,4 +58,4 @@ CadModel make_kind_solid(const ParametricKind& kind, const KindValues& values) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -5,7 +5,7 @@
 #include "palmar/cad/model/cad_model.h"
 #include "palmar/product/parametric_kinds.h"
 
-namespace palmar {
+namespace palmar::cad {
 
 /// The solid of a kind of product (product/parametric_kinds.h), mm: one closed body whose faces
 /// have names ("front", "fillet 1", "top"). Long kinds lie along z, all about the origin. The same
@@ -14,6 +14,6 @@ namespace palmar {
 ///
 /// `values`: of complete_values(). Throws NumericalError naming kind and values if OpenCASCADE
 /// makes no valid closed solid of them.
-CadModel make_kind_solid(const ParametricKind& kind, const KindValues& values);
+CadModel make_kind_solid(const product::ParametricKind& kind, const product::KindValues& values);
 
-}  // namespace palmar
+}  // namespace palmar::cad

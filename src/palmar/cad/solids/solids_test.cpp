@@ -22,14 +22,14 @@
 #include "palmar/core/random.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::cad {
 namespace {
 
 using Given = std::vector<std::pair<std::string, double>>;
 
 CadModel make(const std::string& kind, const Given& given = {}) {
-  const ParametricKind& known = parametric_kind(kind);
-  return make_kind_solid(known, complete_values(known, given));
+  const product::ParametricKind& known = product::parametric_kind(kind);
+  return make_kind_solid(known, product::complete_values(known, given));
 }
 
 double volume(const std::string& kind, const Given& given) {
@@ -131,7 +131,7 @@ TEST(KindSolids, HaveTheSizeThatTheirParametersGive) {
 }
 
 TEST(KindSolids, EveryFaceHasAName) {
-  for (const ParametricKind& kind : parametric_kinds()) {
+  for (const product::ParametricKind& kind : product::parametric_kinds()) {
     const CadModel model = make(kind.name);
     std::set<std::string> names;
     for (const auto& [number, name] : model.impl().face_name) names.insert(name);
@@ -141,23 +141,24 @@ TEST(KindSolids, EveryFaceHasAName) {
 
 // What a study says of "face 5" of a made prism is what its STEP file calls face 5.
 TEST(KindSolids, CylinderAndPrismNumberTheirFacesAsTheAnalyticOnes) {
-  const auto expect_same = [](const CadModel& model, const Product& product) {
+  const auto expect_same = [](const CadModel& model, const product::Product& product) {
     ASSERT_NE(product.faces, nullptr);
     ASSERT_EQ(static_cast<std::size_t>(model.face_count()), product.faces->face.size());
-    for (const ProductFace& face : product.faces->face) {
+    for (const product::ProductFace& face : product.faces->face) {
       EXPECT_EQ(model.impl().face_name.at(face.number), face.name);
     }
   };
-  expect_same(make("cylinder"), make_cylinder_product({}));
-  expect_same(make("prism"), make_prism_product({}));
-  expect_same(make("prism", {{"fillet_mm", 0}}), make_prism_product({.fillet_radius = 0.0}));
+  expect_same(make("cylinder"), product::make_cylinder_product({}));
+  expect_same(make("prism"), product::make_prism_product({}));
+  expect_same(make("prism", {{"fillet_mm", 0}}),
+              product::make_prism_product({.fillet_radius = 0.0}));
 }
 
 /// Random values within ranges and relations, by rejection.
-KindValues random_values(const ParametricKind& kind, RandomStream& random) {
+product::KindValues random_values(const product::ParametricKind& kind, RandomStream& random) {
   for (;;) {
     Given given;
-    for (const KindParameter& one : kind.parameters) {
+    for (const product::KindParameter& one : kind.parameters) {
       double value = 0.0;
       if (one.highest > 100.0 * std::max(one.lowest, 1.0)) {  // over orders of magnitude
         const double low = std::max(one.lowest, 0.1);
@@ -169,17 +170,17 @@ KindValues random_values(const ParametricKind& kind, RandomStream& random) {
       given.emplace_back(one.name, one.is_whole ? std::round(value) : value);
     }
     try {
-      return complete_values(kind, given);
+      return product::complete_values(kind, given);
     } catch (const UsageError&) {
     }
   }
 }
 
 TEST(KindSolids, AreValidAndClosedWithinTheirLengthsOverTheWholeRange) {
-  for (const ParametricKind& kind : parametric_kinds()) {
+  for (const product::ParametricKind& kind : product::parametric_kinds()) {
     RandomStream random(6, 0);
     for (int i = 0; i < 4; ++i) {
-      const KindValues values = random_values(kind, random);
+      const product::KindValues values = random_values(kind, random);
       try {
         const CadModel model = make_kind_solid(kind, values);
         const CadCheck check = check_cad(model);
@@ -203,7 +204,7 @@ TEST(KindSolids, AreTheSameAfterStepWithNamesAndNumbers) {
       std::filesystem::path(::testing::TempDir()) / "palmar_kind_solids";
   std::filesystem::create_directories(folder);
   Message::DefaultMessenger()->ChangePrinters().Clear();  // the STEP writer talks
-  for (const ParametricKind& kind : parametric_kinds()) {
+  for (const product::ParametricKind& kind : product::parametric_kinds()) {
     const CadModel model = make(kind.name);
     const std::filesystem::path path = folder / (kind.name + ".step");
     write_step(path, model);
@@ -216,4 +217,4 @@ TEST(KindSolids, AreTheSameAfterStepWithNamesAndNumbers) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -6,9 +6,9 @@
 
 #include "palmar/cad/solids/kind_makers.h"
 
-namespace palmar {
+namespace palmar::cad {
 
-NamedSolid make_cylinder(const KindValues& v) {
+NamedSolid make_cylinder(const product::KindValues& v) {
   const double radius = 0.5 * v.at("diameter_mm");
   const double half = 0.5 * v.at("length_mm");
   const double fillet = v.at("end_fillet_mm");
@@ -25,7 +25,7 @@ NamedSolid make_cylinder(const KindValues& v) {
                    {"side", "bottom", "top"});
 }
 
-NamedSolid make_tapered_handle(const KindValues& v) {
+NamedSolid make_tapered_handle(const product::KindValues& v) {
   const double thick = 0.5 * v.at("diameter_mm");
   const double half = 0.5 * v.at("length_mm");
   const double taper = v.at("taper_deg") * std::numbers::pi / 180.0;
@@ -41,7 +41,7 @@ NamedSolid make_tapered_handle(const KindValues& v) {
        {.at = {0.0, half}}});
 }
 
-NamedSolid make_bottle(const KindValues& v) {
+NamedSolid make_bottle(const product::KindValues& v) {
   const double capped_edge = 1.0;  // mm; what the mould of a cap rounds
   const double radius = 0.5 * v.at("diameter_mm");
   const double neck = 0.5 * v.at("neck_diameter_mm");
@@ -81,7 +81,7 @@ NamedSolid make_bottle(const KindValues& v) {
   return revolve_section(section);
 }
 
-NamedSolid make_bicycle_grip(const KindValues& v) {
+NamedSolid make_bicycle_grip(const product::KindValues& v) {
   const double radius = 0.5 * v.at("diameter_mm");
   const double bore = 0.5 * v.at("bar_diameter_mm");
   const double half = 0.5 * v.at("length_mm");
@@ -117,4 +117,4 @@ NamedSolid make_bicycle_grip(const KindValues& v) {
   return revolve_section(section);
 }
 
-}  // namespace palmar
+}  // namespace palmar::cad

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <utility>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 class Dissector {
  public:
-  Dissector(const TetrahedralMesh& mesh, int leaf)
+  Dissector(const geometry::TetrahedralMesh& mesh, int leaf)
       : mesh_(mesh), leaf_(static_cast<std::size_t>(leaf)), half_(mesh.vertices.size(), 0) {
     neighbour_.resize(mesh.vertices.size());
-    for (const Tetrahedron& t : mesh.tetrahedra) {
+    for (const geometry::Tetrahedron& t : mesh.tetrahedra) {
       for (const int v : t) {
         for (const int w : t) {
           if (v != w) neighbour_[v].push_back(w);
@@ -126,7 +126,7 @@ class Dissector {
     }
   }
 
-  const TetrahedralMesh& mesh_;
+  const geometry::TetrahedralMesh& mesh_;
   std::size_t leaf_;
   std::vector<std::vector<int>> neighbour_;
   std::vector<char> half_;
@@ -135,8 +135,8 @@ class Dissector {
 
 }  // namespace
 
-std::vector<DissectionNode> dissect(const TetrahedralMesh& mesh, int leaf) {
+std::vector<DissectionNode> dissect(const geometry::TetrahedralMesh& mesh, int leaf) {
   return Dissector(mesh, leaf).run();
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/tetra/tetrahedral_mesh.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// A part of a nested dissection: the vertices that are eliminated together, after those of both
 /// children, and those that they act on, which are eliminated later.
@@ -21,6 +21,6 @@ struct DissectionNode {
 /// fewest vertices of one part to separate it from the other, and so on down to `leaf` vertices
 /// (George 1973).
 /// Children stand before their parents; the last node is the root.
-std::vector<DissectionNode> dissect(const TetrahedralMesh& mesh, int leaf = 64);
+std::vector<DissectionNode> dissect(const geometry::TetrahedralMesh& mesh, int leaf = 64);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -13,15 +13,15 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/tetra/tetrahedral_lattice.h"
 
-namespace palmar::contact_test {
+namespace palmar::contact::contact_test {
 
 struct BondedLayer {
-  TriangleMesh skin_mesh;
+  geometry::TriangleMesh skin_mesh;
   SkinGeometry skin;
-  TetrahedralMesh mesh;
+  geometry::TetrahedralMesh mesh;
   std::vector<char> is_held;
   HatPoints points;
-  std::vector<SkinAttachment> attachment;
+  std::vector<hand::SkinAttachment> attachment;
   double edge = 0.0;
 
   /// Elements of this edge between z = -thickness and 0, half_width to each side; a round patch of
@@ -35,28 +35,28 @@ struct BondedLayer {
                    Vec3(half_width, half_width, edge) + shift);
     const auto plane = [](double height, double sign) {
       return [=](const std::vector<Vec3>& at) {
-        std::vector<ClipSample> result;
+        std::vector<geometry::ClipSample> result;
         for (const Vec3& x : at) {
           result.push_back({sign * (x.z() - height), Vec3(x.x(), x.y(), height)});
         }
         return result;
       };
     };
-    const ClippedMesh below =
-        clip_tetrahedra(make_tetrahedral_lattice(box, {.edge = edge}), plane(0.0, 1.0), 0.23);
-    const ClippedMesh layer =
-        clip_tetrahedra(below.mesh, plane(-thickness, -1.0), 0.23, below.is_on_surface);
+    const geometry::ClippedMesh below = geometry::clip_tetrahedra(
+        geometry::make_tetrahedral_lattice(box, {.edge = edge}), plane(0.0, 1.0), 0.23);
+    const geometry::ClippedMesh layer =
+        geometry::clip_tetrahedra(below.mesh, plane(-thickness, -1.0), 0.23, below.is_on_surface);
     mesh = layer.mesh;
     is_held = layer.is_on_surface;
-    TriangleMesh top;
+    geometry::TriangleMesh top;
     top.vertices = mesh.vertices;
-    for (const Triangle& face : boundary_faces(mesh)) {
+    for (const Triangle& face : geometry::boundary_faces(mesh)) {
       double height = 0.0;
       for (const int v : face) height += std::abs(mesh.vertices[v].z());
       if (height < 1e-9) top.triangles.push_back(face);
     }
-    const ClosestPointQuery query(top);
-    skin_mesh = make_lattice_patch(radius, spacing);
+    const geometry::ClosestPointQuery query(top);
+    skin_mesh = geometry::make_lattice_patch(radius, spacing);
     skin = skin_geometry(skin_mesh);
     points = hat_points(skin, skin_mesh.triangles, divisions_for(spacing, edge));
     for (const Vec3& x : points.point) {
@@ -110,4 +110,4 @@ struct BondedLayer {
   }
 };
 
-}  // namespace palmar::contact_test
+}  // namespace palmar::contact::contact_test

@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar::contact_test {
+namespace palmar::contact::contact_test {
 
 /// Every pair of vertices as discs on a half-space.
 inline SkinCompliance half_space_compliance(const SkinGeometry& skin) {
@@ -41,12 +41,12 @@ inline ContactModel on_bone_model() {
 
 /// Flat skin in the plane z = 0 on a half-space, prepared as tissue on bone.
 inline PreparedHand flat_skin_on_half_space(double radius, double spacing) {
-  auto hand = std::make_shared<Hand>();
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "flat";
-  hand->skin = make_lattice_patch(radius, spacing);
-  hand->region.assign(hand->skin.vertices.size(), Region::kCentralPalm);
-  hand->segment.assign(hand->region.size(), Segment::kPalm);
-  hand->tissue = default_tissue();
+  hand->skin = geometry::make_lattice_patch(radius, spacing);
+  hand->region.assign(hand->skin.vertices.size(), hand::Region::kCentralPalm);
+  hand->segment.assign(hand->region.size(), hand::Segment::kPalm);
+  hand->tissue = hand::default_tissue();
   const auto compliance =
       std::make_shared<const SkinCompliance>(half_space_compliance(skin_geometry(hand->skin)));
   return PreparedHand(hand, on_bone_model(), compliance);
@@ -56,24 +56,24 @@ constexpr double kTipRadius = 9.0;  // mm
 
 /// A fingertip of sorts: a ball of skin about the origin round a ball of bone.
 inline PreparedHand tip_on_bone(int subdivisions) {
-  auto hand = std::make_shared<Hand>();
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "tip";
-  hand->skin = make_icosphere(kTipRadius, subdivisions);
-  hand->region.assign(hand->skin.vertices.size(), Region::kIndexDistal);
-  hand->segment.assign(hand->region.size(), Segment::kIndexDistal);
-  hand->bones.emplace_back().mesh = make_icosphere(4.0, 3);
-  hand->tissue = default_tissue();
+  hand->skin = geometry::make_icosphere(kTipRadius, subdivisions);
+  hand->region.assign(hand->skin.vertices.size(), hand::Region::kIndexDistal);
+  hand->segment.assign(hand->region.size(), hand::Segment::kIndexDistal);
+  hand->bones.emplace_back().mesh = geometry::make_icosphere(4.0, 3);
+  hand->tissue = hand::default_tissue();
   return PreparedHand(hand, on_bone_model());
 }
 
 /// The tip on the edge between two faces of a bar, `depth` deep from first touch.
 inline ContactResult press_on_edge(const PreparedHand& tip, double fillet, double depth,
                                    const ContactOptions& options) {
-  const auto bar =
-      make_prism_distance({.width = 40, .depth = 40, .length = 60, .fillet_radius = fillet});
+  const auto bar = geometry::make_prism_distance(
+      {.width = 40, .depth = 40, .length = 60, .fillet_radius = fillet});
   const double apex = std::sqrt(2.0) * (20.0 - fillet) + fillet;
   const double away = (apex + kTipRadius - depth) / std::sqrt(2.0);
-  Rigid3 place;
+  geometry::Rigid3 place;
   place.translation = Vec3(away, away, 0.0);
   return solve_hand_contact(tip, tip.hand().skin.vertices, place, *bar, options);
 }
@@ -82,10 +82,10 @@ inline ContactResult press_on_edge(const PreparedHand& tip, double fillet, doubl
 inline ContactResult press_on_plate(const PreparedHand& tip, double thickness, double depth,
                                     const ContactOptions& options) {
   constexpr double kHeight = 40.0;  // mm
-  const auto plate = make_box_distance(Vec3(thickness, kHeight, kHeight));
-  Rigid3 place;
+  const auto plate = geometry::make_box_distance(Vec3(thickness, kHeight, kHeight));
+  geometry::Rigid3 place;
   place.translation = Vec3(0.0, 0.0, 0.5 * kHeight + kTipRadius - depth);
   return solve_hand_contact(tip, tip.hand().skin.vertices, place, *plate, options);
 }
 
-}  // namespace palmar::contact_test
+}  // namespace palmar::contact::contact_test

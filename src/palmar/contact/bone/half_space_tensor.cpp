@@ -10,7 +10,7 @@
 #include "palmar/contact/response/response.h"
 #include "palmar/contact/response/tangential_response.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr std::array<double, 3> kBinomial = {3.0, 3.0, 1.0};  // 1 - (1 - g)^3 = 3 g - 3 g^2 + g^3
@@ -113,4 +113,4 @@ double near_share(double r, double w_i, double w_j) {
   return 1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x));
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -4,7 +4,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// How far forces on the surface of an incompressible half-space move it, times its shear modulus,
 /// as a tensor: displacement [mm] = tensor [1/mm] force [N] / G [MPa]. Between points at the
@@ -35,4 +35,4 @@ Eigen::Matrix3d spread_tensor(const Vec3& between, double w_i, double w_j, const
 /// between two vertices: 1 up to 3 widths (the mean of both), 0 from 6 on, smooth between.
 double near_share(double r, double w_i, double w_j);
 
-}  // namespace palmar
+}  // namespace palmar::contact

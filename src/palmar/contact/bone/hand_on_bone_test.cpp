@@ -11,32 +11,32 @@
 #include "palmar/core/error.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::on_bone_model;
 
 /// A fingertip of sorts: a ball of skin round a ball of bone.
-std::shared_ptr<const Hand> tip(double size) {
-  auto hand = std::make_shared<Hand>();
+std::shared_ptr<const hand::Hand> tip(double size) {
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "tip";
-  hand->skin = make_icosphere(9.0, 4);
+  hand->skin = geometry::make_icosphere(9.0, 4);
   for (const Vec3& x : hand->skin.vertices) {
-    hand->region.push_back(x.z() > 0.0 ? Region::kIndexDistal : Region::kDorsum);
+    hand->region.push_back(x.z() > 0.0 ? hand::Region::kIndexDistal : hand::Region::kDorsum);
   }
-  hand->segment.assign(hand->region.size(), Segment::kIndexDistal);
-  Bone& bone = hand->bones.emplace_back();
-  bone.mesh = make_icosphere(4.0, 3);
-  for (TriangleMesh* mesh : {&hand->skin, &bone.mesh}) {
+  hand->segment.assign(hand->region.size(), hand::Segment::kIndexDistal);
+  hand::Bone& bone = hand->bones.emplace_back();
+  bone.mesh = geometry::make_icosphere(4.0, 3);
+  for (geometry::TriangleMesh* mesh : {&hand->skin, &bone.mesh}) {
     for (Vec3& x : mesh->vertices) x = size * (x + Vec3(0.0, 20.0, 0.0));
   }
-  hand->tissue = default_tissue();
+  hand->tissue = hand::default_tissue();
   return hand;
 }
 
 /// The tip of size 1, whose elements are solved once.
-const std::shared_ptr<const Hand>& usual_tip() {
-  static const std::shared_ptr<const Hand> hand = tip(1.0);
+const std::shared_ptr<const hand::Hand>& usual_tip() {
+  static const std::shared_ptr<const hand::Hand> hand = tip(1.0);
   return hand;
 }
 
@@ -48,15 +48,15 @@ const std::shared_ptr<const SkinCompliance>& compliance_of_tip() {
 
 /// Force on a plate above that is lowered by `depth` from first touch.
 ContactResult pressed(const PreparedHand& hand, double size, double depth,
-                      const Rigid3& moved = {}) {
+                      const geometry::Rigid3& moved = {}) {
   // The plate is the solid below z = 0 of its own frame, the tip upside down on it.
-  Rigid3 product_from_hand;
+  geometry::Rigid3 product_from_hand;
   product_from_hand.rotation = Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()));
   product_from_hand.translation = Vec3(0.0, 0.0, 9.0 * size - depth);
   std::vector<Vec3> skin = hand.hand().skin.vertices;
   for (Vec3& x : skin) x = moved * x;
-  const Rigid3 back = moved.inverse();
-  Rigid3 placed;
+  const geometry::Rigid3 back = moved.inverse();
+  geometry::Rigid3 placed;
   placed.rotation = product_from_hand.rotation * back.rotation;
   placed.translation = product_from_hand * back.translation;
   return solve_hand_contact(hand, skin, placed, contact_test::HalfSpace(0.0));
@@ -99,7 +99,7 @@ TEST(HandOnBone, TissueThatIsPressedAwayBulgesBesideTheContact) {
 TEST(HandOnBone, RigidMotionOfSkinAndProductChangesNothing) {
   const PreparedHand hand(usual_tip(), on_bone_model(), compliance_of_tip());
   const ContactResult plain = pressed(hand, 1.0, 1.5);
-  Rigid3 moved;
+  geometry::Rigid3 moved;
   moved.rotation = Quat(Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()));
   moved.translation = Vec3(30.0, -10.0, 5.0);
   const ContactResult other = pressed(hand, 1.0, 1.5, moved);
@@ -121,10 +121,10 @@ TEST(HandOnBone, RegionByRegionAndFineSkinsAreRefused) {
   ContactModel alone = on_bone_model();
   alone.coupling = RegionCoupling::kIndependent;
   EXPECT_THROW(PreparedHand(tip(1.0), alone), UsageError);
-  auto fine = std::make_shared<Hand>(*tip(1.0));
-  fine->skin = make_icosphere(9.0, 6);
-  fine->region.assign(fine->skin.vertices.size(), Region::kIndexDistal);
-  fine->segment.assign(fine->skin.vertices.size(), Segment::kIndexDistal);
+  auto fine = std::make_shared<hand::Hand>(*tip(1.0));
+  fine->skin = geometry::make_icosphere(9.0, 6);
+  fine->region.assign(fine->skin.vertices.size(), hand::Region::kIndexDistal);
+  fine->segment.assign(fine->skin.vertices.size(), hand::Segment::kIndexDistal);
   try {
     const PreparedHand hand(fine, on_bone_model());
     FAIL();
@@ -134,4 +134,4 @@ TEST(HandOnBone, RegionByRegionAndFineSkinsAreRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::contact {
 
 LoadedSkin::LoadedSkin(const SkinGeometry& skin, const SkinCompliance& compliance,
                        const SkinResponse* half_space, const std::vector<double>& scale)
@@ -172,4 +172,4 @@ std::vector<Vec3> LoadedSkin::motion(const std::vector<double>& force,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

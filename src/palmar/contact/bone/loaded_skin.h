@@ -9,7 +9,7 @@
 #include "palmar/contact/response/skin_response.h"
 #include "palmar/contact/response/sparse_rows.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// The compliance of a skin on bone among some vertices, each with the direction in which it is
 /// pressed: entries m_i . C_ij m_j. Skin without tissue elements (the back of the hand) has, along
@@ -57,4 +57,4 @@ class LoadedSkin {
   std::vector<std::pair<int, int>> met_;  // of a row: place in vertex_, entry
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 // Integrals over the tetrahedron divided by its volume, from Int xi^a = 6 V a! / (|a| + 3)!.
@@ -46,4 +46,4 @@ MiniElement mini_element(const std::array<Vec3, 4>& corner, double poisson) {
   return element;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

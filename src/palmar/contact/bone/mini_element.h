@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Stiffness of one tetrahedron of an elastic solid that may be incompressible: displacement
 /// linear with a bubble 256 xi_0 xi_1 xi_2 xi_3 in the middle, pressure linear (the MINI element;
@@ -30,4 +30,4 @@ struct MiniElement {
 /// finite.
 MiniElement mini_element(const std::array<Vec3, 4>& corner, double poisson);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -12,7 +12,7 @@
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kPatchSize = 32;          // nodes
@@ -194,7 +194,7 @@ void set_nodes(const SkinGeometry& skin, const std::vector<double>& sigma, NodeC
 std::vector<std::map<int, double>> hat_shares(const SkinGeometry& skin,
                                               const std::vector<Triangle>& triangles,
                                               const HatPoints& points,
-                                              const std::vector<SkinAttachment>& attachment) {
+                                              const std::vector<hand::SkinAttachment>& attachment) {
   std::vector<std::map<int, double>> share(static_cast<std::size_t>(skin.vertex_count()));
   std::vector<double> area(share.size(), 0.0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -270,7 +270,7 @@ HatPoints hat_points(const SkinGeometry& skin, const std::vector<Triangle>& tria
                                 share[2] * skin.position[t[2]]);
     }
     result.weight.push_back(
-        triangle_area(skin.position[t[0]], skin.position[t[1]], skin.position[t[2]]) /
+        geometry::triangle_area(skin.position[t[0]], skin.position[t[1]], skin.position[t[2]]) /
         static_cast<double>(result.share.size()));
   }
   return result;
@@ -334,4 +334,4 @@ std::vector<int> compact_patches(const std::vector<Vec3>& points, int size, int&
   return patch;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -9,7 +9,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/hand/tissue_mesh.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// What elements say of a skin's compliance: R = S C_e S^T at nodes, three rows each (x, y, z of
 /// the body's frame), and how it is interpolated to the vertices. C_e: the elements' own. S
@@ -42,10 +42,10 @@ int divisions_for(double skin_edge, double element_edge);
 
 /// What lies under a skin.
 struct ElasticBody {
-  const TetrahedralMesh* mesh = nullptr;
+  const geometry::TetrahedralMesh* mesh = nullptr;
   const std::vector<char>* is_held = nullptr;  ///< per vertex of the mesh
   const HatPoints* points = nullptr;
-  std::vector<SkinAttachment> attachment;  ///< of the points
+  std::vector<hand::SkinAttachment> attachment;  ///< of the points
 };
 
 /// `sigma` [mm] per entry of `vertex`. Throws as surface_compliance().
@@ -59,4 +59,4 @@ double smoothing_width(const SkinGeometry& skin, int vertex, double edge);
 /// Patches of up to `size` points, by halving along the longest axis; `count` patches.
 std::vector<int> compact_patches(const std::vector<Vec3>& points, int size, int& count);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace palmar {
+namespace palmar::contact {
 
 PatchMatrix::PatchMatrix(std::vector<int> patch, int count, std::vector<std::vector<int>> near)
     : patch_(std::move(patch)), rows_(count), near_(std::move(near)), block_(count) {
@@ -52,4 +52,4 @@ Eigen::VectorXd PatchMatrix::operator*(const Eigen::VectorXd& x) const {
   return y;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

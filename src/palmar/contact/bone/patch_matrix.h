@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Symmetric matrix whose rows are grouped in patches, with a dense block for each pair of patches
 /// that are near each other; zero elsewhere. Of (I, J) and (J, I) only that with I >= J is kept, so
@@ -41,4 +41,4 @@ class PatchMatrix {
   std::vector<std::vector<Eigen::MatrixXd>> block_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

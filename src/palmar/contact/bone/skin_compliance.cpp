@@ -8,7 +8,7 @@
 #include "palmar/contact/bone/half_space_tensor.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kMostAway = 1.0;  // mm from the skin to the tissue's surface; else unattached
@@ -122,17 +122,17 @@ SkinCompliance mirrored(const SkinCompliance& compliance) {
   return result;
 }
 
-SkinCompliance skin_compliance(const Hand& hand, const SkinGeometry& skin,
+SkinCompliance skin_compliance(const hand::Hand& hand, const SkinGeometry& skin,
                                const SkinComplianceOptions& options) {
-  const TissueMesh tissue = make_tissue_mesh(hand, options.mesh);
+  const hand::TissueMesh tissue = hand::make_tissue_mesh(hand, options.mesh);
   std::vector<int> palmar;
   std::vector<char> is_used(hand.region.size(), 0);
   for (std::size_t v = 0; v < hand.region.size(); ++v) {
-    if (hand.region[v] != Region::kDorsum) palmar.push_back(static_cast<int>(v));
-    if (hand.segment[v] != Segment::kPalm) is_used[v] = 1;
+    if (hand.region[v] != hand::Region::kDorsum) palmar.push_back(static_cast<int>(v));
+    if (hand.segment[v] != hand::Segment::kPalm) is_used[v] = 1;
   }
   for (const GrownVertex& g : grow(skin, palmar, kBackOfHand)) is_used[g.vertex] = 1;
-  const std::vector<SkinAttachment> at = tissue.attach(skin.position);
+  const std::vector<hand::SkinAttachment> at = tissue.attach(skin.position);
   std::vector<int> vertex;
   std::vector<double> sigma;
   for (std::size_t v = 0; v < is_used.size(); ++v) {
@@ -149,4 +149,4 @@ SkinCompliance skin_compliance(const Hand& hand, const SkinGeometry& skin,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -10,7 +10,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// How the skin of a hand gives way as the elasticity of the incompressible tissue between it and
 /// the bones has it. Times the shear modulus, forces [N] in any direction move the skin by
@@ -29,18 +29,18 @@ struct SkinCompliance {
   /// listed follows by symmetry.
   std::vector<Eigen::Matrix3f> tensor;
   /// Tissue nearest to the skin of each region, mm^3.
-  std::array<double, kRegionCount> volume{};
+  std::array<double, hand::kRegionCount> volume{};
 };
 
 struct SkinComplianceOptions {
-  TissueMeshOptions mesh;
+  hand::TissueMeshOptions mesh;
   /// mm; our choice: see docs/method/tissue-on-bone.md for what it leaves out.
   double reach = 18.0;
 };
 
 /// The skin of fingers and palm, up to kBackOfHand beyond the border of the palm's regions. The
 /// back of the hand and the forearm have none. Throws as make_tissue_mesh(), surface_compliance().
-SkinCompliance skin_compliance(const Hand& hand, const SkinGeometry& skin,
+SkinCompliance skin_compliance(const hand::Hand& hand, const SkinGeometry& skin,
                                const SkinComplianceOptions& options = {});
 
 /// Of the mirrored hand (template_hand.h): x turns its sign.
@@ -51,4 +51,4 @@ inline constexpr double kBackOfHand = 12.0;  ///< mm; our choice
 /// From the nodes to pairs of vertices up to `reach` [mm] apart. Without volumes.
 SkinCompliance skin_compliance(const SkinGeometry& skin, const NodeCompliance& nodes, double reach);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -13,7 +13,7 @@
 #include "palmar/contact/response/response.h"
 #include "palmar/contact/solve/lcp.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::BondedLayer;
@@ -145,4 +145,4 @@ TEST(PatchMatrix, PairsWithoutABlockAreZeroAndTheRestSymmetric) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -11,7 +11,7 @@
 #include "palmar/contact/bone/mini_element.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using Eigen::Index;
@@ -28,7 +28,7 @@ struct Remainder {
 
 class Eliminator {
  public:
-  Eliminator(const TetrahedralMesh& mesh, const std::vector<char>& is_held,
+  Eliminator(const geometry::TetrahedralMesh& mesh, const std::vector<char>& is_held,
              const std::vector<SurfaceLoad>& loads, const SurfaceComplianceOptions& options,
              PatchMatrix& compliance)
       : mesh_(mesh),
@@ -102,7 +102,7 @@ class Eliminator {
   }
 
   void assemble_element(int e, Matrix& A) const {
-    const Tetrahedron& t = mesh_.tetrahedra[e];
+    const geometry::Tetrahedron& t = mesh_.tetrahedra[e];
     const MiniElement element = mini_element(
         {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]], mesh_.vertices[t[3]]},
         options_.poisson);
@@ -244,7 +244,7 @@ class Eliminator {
     }
   }
 
-  const TetrahedralMesh& mesh_;
+  const geometry::TetrahedralMesh& mesh_;
   const std::vector<char>& is_held_;
   const std::vector<SurfaceLoad>& loads_;
   const SurfaceComplianceOptions& options_;
@@ -268,11 +268,12 @@ void SurfaceComplianceOptions::check() const {
   }
 }
 
-std::size_t surface_compliance(const TetrahedralMesh& mesh, const std::vector<char>& is_held,
+std::size_t surface_compliance(const geometry::TetrahedralMesh& mesh,
+                               const std::vector<char>& is_held,
                                const std::vector<SurfaceLoad>& loads,
                                const SurfaceComplianceOptions& options, PatchMatrix& compliance) {
   options.check();
   return Eliminator(mesh, is_held, loads, options, compliance).run();
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -7,7 +7,7 @@
 #include "palmar/contact/bone/patch_matrix.h"
 #include "palmar/geometry/tetra/tetrahedral_mesh.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// A unit force on a body's surface, as forces [N] on vertices of its mesh.
 struct SurfaceLoad {
@@ -37,8 +37,9 @@ struct SurfaceComplianceOptions {
 /// is solved for any single load. Returns the largest memory of fronts, bytes.
 ///
 /// Throws NumericalError if a front isn't definite: a part of the body isn't held anywhere.
-std::size_t surface_compliance(const TetrahedralMesh& mesh, const std::vector<char>& is_held,
+std::size_t surface_compliance(const geometry::TetrahedralMesh& mesh,
+                               const std::vector<char>& is_held,
                                const std::vector<SurfaceLoad>& loads,
                                const SurfaceComplianceOptions& options, PatchMatrix& compliance);
 
-}  // namespace palmar
+}  // namespace palmar::contact

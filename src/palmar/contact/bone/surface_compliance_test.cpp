@@ -13,7 +13,7 @@
 #include "palmar/contact/response/layered_response.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::BondedLayer;
@@ -22,7 +22,7 @@ TEST(MiniElement, UniformStrainHasItsEnergyAndRigidMotionsNone) {
   const std::array<Vec3, 4> corner = {Vec3(0, 0, 0), Vec3(1.5, 0.2, 0), Vec3(0.3, 2, 0.1),
                                       Vec3(0.2, 0.4, 1.1)};
   const MiniElement element = mini_element(corner, 0.5);
-  const double v = tetrahedron_volume(corner[0], corner[1], corner[2], corner[3]);
+  const double v = geometry::tetrahedron_volume(corner[0], corner[1], corner[2], corner[3]);
   const auto field = [&](const Eigen::Matrix3d& gradient) {
     Eigen::Matrix<double, 12, 1> u;
     for (int a = 0; a < 4; ++a) u.segment<3>(3 * a) = gradient * corner[a] + Vec3(3, -1, 2);
@@ -125,4 +125,4 @@ TEST(SurfaceCompliance, LooseBodyIsReported) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

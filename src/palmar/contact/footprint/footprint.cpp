@@ -15,7 +15,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/split_edges.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kReach = 1.0;   // mm; the skin's facets stand off a curved product by less
@@ -44,8 +44,8 @@ class LoadedPoints {
     auto p = std::lower_bound(points_.begin(), points_.end(), box.min().x(),
                               [](const Vec3& q, double x) { return q.x() < x; });
     for (; p != points_.end() && p->x() <= box.max().x(); ++p) {
-      if (box.contains(*p) &&
-          closest_point_on_triangle(*p, a, b, c).squared_distance <= distance * distance) {
+      if (box.contains(*p) && geometry::closest_point_on_triangle(*p, a, b, c).squared_distance <=
+                                  distance * distance) {
         return true;
       }
     }
@@ -65,7 +65,7 @@ struct Landing {
 
 /// A third of the area of every triangle, for each of its corners, mm^2: by it a pressure that is
 /// linear over triangles is integrated.
-std::vector<double> areas_of_corners(const TriangleMesh& mesh) {
+std::vector<double> areas_of_corners(const geometry::TriangleMesh& mesh) {
   std::vector<double> area(mesh.vertices.size(), 0.0);
   for (const Triangle& t : mesh.triangles) {
     const Vec3& a = mesh.vertices[t[0]];
@@ -78,7 +78,8 @@ std::vector<double> areas_of_corners(const TriangleMesh& mesh) {
 /// Pressure per vertex of skin, MPa: less than the skin's where it lands on more of the product
 /// than the area that its own pressure counts by, as facets do that cut through an edge. Never
 /// more: skin that lands on less lies over other skin, or beside a hollow.
-std::vector<double> pressure_on_landings(const TriangleMesh& skin, const ContactResult& contact,
+std::vector<double> pressure_on_landings(const geometry::TriangleMesh& skin,
+                                         const ContactResult& contact,
                                          const std::vector<Landing>& landings,
                                          const std::vector<double>& surface_area) {
   std::vector<double> landed(contact.force.size(), 0.0);
@@ -108,8 +109,8 @@ std::vector<double> pressure_on_landings(const TriangleMesh& skin, const Contact
 
 }  // namespace
 
-ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
-                                const TriangleMesh& product, double edge_length) {
+ProductFootprint map_to_product(const hand::Hand& hand, const ContactResult& contact,
+                                const geometry::TriangleMesh& product, double edge_length) {
   if (!(edge_length >= 0.1 && edge_length <= 1000.0)) {
     std::ostringstream message;
     message << "footprint: edge length is " << edge_length << " mm; 0.1 to 1000 mm is required";
@@ -120,15 +121,15 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
   std::iota(footprint.parent.begin(), footprint.parent.end(), 0);
   const LoadedPoints loaded(contact);
   if (loaded.empty()) return footprint;
-  SplitMesh split =
-      split_with_parents(product, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+  geometry::SplitMesh split = geometry::split_with_parents(
+      product, edge_length, [&](const Vec3& a, const Vec3& b, const Vec3& c) {
         return loaded.any_near(a, b, c, 2.0 * edge_length);
       });
   footprint.surface = std::move(split.mesh);
   footprint.parent = std::move(split.parent);
-  const TriangleMesh& surface = footprint.surface;
+  const geometry::TriangleMesh& surface = footprint.surface;
 
-  TriangleMesh skin{contact.deformed, {}};
+  geometry::TriangleMesh skin{contact.deformed, {}};
   Box3 box;
   for (const Triangle& t : hand.skin.triangles) {
     if (std::none_of(t.begin(), t.end(), [&](int v) { return contact.force[v] > 0.0; })) continue;
@@ -137,8 +138,9 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
   }
   box.min().array() -= kBridge;
   box.max().array() += kBridge;
-  const ClosestPointQuery query(skin);
-  const std::vector<Vec3> normals = area_weighted_normals(surface.vertices, surface.triangles);
+  const geometry::ClosestPointQuery query(skin);
+  const std::vector<Vec3> normals =
+      geometry::area_weighted_normals(surface.vertices, surface.triangles);
   std::vector<Landing> landings;
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     if (!box.contains(surface.vertices[i])) continue;
@@ -167,4 +169,4 @@ ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
   return footprint;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

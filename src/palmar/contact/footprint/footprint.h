@@ -6,14 +6,14 @@
 
 #include "palmar/contact/contact.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Pressure on the product's surface: the product's mesh, refined where it is touched so that the
 /// map is not coarser than the skin.
 struct ProductFootprint {
-  TriangleMesh surface;          ///< product frame, mm
-  std::vector<double> pressure;  ///< per vertex of `surface`, MPa; 0 where not touched
-  std::vector<int> parent = {};  ///< per triangle of `surface`: the product's it is a part of
+  geometry::TriangleMesh surface;  ///< product frame, mm
+  std::vector<double> pressure;    ///< per vertex of `surface`, MPa; 0 where not touched
+  std::vector<int> parent = {};    ///< per triangle of `surface`: the product's it is a part of
 };
 
 /// Maps the skin's pressure, which counts per area of the product (ContactResult::pressure), to the
@@ -26,7 +26,7 @@ struct ProductFootprint {
 /// contact, by up to a facet all round. Triangles
 /// longer than `edge_length` [mm] are split where the product is touched, at most as deep as
 /// needed; the shape is unchanged.
-ProductFootprint map_to_product(const Hand& hand, const ContactResult& contact,
-                                const TriangleMesh& product, double edge_length = 2.0);
+ProductFootprint map_to_product(const hand::Hand& hand, const ContactResult& contact,
+                                const geometry::TriangleMesh& product, double edge_length = 2.0);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -10,7 +10,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/split_edges.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 // mm; skin that is on the product lies nearer. At the edge of a contact facets lead off it.
@@ -32,8 +32,8 @@ constexpr double kSkinEdge = 2.5;        // mm; the template hand's skin has edg
 
 }  // namespace
 
-MovingFootprint::MovingFootprint(TriangleMesh surface) : surface_(std::move(surface)) {
-  normal_ = area_weighted_normals(surface_.vertices, surface_.triangles);
+MovingFootprint::MovingFootprint(geometry::TriangleMesh surface) : surface_(std::move(surface)) {
+  normal_ = geometry::area_weighted_normals(surface_.vertices, surface_.triangles);
   const std::size_t n = surface_.vertices.size();
   off_.assign(n, std::numeric_limits<double>::infinity());
   pressure_.assign(n, 0.0);
@@ -102,7 +102,7 @@ void MovingFootprint::press(const std::array<Vec3, 3>& facet,
   }
 }
 
-const MovingFootprint::Loaded& MovingFootprint::under(const Hand& hand,
+const MovingFootprint::Loaded& MovingFootprint::under(const hand::Hand& hand,
                                                       const ContactResult& contact) {
   for (const int v : touched_) off_[v] = std::numeric_limits<double>::infinity();
   touched_.clear();
@@ -125,13 +125,15 @@ const MovingFootprint::Loaded& MovingFootprint::under(const Hand& hand,
   return loaded_;
 }
 
-TriangleMesh surface_for_moving(const TriangleMesh& product, int most_triangles) {
-  const double wanted = std::sqrt(surface_area(product) / (kSplitTriangle * most_triangles));
+geometry::TriangleMesh surface_for_moving(const geometry::TriangleMesh& product,
+                                          int most_triangles) {
+  const double wanted =
+      std::sqrt(geometry::surface_area(product) / (kSplitTriangle * most_triangles));
   for (double edge = std::max(kSkinEdge, wanted); edge <= kLongestEdge; edge *= kCoarser) {
-    TriangleMesh surface = split_long_edges(product, edge);
+    geometry::TriangleMesh surface = geometry::split_long_edges(product, edge);
     if (surface.triangle_count() <= most_triangles) return surface;
   }
   return product;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -7,7 +7,7 @@
 
 #include "palmar/contact/contact.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// The skin's pressure on a product along a motion: what is watched while the product is dragged.
 /// The surface is prepared once and not refined where it is touched, and round an edge that is
@@ -17,9 +17,9 @@ class MovingFootprint {
  public:
   /// `surface`: product frame, mm; pressures are per vertex of it, so it should be as fine as the
   /// skin is.
-  explicit MovingFootprint(TriangleMesh surface);
+  explicit MovingFootprint(geometry::TriangleMesh surface);
 
-  const TriangleMesh& surface() const { return surface_; }
+  const geometry::TriangleMesh& surface() const { return surface_; }
 
   /// Vertices of the surface that are pressed on.
   struct Loaded {
@@ -27,13 +27,13 @@ class MovingFootprint {
     std::vector<double> pressure;  ///< MPa, above 0
   };
   /// Of a contact with deformed skin and pressures. The result is overwritten by the next call.
-  const Loaded& under(const Hand& hand, const ContactResult& contact);
+  const Loaded& under(const hand::Hand& hand, const ContactResult& contact);
 
  private:
   std::array<int, 3> cell_of(const Vec3& point) const;
   void press(const std::array<Vec3, 3>& facet, const std::array<double, 3>& pressure);
 
-  TriangleMesh surface_;
+  geometry::TriangleMesh surface_;
   std::vector<Vec3> normal_;
   // The surface's vertices by cells of a grid.
   Vec3 low_ = Vec3::Zero();
@@ -48,6 +48,7 @@ class MovingFootprint {
 
 /// The product's mesh for MovingFootprint: edges split until they are about as long as the skin's,
 /// or as short as the number of triangles allows.
-TriangleMesh surface_for_moving(const TriangleMesh& product, int most_triangles);
+geometry::TriangleMesh surface_for_moving(const geometry::TriangleMesh& product,
+                                          int most_triangles);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -14,7 +14,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/rotation.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// Vertices with less than this share of the largest vertex force hold nothing worth reporting.
@@ -40,22 +40,23 @@ Quat turn_of_skin(const SkinGeometry& skin, const std::vector<Vec3>& posed, int 
     const Vec3 now = posed[w] - posed[v];
     sum += now * rest.transpose();
   }
-  const Quat posed_from_rest(fit_rotation(sum));
-  const Quat onto_product = shortest_rotation(posed_from_rest * skin.normal[v], -product_normal);
+  const Quat posed_from_rest(geometry::fit_rotation(sum));
+  const Quat onto_product =
+      geometry::shortest_rotation(posed_from_rest * skin.normal[v], -product_normal);
   return (onto_product * posed_from_rest).normalized();
 }
 
 /// Fingers and the palm are distinguished: 0 the palm, 1 + finger else.
-int body_of(Segment segment) {
-  const auto finger = finger_of(segment);
+int body_of(hand::Segment segment) {
+  const auto finger = hand::finger_of(segment);
   return finger ? 1 + static_cast<int>(*finger) : 0;
 }
 
 std::vector<RubbingPatch> rubbing_patches(const PreparedHand::Impl& prepared,
                                           const ContactResult& contact,
-                                          const DistanceField& product,
+                                          const geometry::DistanceField& product,
                                           const std::vector<int>& loaded, double coefficient) {
-  std::array<double, kRegionCount> modulus{};
+  std::array<double, hand::kRegionCount> modulus{};
   for (const RegionContact& region : contact.regions) {
     modulus[index_of(region.region)] = region.shear_modulus;
   }
@@ -84,8 +85,8 @@ SmallMotion about(const SmallMotion& motion, const Vec3& point) {
 void add_regions(const PreparedHand::Impl& prepared, const std::vector<int>& loaded,
                  const std::vector<RubbingPatch>& patches, double coefficient,
                  const ContactResult& contact, FrictionResult& result) {
-  std::array<RegionFriction, kRegionCount> part{};
-  std::array<double, kRegionCount> used{}, area{}, slipping{};
+  std::array<RegionFriction, hand::kRegionCount> part{};
+  std::array<double, hand::kRegionCount> used{}, area{}, slipping{};
   for (std::size_t k = 0; k < loaded.size(); ++k) {
     const int v = loaded[k];
     const std::size_t r = index_of(prepared.hand->region[v]);
@@ -99,7 +100,7 @@ void add_regions(const PreparedHand::Impl& prepared, const std::vector<int>& loa
   double all = 0.0, all_slipping = 0.0;
   for (std::size_t r = 0; r < part.size(); ++r) {
     if (!(part[r].limit > 0.0)) continue;
-    part[r].region = static_cast<Region>(r);
+    part[r].region = static_cast<hand::Region>(r);
     part[r].normal_force = part[r].limit / coefficient;
     part[r].margin = std::clamp(1.0 - used[r] / part[r].limit, 0.0, 1.0);
     part[r].slipping_share = slipping[r] / area[r];
@@ -174,7 +175,7 @@ std::string_view name_of(FrictionStatus status) {
 }
 
 FrictionResult solve_friction(const PreparedHand& hand, const ContactResult& contact,
-                              const DistanceField& product, const Vec3& mass_centre,
+                              const geometry::DistanceField& product, const Vec3& mass_centre,
                               const FrictionOptions& options) {
   constexpr double kBarely = 1e-6;  // a factor this near to 1 is at the limit
   options.check();
@@ -250,4 +251,4 @@ FrictionResult solve_friction(const PreparedHand& hand, const ContactResult& con
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

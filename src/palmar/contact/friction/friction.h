@@ -10,7 +10,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/contact/friction/friction_problem.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// What pulls at the product while it is held; product frame.
 struct ProductLoad {
@@ -45,7 +45,7 @@ std::string_view name_of(FrictionStatus status);  ///< "held", "slips", ...
 
 /// Friction in one region of the hand.
 struct RegionFriction {
-  Region region{};
+  hand::Region region{};
   double normal_force = 0.0;    ///< N
   double limit = 0.0;           ///< mu times that, N
   Vec3 force = Vec3::Zero();    ///< friction of the skin on the product, vector sum, N
@@ -85,7 +85,7 @@ struct FrictionResult {
 ///
 /// Never throws on a numerical failure: see status. Throws UsageError on bad options.
 FrictionResult solve_friction(const PreparedHand& prepared, const ContactResult& contact,
-                              const DistanceField& product, const Vec3& mass_centre,
+                              const geometry::DistanceField& product, const Vec3& mass_centre,
                               const FrictionOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::contact

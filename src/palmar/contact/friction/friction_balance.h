@@ -7,7 +7,7 @@
 
 #include "palmar/contact/friction/friction_problem.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// The balance of load and friction in numbers of order one. Patch i carries limit_i y_i, |y_i| <=
 /// 1, in the base of its tangent plane; forces count in units of the sum of all limits, moments
@@ -36,4 +36,4 @@ FrictionBalance friction_balance(const std::vector<RubbingPatch>& patches, const
 double balance_error(const FrictionBalance& balance, const std::vector<RubbingPatch>& patches,
                      const Wrench& load, const std::vector<Vec3>& force);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -9,7 +9,7 @@
 #include "palmar/contact/friction/friction_balance.h"
 #include "palmar/contact/friction/friction_problem.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using Eigen::Index;
@@ -239,4 +239,4 @@ HoldingLimit holding_limit(const std::vector<RubbingPatch>& patches, const Wrenc
   return limit;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

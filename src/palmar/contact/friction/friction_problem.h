@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Force and moment about the origin of the product frame, N and N mm.
 struct Wrench {
@@ -87,4 +87,4 @@ struct StickSlip {
 StickSlip solve_stick_slip(const std::vector<RubbingPatch>& patches, const Wrench& load,
                            const HoldingLimit& limit);
 
-}  // namespace palmar
+}  // namespace palmar::contact

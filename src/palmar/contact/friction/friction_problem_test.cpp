@@ -14,7 +14,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 TEST(TangentialResponse, DirectedPartIsTheIntegralOverTheDisc) {
@@ -66,7 +66,7 @@ std::vector<RubbingPatch> hertz_patches(const Hertz& hertz, double spacing) {
   std::vector<RubbingPatch> patches;
   const double cell = spacing * spacing * std::sqrt(3.0) / 2.0;
   double sum = 0.0;
-  for (const Vec3& v : make_lattice_patch(1.2 * hertz.radius, spacing).vertices) {
+  for (const Vec3& v : geometry::make_lattice_patch(1.2 * hertz.radius, spacing).vertices) {
     // Mean pressure of a cell, so that cells on the edge count in part.
     double mean = 0.0;
     constexpr int kSteps = 10;
@@ -304,4 +304,4 @@ TEST(StickSlip, CloseToItsLimitEverythingSlips) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

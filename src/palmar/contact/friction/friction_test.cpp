@@ -13,7 +13,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::Ball;
@@ -28,29 +28,30 @@ constexpr double kBallRadius = 8.0;  // mm
 /// pressed in by 1 mm.
 struct Pinch {
   Sheet sheet{-2.0, 2.0};
-  std::shared_ptr<Hand> hand = std::make_shared<Hand>();
+  std::shared_ptr<hand::Hand> hand = std::make_shared<hand::Hand>();
   PreparedHand prepared;
   ContactResult contact;
 
   Pinch() : prepared(make_hand()) {
-    contact = solve_hand_contact(prepared, hand->skin.vertices, Rigid3{}, sheet, {});
+    contact = solve_hand_contact(prepared, hand->skin.vertices, geometry::Rigid3{}, sheet, {});
   }
-  std::shared_ptr<const Hand> make_hand() {
-    const TriangleMesh ball = make_icosphere(kBallRadius, 3);
+  std::shared_ptr<const hand::Hand> make_hand() {
+    const geometry::TriangleMesh ball = geometry::make_icosphere(kBallRadius, 3);
     for (const double side : {1.0, -1.0}) {
       const int first = hand->skin.vertex_count();
       const bool is_index = side > 0.0;
       for (const Vec3& v : ball.vertices) {
         hand->skin.vertices.push_back(v + side * (kBallRadius + 1.0) * Vec3::UnitZ());
-        hand->region.push_back(is_index ? Region::kIndexDistal : Region::kThumbDistal);
-        hand->segment.push_back(is_index ? Segment::kIndexDistal : Segment::kThumbDistal);
+        hand->region.push_back(is_index ? hand::Region::kIndexDistal : hand::Region::kThumbDistal);
+        hand->segment.push_back(is_index ? hand::Segment::kIndexDistal
+                                         : hand::Segment::kThumbDistal);
       }
       for (const Triangle& t : ball.triangles) {
         hand->skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
       }
     }
     hand->name = "pinch";
-    hand->tissue = default_tissue();
+    hand->tissue = hand::default_tissue();
     return hand;
   }
   FrictionResult hold(const ProductLoad& load, double coefficient = 0.5) const {
@@ -91,7 +92,7 @@ TEST(Friction, PinchHoldsTwiceTheFrictionOfOneSide) {
   EXPECT_GT(held.motion.translation.x(), 0.0);
   ASSERT_EQ(held.regions.size(), 2u);
   EXPECT_NEAR(held.regions[0].force.x() / held.regions[1].force.x(), 1.0, 0.02);
-  EXPECT_EQ(held.regions[0].region, Region::kThumbDistal);
+  EXPECT_EQ(held.regions[0].region, hand::Region::kThumbDistal);
   EXPECT_NEAR(held.regions[0].limit + held.regions[1].limit, pinch().limit(), 1e-6);
   // Both sides press alike: nothing is left over.
   EXPECT_LT(held.grip.force.norm(), 0.01 * pinch().contact.total.force);
@@ -171,8 +172,8 @@ TEST(Friction, BallOnAPlaneIsCattaneosContact) {
   const auto hand = ball_hand(kRadius, 4);
   const PreparedHand prepared(hand);
   const HalfSpace plane(-kRadius + kDepth);
-  const ContactResult contact = solve_hand_contact(prepared, hand->skin.vertices, Rigid3{}, plane,
-                                                   without_swelling(kModulus));
+  const ContactResult contact = solve_hand_contact(
+      prepared, hand->skin.vertices, geometry::Rigid3{}, plane, without_swelling(kModulus));
   ASSERT_EQ(contact.status, ContactStatus::kSolved);
   const double slip_force = kMu * contact.total.force;
   const double a = std::sqrt(kRadius * kDepth);
@@ -191,7 +192,7 @@ TEST(Friction, NormalsAreThoseOfTheContact) {
   const PreparedHand prepared(hand);
   const Ball ball(Vec3(3, 2, -20), 10.0);
   const ContactResult contact =
-      solve_hand_contact(prepared, hand->skin.vertices, Rigid3{}, ball, {});
+      solve_hand_contact(prepared, hand->skin.vertices, geometry::Rigid3{}, ball, {});
   ASSERT_EQ(contact.status, ContactStatus::kSolved);
   const FrictionResult held = solve_friction(prepared, contact, ball, Vec3::Zero(),
                                              {.coefficient = 1.0, .load = {.torque = {1, 0, 0}}});
@@ -207,11 +208,12 @@ TEST(Friction, HandAndProductMovedTogetherChangeNothing) {
   const auto hand = ball_hand(10.0, 3);
   const PreparedHand prepared(hand);
   const HalfSpace plane(-9.0);
-  const Rigid3 move{Quat(Eigen::AngleAxisd(0.8, Vec3(1, 2, -1).normalized())), Vec3(40, -7, 12)};
+  const geometry::Rigid3 move{Quat(Eigen::AngleAxisd(0.8, Vec3(1, 2, -1).normalized())),
+                              Vec3(40, -7, 12)};
   std::vector<Vec3> moved;
   for (const Vec3& v : hand->skin.vertices) moved.push_back(move * v);
-  const ContactResult here =
-      solve_hand_contact(prepared, hand->skin.vertices, Rigid3{}, plane, without_swelling());
+  const ContactResult here = solve_hand_contact(prepared, hand->skin.vertices, geometry::Rigid3{},
+                                                plane, without_swelling());
   const ContactResult there =
       solve_hand_contact(prepared, moved, move.inverse(), plane, without_swelling());
   const double limit = 0.5 * here.total.force;
@@ -243,7 +245,8 @@ TEST(Friction, OffAndWithoutContact) {
   const auto hand = ball_hand(10.0, 2);
   const PreparedHand prepared(hand);
   const HalfSpace far(-30.0);
-  const ContactResult apart = solve_hand_contact(prepared, hand->skin.vertices, Rigid3{}, far, {});
+  const ContactResult apart =
+      solve_hand_contact(prepared, hand->skin.vertices, geometry::Rigid3{}, far, {});
   const FrictionResult none = solve_friction(prepared, apart, far, Vec3::Zero(),
                                              {.coefficient = 0.5, .load = {.weight = 1.0}});
   EXPECT_EQ(none.status, FrictionStatus::kNoContact);
@@ -284,4 +287,4 @@ TEST(Friction, RefusesWrongInput) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -11,7 +11,7 @@
 #include "palmar/contact/response/tangential_response.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using Eigen::Index;
@@ -266,4 +266,4 @@ StickSlip solve_stick_slip(const std::vector<RubbingPatch>& patches, const Wrenc
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -10,7 +10,7 @@
 #include "palmar/contact/refine/refine_contact.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 void require(bool holds, const std::string& what, double value, const std::string& allowed) {
@@ -51,8 +51,10 @@ void ContactOptions::check() const {
 }
 
 ContactResult solve_region_contact(const PreparedHand& hand, const std::vector<Vec3>& posed_skin,
-                                   const Rigid3& product_from_hand, const DistanceField& product,
-                                   const ContactOptions& options, std::optional<Region> only) {
+                                   const geometry::Rigid3& product_from_hand,
+                                   const geometry::DistanceField& product,
+                                   const ContactOptions& options,
+                                   std::optional<hand::Region> only) {
   options.check();
   check_kernel(hand.model(), options);
   ContactSolver::Impl solver(hand, options);
@@ -62,7 +64,8 @@ ContactResult solve_region_contact(const PreparedHand& hand, const std::vector<V
 }
 
 ContactResult solve_hand_contact(const PreparedHand& prepared, const std::vector<Vec3>& posed_skin,
-                                 const Rigid3& product_from_hand, const DistanceField& product,
+                                 const geometry::Rigid3& product_from_hand,
+                                 const geometry::DistanceField& product,
                                  const ContactOptions& options) {
   options.check();
   check_kernel(prepared.model(), options);
@@ -82,9 +85,10 @@ ContactSolver::~ContactSolver() = default;
 ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
 ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
 
-void ContactSolver::solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
-                          const DistanceField& product, ContactResult& result) {
+void ContactSolver::solve(const std::vector<Vec3>& posed_skin,
+                          const geometry::Rigid3& product_from_hand,
+                          const geometry::DistanceField& product, ContactResult& result) {
   impl_->solve(posed_skin, product_from_hand, product, std::nullopt, result);
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

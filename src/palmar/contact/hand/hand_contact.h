@@ -6,13 +6,14 @@
 
 #include "palmar/contact/contact.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// As solve_hand_contact(), but only the skin of one region (if given) can touch the product; the
 /// rest of the hand is let through. For the indentation test of one region.
 ContactResult solve_region_contact(const PreparedHand& prepared,
                                    const std::vector<Vec3>& posed_skin,
-                                   const Rigid3& product_from_hand, const DistanceField& product,
-                                   const ContactOptions& options, std::optional<Region> only);
+                                   const geometry::Rigid3& product_from_hand,
+                                   const geometry::DistanceField& product,
+                                   const ContactOptions& options, std::optional<hand::Region> only);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -19,7 +19,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/remesh/split_edges.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::Ball;
@@ -55,7 +55,7 @@ TEST(HandContact, BallOnPlaneMeetsHertz) {
     EXPECT_NEAR(contact.total.force_vector.z(), -contact.total.force, 1e-12);
     EXPECT_LT(contact.complementarity_error, 1e-12);
     ASSERT_EQ(contact.regions.size(), 1U);
-    EXPECT_EQ(contact.regions[0].region, Region::kMiddleDistal);
+    EXPECT_EQ(contact.regions[0].region, hand::Region::kMiddleDistal);
   }
 }
 
@@ -108,8 +108,10 @@ TEST(HandContact, ForceGrowsWithDepthAndStiffens) {
     EXPECT_GT(contact.total.force, before);
     before = contact.total.force;
     EXPECT_NEAR(contact.regions[0].max_penetration, depth, 0.02);
-    const StiffeningLaw& law =
-        prepared_ball().hand().tissue.region[index_of(Region::kMiddleDistal)].half_space.nominal;
+    const hand::StiffeningLaw& law = prepared_ball()
+                                         .hand()
+                                         .tissue.region[index_of(hand::Region::kMiddleDistal)]
+                                         .half_space.nominal;
     EXPECT_NEAR(contact.regions[0].shear_modulus, law.g0 + (law.g_limit - law.g0) * depth / 4.0,
                 1e-3);
   }
@@ -117,7 +119,8 @@ TEST(HandContact, ForceGrowsWithDepthAndStiffens) {
 
 TEST(HandContact, RigidMotionOfHandAndProductChangesNothing) {
   const PreparedHand& hand = prepared_ball();
-  const Rigid3 motion = Rigid3::about_axis(Vec3(1.0, 2.0, -0.5).normalized(), Vec3(3, -4, 9), 1.1);
+  const geometry::Rigid3 motion =
+      geometry::Rigid3::about_axis(Vec3(1.0, 2.0, -0.5).normalized(), Vec3(3, -4, 9), 1.1);
   std::vector<Vec3> moved;
   for (const Vec3& v : hand.hand().skin.vertices) moved.push_back(motion * v);
   const HalfSpace plane(2.0 - kRadius);
@@ -131,13 +134,14 @@ TEST(HandContact, RigidMotionOfHandAndProductChangesNothing) {
 TEST(HandContact, TheDorsumTouchesToo) {
   // From above, where the skin is dorsum; its distances are not prepared.
   const PreparedHand& hand = prepared_ball();
-  const Rigid3 upside_down = Rigid3::about_axis(Vec3::UnitX(), Vec3::Zero(), std::numbers::pi);
+  const geometry::Rigid3 upside_down =
+      geometry::Rigid3::about_axis(Vec3::UnitX(), Vec3::Zero(), std::numbers::pi);
   ContactOptions options;
   options.shear_modulus = 0.05;
   const ContactResult contact = solve_hand_contact(hand, hand.hand().skin.vertices, upside_down,
                                                    HalfSpace(1.0 - kRadius), options);
   ASSERT_EQ(contact.regions.size(), 1U);
-  EXPECT_EQ(contact.regions[0].region, Region::kDorsum);
+  EXPECT_EQ(contact.regions[0].region, hand::Region::kDorsum);
   const double force = 16.0 / 3.0 * 0.05 * std::sqrt(kRadius);
   EXPECT_NEAR(contact.total.force, force, 0.03 * force);
   EXPECT_LT(contact.residual_penetration_contact, 1e-6);
@@ -197,7 +201,7 @@ TEST(HandContact, RefusesWrongInput) {
 }
 
 /// Of a pressure that is linear over the triangles, N.
-double integral_of(const TriangleMesh& surface, const std::vector<double>& pressure) {
+double integral_of(const geometry::TriangleMesh& surface, const std::vector<double>& pressure) {
   double force = 0.0;
   for (const Triangle& t : surface.triangles) {
     const Vec3& a = surface.vertices[t[0]];
@@ -209,12 +213,12 @@ double integral_of(const TriangleMesh& surface, const std::vector<double>& press
 
 TEST(Footprint, CarriesTheForceOfTheSkin) {
   const ContactResult contact = press_on_plane(2.0);
-  TriangleMesh plate = make_grid_patch(2, 2, 30.0);
+  geometry::TriangleMesh plate = geometry::make_grid_patch(2, 2, 30.0);
   for (Vec3& v : plate.vertices) v += Vec3(-30.0, -30.0, 2.0 - kRadius);
   const ProductFootprint footprint = map_to_product(prepared_ball().hand(), contact, plate, 0.7);
   ASSERT_EQ(footprint.pressure.size(), footprint.surface.vertices.size());
   const double force = integral_of(footprint.surface, footprint.pressure);
-  const double area = surface_area(footprint.surface);
+  const double area = geometry::surface_area(footprint.surface);
   EXPECT_NEAR(area, 3600.0, 1e-6);  // the shape is unchanged
   // Linear on the plate's triangles instead of the skin's.
   EXPECT_NEAR(force, contact.total.force, 0.01 * contact.total.force);
@@ -229,15 +233,15 @@ TEST(Footprint, GoesRoundASharpEdge) {
   // skin lead from one side to the other, straight through the product.
   const PreparedHand& hand = prepared_ball();
   const double away = (kRadius - 5.0) / std::sqrt(2.0);
-  Rigid3 product_from_hand;
+  geometry::Rigid3 product_from_hand;
   product_from_hand.translation = Vec3(20.0 + away, 20.0 + away, 0.0);
   const auto edge =
-      make_prism_distance({.width = 40, .depth = 40, .length = 60, .fillet_radius = 0});
+      geometry::make_prism_distance({.width = 40, .depth = 40, .length = 60, .fillet_radius = 0});
   const ContactResult contact =
       solve_hand_contact(hand, hand.hand().skin.vertices, product_from_hand, *edge);
   ASSERT_GT(contact.total.force, 0.0);
   const ProductFootprint footprint =
-      map_to_product(hand.hand(), contact, make_box(Vec3(40, 40, 60), 20), 0.7);
+      map_to_product(hand.hand(), contact, geometry::make_box(Vec3(40, 40, 60), 20), 0.7);
   const double force = integral_of(footprint.surface, footprint.pressure);
   // The way round the edge is longer than that through it, by up to a factor of sqrt 2; the force
   // is the same.
@@ -245,9 +249,9 @@ TEST(Footprint, GoesRoundASharpEdge) {
 }
 
 TEST(MovingFootprint, CarriesTheForceOfTheSkinAndForgetsTheLastOne) {
-  TriangleMesh plate = make_grid_patch(2, 2, 30.0);
+  geometry::TriangleMesh plate = geometry::make_grid_patch(2, 2, 30.0);
   for (Vec3& v : plate.vertices) v += Vec3(-30.0, -30.0, 2.0 - kRadius);
-  MovingFootprint moving(split_long_edges(plate, 0.7));
+  MovingFootprint moving(geometry::split_long_edges(plate, 0.7));
   const ContactResult contact = press_on_plane(2.0);
   const MovingFootprint::Loaded& loaded = moving.under(prepared_ball().hand(), contact);
   std::vector<double> pressure(moving.surface().vertices.size(), 0.0);
@@ -271,9 +275,9 @@ TEST(MovingFootprint, CarriesTheForceOfTheSkinAndForgetsTheLastOne) {
 
 TEST(MovingFootprint, SkinPressesOnlyTheSideThatItFaces) {
   // A plate of 0.5 mm: its other side lies within reach of the skin.
-  TriangleMesh plate = make_box(Vec3(60.0, 60.0, 0.5), 1);
+  geometry::TriangleMesh plate = geometry::make_box(Vec3(60.0, 60.0, 0.5), 1);
   for (Vec3& v : plate.vertices) v.z() += 2.0 - kRadius - 0.25;
-  MovingFootprint moving(split_long_edges(plate, 1.5));
+  MovingFootprint moving(geometry::split_long_edges(plate, 1.5));
   const MovingFootprint::Loaded& loaded = moving.under(prepared_ball().hand(), press_on_plane(2.0));
   ASSERT_FALSE(loaded.vertex.empty());
   for (const int v : loaded.vertex) {
@@ -282,14 +286,15 @@ TEST(MovingFootprint, SkinPressesOnlyTheSideThatItFaces) {
 }
 
 TEST(MovingFootprint, SurfaceIsAsFineAsItsTrianglesAllow) {
-  const TriangleMesh box = make_box(Vec3(40.0, 30.0, 130.0), 1);
-  const TriangleMesh fine = surface_for_moving(box, 120000);
+  const geometry::TriangleMesh box = geometry::make_box(Vec3(40.0, 30.0, 130.0), 1);
+  const geometry::TriangleMesh fine = surface_for_moving(box, 120000);
   EXPECT_GT(fine.triangle_count(), 5000);
-  EXPECT_NEAR(surface_area(fine), surface_area(box), 1e-6 * surface_area(box));
-  const TriangleMesh coarse = surface_for_moving(box, 1000);
+  EXPECT_NEAR(geometry::surface_area(fine), geometry::surface_area(box),
+              1e-6 * geometry::surface_area(box));
+  const geometry::TriangleMesh coarse = surface_for_moving(box, 1000);
   EXPECT_LE(coarse.triangle_count(), 1000);
   EXPECT_GT(coarse.triangle_count(), 200);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

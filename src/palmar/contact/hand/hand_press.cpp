@@ -12,7 +12,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kPunchLength = 100.0;  // mm; longer than any part of a hand is thick
@@ -24,12 +24,12 @@ double punch_offset(const PressIndenter& indenter) {
 
 /// The indenter as a solid in a frame of its own: it presses along -z, its lowest point (of the
 /// punch: its whole face) in the origin, the cylinder's axis along y.
-class IndenterField : public DistanceField {
+class IndenterField : public geometry::DistanceField {
  public:
   explicit IndenterField(const PressIndenter& indenter) : indenter_(indenter) {}
 
   void sample(std::span<const Vec3> points, double range,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < points.size(); ++i) {
       samples[i] = one(points[i]);
       if (std::abs(samples[i].distance) <= range) continue;
@@ -50,7 +50,7 @@ class IndenterField : public DistanceField {
   /// Outside a ball or bar the nearest point; inside, the one below along the press, from where the
   /// skin came: the gap of Hertz' problem. (Measured radially, deep skin near the middle would be
   /// pushed sideways, and the force fall to nothing as the depth nears the radius.)
-  DistanceSample around(const Vec3& q, const Vec3& from_axis) const {
+  geometry::DistanceSample around(const Vec3& q, const Vec3& from_axis) const {
     const double radius = indenter_.radius;
     const double length = from_axis.norm();
     if (length >= radius) {
@@ -62,7 +62,7 @@ class IndenterField : public DistanceField {
     return {height - q.z(), {q.x(), q.y(), height}, -Vec3::UnitZ(), -1};
   }
 
-  DistanceSample one(const Vec3& q) const {
+  geometry::DistanceSample one(const Vec3& q) const {
     const double radius = indenter_.radius;
     switch (indenter_.kind) {
       case PressIndenter::Kind::kSphere:
@@ -114,18 +114,19 @@ double touching_height(const PressIndenter& indenter, const Vec3& q) {
 }
 
 /// Along the finger towards its tip; along the hand for the palm.
-Vec3 distal_direction(const Hand& hand, Region region) {
-  const auto segment = segment_of(region);
-  const auto finger = segment ? finger_of(*segment) : std::nullopt;
+Vec3 distal_direction(const hand::Hand& hand, hand::Region region) {
+  const auto segment = hand::segment_of(region);
+  const auto finger = segment ? hand::finger_of(*segment) : std::nullopt;
   if (!finger) return Vec3::UnitY();
-  const Vec3 along =
-      hand.skeleton.fingertips[index_of(*finger)] - hand.skeleton.joint(joint_of(*segment)).centre;
+  const Vec3 along = hand.skeleton.fingertips[index_of(*finger)] -
+                     hand.skeleton.joint(hand::joint_of(*segment)).centre;
   return along.norm() > 1e-6 ? Vec3(along.normalized()) : Vec3(Vec3::UnitY());
 }
 
 /// Frame of the indenter at first touch.
-Rigid3 hand_from_indenter(const PressOptions& options, const PreparedHand::Impl& prepared) {
-  const Hand& hand = *prepared.hand;
+geometry::Rigid3 hand_from_indenter(const PressOptions& options,
+                                    const PreparedHand::Impl& prepared) {
+  const hand::Hand& hand = *prepared.hand;
   Vec3 outward = Vec3::Zero();
   Vec3 middle = Vec3::Zero();
   double area = 0.0;
@@ -152,10 +153,10 @@ Rigid3 hand_from_indenter(const PressOptions& options, const PreparedHand::Impl&
   axes.col(2) = c * outward + s * distal;
   axes.col(0) = c * distal - s * outward;
   axes.col(1) = axes.col(2).cross(axes.col(0));
-  Rigid3 frame{Quat(axes), middle};
+  geometry::Rigid3 frame{Quat(axes), middle};
 
   // Over the point that stands out most along the press, at the height of first touch.
-  const Rigid3 frame_from_hand = frame.inverse();
+  const geometry::Rigid3 frame_from_hand = frame.inverse();
   Vec3 top(0.0, 0.0, -std::numeric_limits<double>::infinity());
   for (int v = 0; v < prepared.skin.vertex_count(); ++v) {
     if (hand.region[v] != options.specimen.region) continue;
@@ -174,13 +175,13 @@ Rigid3 hand_from_indenter(const PressOptions& options, const PreparedHand::Impl&
 
 }  // namespace
 
-Rigid3 indenter_at_first_touch(const PressOptions& options, const PreparedHand& hand) {
+geometry::Rigid3 indenter_at_first_touch(const PressOptions& options, const PreparedHand& hand) {
   return hand_from_indenter(options, hand.impl());
 }
 
 PressStep press_hand_region(const PressOptions& options, const PreparedHand& hand, double depth) {
   const PreparedHand::Impl& prepared = hand.impl();
-  Rigid3 hand_from_product = hand_from_indenter(options, prepared);
+  geometry::Rigid3 hand_from_product = hand_from_indenter(options, prepared);
   hand_from_product.translation -= depth * (hand_from_product.rotation * Vec3::UnitZ());
   ContactOptions contact_options;
   contact_options.swelling = false;
@@ -213,4 +214,4 @@ PressStep press_hand_region(const PressOptions& options, const PreparedHand& han
   return step;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

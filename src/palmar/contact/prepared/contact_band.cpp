@@ -7,7 +7,7 @@
 #include "palmar/contact/prepared/contact_totals.h"
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 void set_low(const RegionContact& from, ContactBandRow& row) {
@@ -26,14 +26,14 @@ void set_high(const RegionContact& from, ContactBandRow& row) {
 
 }  // namespace
 
-std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_modulus(
+std::optional<std::array<double, hand::kRegionCount>> ContactSolver::Impl::force_per_modulus(
     const SkinOnProduct& skin, const SkinLoad& load) {
   // With the contact set F held, A_FF p = -b, b_i = G_i d_i, and F = sum of p. With y of
   // A_FF y = 1:  dF = y . (-db - dA p). b is proportional to G, A (but for the coating) without it.
   if (prepared->is_on_bone()) return force_per_modulus_on_bone(skin, load);
   const auto y = system.solve_on(load.in_contact, std::vector<double>(load.vertex.size(), 1.0));
   if (!y) return std::nullopt;
-  std::array<double, kRegionCount> result{};
+  std::array<double, hand::kRegionCount> result{};
   const auto region_of = [&](std::size_t k) {
     return static_cast<std::size_t>(prepared->hand->region[load.vertex[k]]);
   };
@@ -54,8 +54,8 @@ std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_m
   return result;
 }
 
-void set_band_level(const ContactResult& at_level, TissueLevel level, ContactBand& band) {
-  const auto set = level == TissueLevel::kLow ? set_low : set_high;
+void set_band_level(const ContactResult& at_level, hand::TissueLevel level, ContactBand& band) {
+  const auto set = level == hand::TissueLevel::kLow ? set_low : set_high;
   set(at_level.total, band.total);
   for (ContactBandRow& row : band.regions) {
     for (const RegionContact& region : at_level.regions) {
@@ -73,13 +73,13 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
   }
   const auto known_slope = force_per_modulus(skin, load);
   if (!known_slope) ++nominal.fallbacks.band_levels;
-  const std::array<double, kRegionCount> slope =
-      known_slope.value_or(std::array<double, kRegionCount>{});
+  const std::array<double, hand::kRegionCount> slope =
+      known_slope.value_or(std::array<double, hand::kRegionCount>{});
   for (ContactBandRow& row : result.regions) {
     row.force_per_modulus = slope[index_of(row.region)];
     result.total.force_per_modulus += row.force_per_modulus;
   }
-  for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kHigh}) {
+  for (const hand::TissueLevel level : {hand::TissueLevel::kLow, hand::TissueLevel::kHigh}) {
     SkinLoad other = load;
     other.level = level;
     other.shear_modulus = moduli(load, level);
@@ -101,7 +101,7 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
       modulus[v] = other.shear_modulus[k];
       gap_at_level[v] = other.gap[k];
     }
-    const std::array<double, kRegionCount> none{};
+    const std::array<double, hand::kRegionCount> none{};
     add_totals(*prepared, skin, pressed, gap_at_level, modulus, none, none, options.cell_area,
                at_level);
     set_band_level(at_level, level, result);
@@ -109,4 +109,4 @@ ContactBand ContactSolver::Impl::band(const SkinOnProduct& skin, const SkinLoad&
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

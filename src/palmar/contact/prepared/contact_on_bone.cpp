@@ -11,7 +11,7 @@
 #include "palmar/contact/prepared/contact_totals.h"
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kMostRounds = 60;
@@ -55,7 +55,7 @@ std::vector<Vec3> ContactSolver::Impl::reference_directions(
   return result;
 }
 
-double ContactSolver::Impl::bone_root_modulus(TissueLevel level, const BlockRoots& roots,
+double ContactSolver::Impl::bone_root_modulus(hand::TissueLevel level, const BlockRoots& roots,
                                               int v) const {
   return options.shear_modulus ? std::sqrt(*options.shear_modulus)
                                : root_modulus(prepared->bone, level, roots, v);
@@ -70,7 +70,7 @@ void ContactSolver::Impl::set_bone_moduli(const BlockRoots& roots, SkinLoad& loa
   }
 }
 
-std::vector<double> ContactSolver::Impl::skin_roots(TissueLevel level,
+std::vector<double> ContactSolver::Impl::skin_roots(hand::TissueLevel level,
                                                     const BlockRoots& roots) const {
   std::vector<double> result(prepared->skin.position.size());
   for (std::size_t v = 0; v < result.size(); ++v) {
@@ -272,14 +272,14 @@ void ContactSolver::Impl::displace_on_bone(const SkinOnProduct& skin, const Skin
 
 /// With the forces q = p / sqrt(G): A q = -sqrt(G) d and F = sum sqrt(G_i) q_i. With y of
 /// A_FF y = sqrt(G), dF / d ln G_i = 1/2 (p_i - y_i sqrt(G_i) d_i), the stiffening held.
-std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_modulus_on_bone(
-    const SkinOnProduct& skin, const SkinLoad& load) {
+std::optional<std::array<double, hand::kRegionCount>>
+ContactSolver::Impl::force_per_modulus_on_bone(const SkinOnProduct& skin, const SkinLoad& load) {
   const std::vector<double>& root = load.root_modulus;
   std::vector<double> right = root;  // of skin on skin, which adds nothing to F, zero
   right.resize(static_cast<std::size_t>(system.size()), 0.0);
   const auto y = system.solve_on(on_self_->with_contact(load.in_contact), right);
   if (!y) return std::nullopt;
-  std::array<double, kRegionCount> result{};
+  std::array<double, hand::kRegionCount> result{};
   if (!on_self_->is_empty()) {
     std::vector<double> q(load.force);
     for (std::size_t k = 0; k < q.size(); ++k) q[k] /= root[k];
@@ -308,4 +308,4 @@ std::optional<std::array<double, kRegionCount>> ContactSolver::Impl::force_per_m
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// Discs overlap and leave gaps, so that a cell on smooth skin is covered within 10 % of its area.
@@ -69,13 +69,13 @@ std::vector<double> contact_area(const std::vector<Vec3>& positions,
 }
 
 CellPeaks peak_over_cells(const SkinGeometry& skin, std::span<const int> centres,
-                          const std::vector<double>& force, const std::vector<Region>& region,
+                          const std::vector<double>& force, const std::vector<hand::Region>& region,
                           double cell_area) {
   const SensorCells cells =
       sensor_cells(skin, centres, std::vector<double>(centres.size(), cell_area));
   CellPeaks peaks;
   for (std::size_t c = 0; c < centres.size(); ++c) {
-    const Region home = region[centres[c]];
+    const hand::Region home = region[centres[c]];
     double own = 0.0;
     double all = 0.0;
     double area = 0.0;
@@ -94,4 +94,4 @@ CellPeaks peak_over_cells(const SkinGeometry& skin, std::span<const int> centres
   return peaks;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -8,7 +8,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Area in contact, reported vertex by vertex (mm^2; 0 where not loaded), so that a part's area is
 /// the sum over its vertices. A triangle with all corners loaded counts in full, one with some
@@ -40,7 +40,7 @@ struct CellPeaks {
 /// stand per vertex. On skin as it is pressed (pressed_skin.h) the cells lie on the product, as
 /// those of a mat do.
 CellPeaks peak_over_cells(const SkinGeometry& skin, std::span<const int> centres,
-                          const std::vector<double>& force, const std::vector<Region>& region,
+                          const std::vector<double>& force, const std::vector<hand::Region>& region,
                           double cell_area);
 
-}  // namespace palmar
+}  // namespace palmar::contact

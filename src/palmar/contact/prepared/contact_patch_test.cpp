@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 TEST(ContactArea, EdgeStandsWhereBothLawsOfTheContactsEdgeHold) {
@@ -45,10 +45,10 @@ TEST(ContactArea, CountsWholeTrianglesAndSkinThatTouches) {
 }
 
 TEST(PeakOverCells, OfEvenPressureIsThatPressure) {
-  const SkinGeometry skin = skin_geometry(make_icosphere(10.0, 4));
+  const SkinGeometry skin = skin_geometry(geometry::make_icosphere(10.0, 4));
   std::vector<double> force;
   for (const double a : skin.area) force.push_back(0.07 * a);
-  const std::vector<Region> region(force.size(), Region::kIndexDistal);
+  const std::vector<hand::Region> region(force.size(), hand::Region::kIndexDistal);
   for (const double area : {4.0, kUsualCellArea, 60.0}) {
     const CellPeaks peaks = peak_over_cells(skin, std::vector<int>{0, 5, 77}, force, region, area);
     EXPECT_NEAR(peaks.all, 0.07, 1e-12) << area;
@@ -59,7 +59,7 @@ TEST(PeakOverCells, OfEvenPressureIsThatPressure) {
 TEST(PeakOverCells, CellsCoverTheirArea) {
   // Voronoi discs overlap here and leave gaps there; together they cover a cell within some per
   // cent.
-  const SkinGeometry skin = skin_geometry(make_icosphere(30.0, 5));
+  const SkinGeometry skin = skin_geometry(geometry::make_icosphere(30.0, 5));
   std::vector<int> centres;
   for (int v = 0; v < skin.vertex_count(); v += 97) centres.push_back(v);
   const SensorCells cells =
@@ -72,17 +72,17 @@ TEST(PeakOverCells, CellsCoverTheirArea) {
 }
 
 TEST(PeakOverCells, OwnLoadIsThatOfTheCentresRegion) {
-  const SkinGeometry skin = skin_geometry(make_icosphere(10.0, 4));
+  const SkinGeometry skin = skin_geometry(geometry::make_icosphere(10.0, 4));
   std::vector<double> force;
-  std::vector<Region> region;
+  std::vector<hand::Region> region;
   for (int v = 0; v < skin.vertex_count(); ++v) {
     const bool is_left = skin.position[v].x() < 0.0;
-    region.push_back(is_left ? Region::kIndexDistal : Region::kIndexMiddle);
+    region.push_back(is_left ? hand::Region::kIndexDistal : hand::Region::kIndexMiddle);
     force.push_back((is_left ? 0.1 : 0.3) * skin.area[v]);
   }
   int border = 0;  // the vertex of the left part that is nearest to the right one, on the equator
   for (int v = 0; v < skin.vertex_count(); ++v) {
-    if (region[v] != Region::kIndexDistal) continue;
+    if (region[v] != hand::Region::kIndexDistal) continue;
     if (skin.position[v].x() > skin.position[border].x() || region[border] != region[v]) border = v;
   }
   const CellPeaks peaks =
@@ -94,4 +94,4 @@ TEST(PeakOverCells, OwnLoadIsThatOfTheCentresRegion) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

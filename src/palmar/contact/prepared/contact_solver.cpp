@@ -18,7 +18,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kMostExtensions = 8;     // of the problem by skin that bulges into the product
@@ -56,13 +56,13 @@ void ContactSolver::Impl::set_depth(const SkinOnProduct& skin, SkinLoad& load) c
     return;
   }
   // d_max of the sub-active region; of the dorsum's connected patch.
-  std::array<double, kRegionCount> d_max{};
+  std::array<double, hand::kRegionCount> d_max{};
   std::vector<int> dorsal;
   for (const int v : skin.collision) {
-    const Region region = prepared->hand->region[v];
+    const hand::Region region = prepared->hand->region[v];
     double& d = d_max[index_of(region)];
     d = std::max(d, -skin.sample[v].distance);
-    if (region == Region::kDorsum) dorsal.push_back(v);
+    if (region == hand::Region::kDorsum) dorsal.push_back(v);
   }
   std::vector<double> by_vertex(skin.sample.size(), 0.0);
   for (const std::vector<int>& patch : connected_parts(prepared->skin, dorsal)) {
@@ -72,12 +72,13 @@ void ContactSolver::Impl::set_depth(const SkinOnProduct& skin, SkinLoad& load) c
   }
   load.depth.clear();
   for (const int v : load.vertex) {
-    const Region region = prepared->hand->region[v];
-    load.depth.push_back(region == Region::kDorsum ? by_vertex[v] : d_max[index_of(region)]);
+    const hand::Region region = prepared->hand->region[v];
+    load.depth.push_back(region == hand::Region::kDorsum ? by_vertex[v] : d_max[index_of(region)]);
   }
 }
 
-std::vector<double> ContactSolver::Impl::moduli(const SkinLoad& load, TissueLevel level) const {
+std::vector<double> ContactSolver::Impl::moduli(const SkinLoad& load,
+                                                hand::TissueLevel level) const {
   std::vector<double> result;
   result.reserve(load.vertex.size());
   if (prepared->is_on_bone()) {
@@ -88,7 +89,7 @@ std::vector<double> ContactSolver::Impl::moduli(const SkinLoad& load, TissueLeve
     }
     return result;
   }
-  const std::vector<StiffeningLaw>& law = prepared->stiffness.law[index_of(level)];
+  const std::vector<hand::StiffeningLaw>& law = prepared->stiffness.law[index_of(level)];
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     result.push_back(
         options.shear_modulus.value_or(shear_modulus_at(law[load.vertex[k]], load.depth[k])));
@@ -188,7 +189,7 @@ bool ContactSolver::Impl::solve_system(const SkinOnProduct& skin, SkinLoad& load
 
 /// Skin on skin, which the tissue on bone alone has a law for.
 void ContactSolver::Impl::find_meetings(const std::vector<Vec3>& posed,
-                                        std::optional<Region> only) {
+                                        std::optional<hand::Region> only) {
   if (!on_self_) return;
   if (only || !options.skin_on_skin) return on_self_->clear();
   on_self_->set(prepared->meetings->find(posed, skin_.normal, kNearSkin), posed, skin_.normal);
@@ -213,7 +214,7 @@ void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& l
                 "the contact of " + std::to_string(load.vertex.size()) +
                     " coupled vertices has no solution; regions were solved one by one");
   }
-  for (int r = 0; r < kRegionCount; ++r) {
+  for (int r = 0; r < hand::kRegionCount; ++r) {
     std::vector<std::size_t> rows;
     SkinLoad part;
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
@@ -229,7 +230,7 @@ void ContactSolver::Impl::solve_by_region(const SkinOnProduct& skin, SkinLoad& l
     if (!solve_system(skin, part, result)) {
       ++result.fallbacks.unsolved_regions;
       append_note(result.message, "contact of region " +
-                                      std::string(name_of(static_cast<Region>(r))) + " (" +
+                                      std::string(name_of(static_cast<hand::Region>(r))) + " (" +
                                       std::to_string(rows.size()) +
                                       " vertices) has no solution; it carries no force");
     }
@@ -280,7 +281,7 @@ std::vector<int> ContactSolver::Impl::pressed_in(const SkinOnProduct& skin,
     if (!is_known[v] && may_bulge && d >= 0.0 && d < kBulgeRange) near.vertex.push_back(v);
   }
   set_depth(skin, near);
-  const std::vector<double> modulus = moduli(near, TissueLevel::kNominal);
+  const std::vector<double> modulus = moduli(near, hand::TissueLevel::kNominal);
   std::vector<int> result;
   for (std::size_t k = 0; k < near.vertex.size(); ++k) {
     const auto i = static_cast<std::size_t>(near.vertex[k]);
@@ -314,7 +315,7 @@ void ContactSolver::Impl::solve_load(const SkinOnProduct& skin, SkinLoad& load,
   for (int round = 0;; ++round) {
     const bool is_new = was_in_contact.empty() && round == 0;
     if (!is_on_bone || is_new) set_depth(skin, load);
-    if (!is_on_bone) load.shear_modulus = moduli(load, TissueLevel::kNominal);
+    if (!is_on_bone) load.shear_modulus = moduli(load, hand::TissueLevel::kNominal);
     load.in_contact.clear();
     load.force.clear();
     for (std::size_t k = 0; k < load.vertex.size(); ++k) {
@@ -367,9 +368,10 @@ void ContactSolver::Impl::take_aimed() {
 }
 
 SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
-                                          const Rigid3& product_from_hand,
-                                          const DistanceField& product, std::optional<Region> only,
-                                          double wanted, ContactResult& result) {
+                                          const geometry::Rigid3& product_from_hand,
+                                          const geometry::DistanceField& product,
+                                          std::optional<hand::Region> only, double wanted,
+                                          ContactResult& result) {
   const std::size_t n = prepared->hand->skin.vertices.size();
   if (posed_skin.size() != n) {
     throw UsageError("contact: posed skin has " + std::to_string(posed_skin.size()) +
@@ -407,7 +409,7 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
 
   SkinLoad load;
   if (!skin.collision.empty() && prepared->is_as_printed()) {
-    load = solve_as_printed(skin, TissueLevel::kNominal, result);
+    load = solve_as_printed(skin, hand::TissueLevel::kNominal, result);
   } else if (!skin.collision.empty() || (on_self_ && !on_self_->is_empty())) {
     solve_load(skin, load, result);
   }
@@ -428,8 +430,8 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
 }
 
 void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
-                                       const Rigid3& product_from_hand,
-                                       const DistanceField& product, double accuracy,
+                                       const geometry::Rigid3& product_from_hand,
+                                       const geometry::DistanceField& product, double accuracy,
                                        ContactResult& result) {
   forces_only_ = true;
   forces_accuracy_ = accuracy;
@@ -441,7 +443,7 @@ void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
   } else {
     result.deformed = result.undeformed;
   }
-  std::array<double, kRegionCount> force{};
+  std::array<double, hand::kRegionCount> force{};
   for (std::size_t v = 0; v < result.force.size(); ++v) {
     if (!(result.force[v] > 0.0)) continue;
     if (!prepared->is_as_printed()) result.deformed[v] = skin_.sample[v].closest;
@@ -451,7 +453,7 @@ void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
     result.total.max_penetration = std::max(result.total.max_penetration, deepest.depth[r]);
     if (!(force[r] > 0.0)) continue;
     RegionContact& region = result.regions.emplace_back();
-    region.region = static_cast<Region>(r);
+    region.region = static_cast<hand::Region>(r);
     region.force = force[r];
     region.max_penetration = deepest.depth[r];
     region.shear_modulus = deepest.shear_modulus[r];
@@ -460,8 +462,9 @@ void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
 }
 
 void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
-                                const Rigid3& product_from_hand, const DistanceField& product,
-                                std::optional<Region> only, ContactResult& result) {
+                                const geometry::Rigid3& product_from_hand,
+                                const geometry::DistanceField& product,
+                                std::optional<hand::Region> only, ContactResult& result) {
   forces_only_ = false;
   const SkinLoad load =
       find_forces(posed_skin, product_from_hand, product, only, kNearRange, result);
@@ -500,7 +503,7 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
 
   if (!by_skin.empty()) {
     const std::vector<Vec3> normal =
-        area_weighted_normals(result.deformed, prepared->hand->skin.triangles);
+        geometry::area_weighted_normals(result.deformed, prepared->hand->skin.triangles);
     result.residual_crossing =
         deepest_crossing(prepared->meetings->find(result.deformed, normal, 0.0));
   }
@@ -520,4 +523,4 @@ void ContactSolver::Impl::solve(const std::vector<Vec3>& posed_skin,
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

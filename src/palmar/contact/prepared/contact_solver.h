@@ -16,7 +16,7 @@
 #include "palmar/contact/solve/skin_product.h"
 #include "palmar/contact/tissue/modulus_search.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 constexpr double kBulgeRange = 4.0;  ///< mm; gaps beyond this don't close by bulging
 
@@ -29,14 +29,15 @@ struct ContactSolver::Impl {
   Impl(const PreparedHand& prepared_hand, const ContactOptions& contact_options);
 
   /// `only`: the skin of other regions is let through (indentation test of one region).
-  void solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
-             const DistanceField& product, std::optional<Region> only, ContactResult& result);
+  void solve(const std::vector<Vec3>& posed_skin, const geometry::Rigid3& product_from_hand,
+             const geometry::DistanceField& product, std::optional<hand::Region> only,
+             ContactResult& result);
   /// The same for who wants forces only: loaded skin is put on the product, all else stays where it
   /// was; of pressures none, of regions and totals just force, largest penetration and shear
   /// modulus are set. A third of the time. On bone moduli are settled to `accuracy` [relative], and
   /// forces with them.
-  void solve_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
-                    const DistanceField& product, double accuracy, ContactResult& result);
+  void solve_forces(const std::vector<Vec3>& posed_skin, const geometry::Rigid3& product_from_hand,
+                    const geometry::DistanceField& product, double accuracy, ContactResult& result);
 
   const PreparedHand* hand;
   const PreparedHand::Impl* prepared;
@@ -46,7 +47,7 @@ struct ContactSolver::Impl {
   std::vector<char> was_in_contact;
   std::vector<double> was_force;  ///< N
   /// In place of what find_skin_on_product() finds at these vertices; empty in any call of ours.
-  std::vector<std::pair<int, DistanceSample>> aimed;
+  std::vector<std::pair<int, geometry::DistanceSample>> aimed;
   const SkinOnProduct& skin() const { return skin_; }  ///< of the last call
   /// How the forces of a result move skin on bone at some vertices, product frame, mm; after
   /// solve().
@@ -54,11 +55,12 @@ struct ContactSolver::Impl {
 
  private:
   void take_aimed();
-  void find_meetings(const std::vector<Vec3>& posed, std::optional<Region> only);
+  void find_meetings(const std::vector<Vec3>& posed, std::optional<hand::Region> only);
   void add_touches(ContactResult& result) const;
-  SkinLoad find_forces(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
-                       const DistanceField& product, std::optional<Region> only, double wanted,
-                       ContactResult& result);
+  SkinLoad find_forces(const std::vector<Vec3>& posed_skin,
+                       const geometry::Rigid3& product_from_hand,
+                       const geometry::DistanceField& product, std::optional<hand::Region> only,
+                       double wanted, ContactResult& result);
   /// Skin outside the problem may come to touch as other skin is pressed.
   bool may_bulge() const;
   /// Compliance of the product's coatings among the rows of a load, times the geometric mean of the
@@ -69,7 +71,7 @@ struct ContactSolver::Impl {
   };
 
   void set_depth(const SkinOnProduct& skin, SkinLoad& load) const;
-  std::vector<double> moduli(const SkinLoad& load, TissueLevel level) const;
+  std::vector<double> moduli(const SkinLoad& load, hand::TissueLevel level) const;
   /// The coating over a point of the surface; -1 for none.
   int coating_at(const Vec3& at) const;
   void set_coating(const SkinOnProduct& skin, const SkinLoad& load);
@@ -82,8 +84,8 @@ struct ContactSolver::Impl {
   BlockStiffening next_stiffening(const SkinLoad& load,
                                   const std::vector<double>& displacement) const;
   void extend(const std::vector<int>& more, SkinLoad& load) const;
-  double bone_root_modulus(TissueLevel level, const BlockRoots& roots, int v) const;
-  std::vector<double> skin_roots(TissueLevel level, const BlockRoots& roots) const;
+  double bone_root_modulus(hand::TissueLevel level, const BlockRoots& roots, int v) const;
+  std::vector<double> skin_roots(hand::TissueLevel level, const BlockRoots& roots) const;
   void set_bone_moduli(const BlockRoots& roots, SkinLoad& load) const;
   Eigen::Matrix3d to_reference(const SkinOnProduct& skin, int v) const;
   std::vector<Vec3> reference_directions(const SkinOnProduct& skin,
@@ -96,19 +98,19 @@ struct ContactSolver::Impl {
   /// Near skin outside the problem that the solution moves into the product.
   std::vector<int> pressed_in(const SkinOnProduct& skin, const SkinLoad& load) const;
   /// dF / d ln G of each region, N; nothing if the system on the contact set has no solution.
-  std::optional<std::array<double, kRegionCount>> force_per_modulus_on_bone(
+  std::optional<std::array<double, hand::kRegionCount>> force_per_modulus_on_bone(
       const SkinOnProduct& skin, const SkinLoad& load);
-  std::optional<std::array<double, kRegionCount>> force_per_modulus(const SkinOnProduct& skin,
-                                                                    const SkinLoad& load);
+  std::optional<std::array<double, hand::kRegionCount>> force_per_modulus(const SkinOnProduct& skin,
+                                                                          const SkinLoad& load);
   ContactBand band(const SkinOnProduct& skin, const SkinLoad& load, const std::vector<double>& gap,
                    const SkinGeometry& pressed, ContactResult& nominal);
 
   // Xie 2014 as printed; solve_as_printed.cpp.
-  SkinLoad solve_as_printed(const SkinOnProduct& skin, TissueLevel level,
+  SkinLoad solve_as_printed(const SkinOnProduct& skin, hand::TissueLevel level,
                             ContactResult& result) const;
   static void deform_as_printed(const SkinOnProduct& skin, const SkinLoad& load,
                                 ContactResult& result);
-  void finish_as_printed(const SkinOnProduct& skin, const DistanceField& product,
+  void finish_as_printed(const SkinOnProduct& skin, const geometry::DistanceField& product,
                          const SkinLoad& load, ContactResult& result) const;
   ContactBand band_as_printed(const SkinOnProduct& skin, ContactResult& nominal) const;
 
@@ -125,6 +127,6 @@ struct ContactSolver::Impl {
 };
 
 /// Enters forces, areas and peaks of the low or the high tissue into the rows of a band.
-void set_band_level(const ContactResult& at_level, TissueLevel level, ContactBand& band);
+void set_band_level(const ContactResult& at_level, hand::TissueLevel level, ContactBand& band);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -17,7 +17,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::ball_hand;
@@ -28,12 +28,12 @@ using testing::ThrowsMessage;
 constexpr double kSkinRadius = 10.0;  // mm
 
 /// A ball of skin whose lower half belongs to two regions that meet under its lowest point.
-std::shared_ptr<Hand> split_ball() {
+std::shared_ptr<hand::Hand> split_ball() {
   auto hand = ball_hand(kSkinRadius, 3);
   for (std::size_t v = 0; v < hand->region.size(); ++v) {
-    if (hand->region[v] == Region::kDorsum) continue;
-    hand->region[v] =
-        hand->skin.vertices[v].x() < 0.0 ? Region::kMiddleDistal : Region::kMiddleMiddle;
+    if (hand->region[v] == hand::Region::kDorsum) continue;
+    hand->region[v] = hand->skin.vertices[v].x() < 0.0 ? hand::Region::kMiddleDistal
+                                                       : hand::Region::kMiddleMiddle;
   }
   return hand;
 }
@@ -74,7 +74,7 @@ TEST(CoupledRegions, EachRowHasItsOwnModulus) {
   // One region four times as stiff: it carries more, the soft one less than before, as the stiff
   // one lifts it.
   auto hand = split_ball();
-  auto& stiff = hand->tissue.region[index_of(Region::kMiddleMiddle)].half_space;
+  auto& stiff = hand->tissue.region[index_of(hand::Region::kMiddleMiddle)].half_space;
   stiff.nominal = {0.02, 0.38, 4.0};
   const ContactResult even = on_plane(PreparedHand(split_ball()), 2.0);
   const ContactResult uneven = on_plane(PreparedHand(hand), 2.0);
@@ -105,7 +105,7 @@ TEST(ContactBand, SensitivityIsTheSlopeOfTheForce) {
   const ContactResult before = on_plane(PreparedHand(split_ball()), 2.0, options);
   auto hand = split_ball();
   constexpr double kStep = 1e-4;
-  auto& tissue = hand->tissue.region[index_of(Region::kMiddleMiddle)].half_space;
+  auto& tissue = hand->tissue.region[index_of(hand::Region::kMiddleMiddle)].half_space;
   tissue.nominal.g0 *= 1.0 + kStep;
   tissue.nominal.g_limit *= 1.0 + kStep;
   const double slope = (on_plane(PreparedHand(hand), 2.0).total.force - before.total.force) / kStep;
@@ -121,7 +121,7 @@ TEST(ContactBand, LowAndHighAreThoseOfOtherHands) {
   const ContactResult contact = on_plane(PreparedHand(split_ball()), 2.0, options);
   for (const bool is_high : {false, true}) {
     auto hand = split_ball();
-    for (RegionTissue& tissue : hand->tissue.region) {
+    for (hand::RegionTissue& tissue : hand->tissue.region) {
       tissue.half_space.nominal = is_high ? tissue.half_space.high : tissue.half_space.low;
     }
     const ContactResult other = on_plane(PreparedHand(hand), 2.0);
@@ -183,11 +183,11 @@ TEST(ContactSolver, ThreadsDoNotShow) {
 constexpr double kLargeRadius = 40.0;  // mm
 
 /// A ball of skin, 10 000 vertices, whose lowest point lies 4 mm below a flat slab of bone.
-std::shared_ptr<Hand> ball_over_slab() {
+std::shared_ptr<hand::Hand> ball_over_slab() {
   auto hand = ball_hand(kLargeRadius, 5);
-  Bone bone;
+  hand::Bone bone;
   bone.name = "slab";
-  bone.mesh = make_box(Vec3(400.0, 400.0, 30.0), 2);
+  bone.mesh = geometry::make_box(Vec3(400.0, 400.0, 30.0), 2);
   for (Vec3& v : bone.mesh.vertices) v.z() += 15.0 - (kLargeRadius - 4.0);
   hand->bones.push_back(bone);
   return hand;
@@ -223,24 +223,24 @@ TEST(LayeredTissue, WithoutBoneItIsAThickLayer) {
 }
 
 /// A square of skin of 110 mm, normal +z.
-std::shared_ptr<Hand> square_hand(int columns) {
-  auto hand = std::make_shared<Hand>();
+std::shared_ptr<hand::Hand> square_hand(int columns) {
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "square";
-  hand->skin = make_grid_patch(columns, columns, 110.0 / columns);
-  hand->region.assign(hand->skin.vertices.size(), Region::kCentralPalm);
-  hand->segment.assign(hand->skin.vertices.size(), Segment::kPalm);
-  hand->tissue = default_tissue();
+  hand->skin = geometry::make_grid_patch(columns, columns, 110.0 / columns);
+  hand->region.assign(hand->skin.vertices.size(), hand::Region::kCentralPalm);
+  hand->segment.assign(hand->skin.vertices.size(), hand::Segment::kPalm);
+  hand->tissue = hand::default_tissue();
   return hand;
 }
 
 TEST(FineMeshes, FarResponsesByClustersGiveTheSame) {
   // Two balls on skin of 7 921 vertices, all pairs vertex by vertex, and of 12 544, the far ones by
   // clusters. The contacts are 20 mm wide and 6 mm apart, so far pairs count.
-  class TwoBalls : public DistanceField {
+  class TwoBalls : public geometry::DistanceField {
    public:
     void sample(std::span<const Vec3> points, double range,
-                std::span<DistanceSample> samples) const override {
-      std::vector<DistanceSample> other(points.size());
+                std::span<geometry::DistanceSample> samples) const override {
+      std::vector<geometry::DistanceSample> other(points.size());
       one_.sample(points, range, samples);
       two_.sample(points, range, other);
       for (std::size_t i = 0; i < points.size(); ++i) {
@@ -398,4 +398,4 @@ TEST(PointKernel, BreakdownIsNamedAndLeavesAValidState) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

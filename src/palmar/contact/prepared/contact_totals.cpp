@@ -10,10 +10,10 @@
 #include "palmar/contact/prepared/sub_active_region.h"
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
-                           const std::vector<Region>& region) {
+                           const std::vector<hand::Region>& region) {
   DeepestOfRegion deepest;
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     const int v = load.vertex[k];
@@ -28,11 +28,11 @@ DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
 void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
                 const SkinGeometry& pressed, const std::vector<double>& gap,
                 const std::vector<double>& shear_modulus,
-                const std::array<double, kRegionCount>& d_max,
-                const std::array<double, kRegionCount>& modulus, double cell_area,
+                const std::array<double, hand::kRegionCount>& d_max,
+                const std::array<double, hand::kRegionCount>& modulus, double cell_area,
                 ContactResult& result) {
   const std::size_t n = result.force.size();
-  std::array<std::vector<int>, kRegionCount> loaded;
+  std::array<std::vector<int>, hand::kRegionCount> loaded;
   for (std::size_t v = 0; v < n; ++v) {
     if (result.force[v] <= 0.0) continue;
     loaded[index_of(prepared.hand->region[v])].push_back(static_cast<int>(v));
@@ -52,11 +52,11 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
   }
 
   RegionContact& total = result.total;
-  for (int r = 0; r < kRegionCount; ++r) {
+  for (int r = 0; r < hand::kRegionCount; ++r) {
     total.max_penetration = std::max(total.max_penetration, d_max[r]);
     if (loaded[r].empty()) continue;
     RegionContact& part = result.regions.emplace_back();
-    part.region = static_cast<Region>(r);
+    part.region = static_cast<hand::Region>(r);
     part.max_penetration = d_max[r];
     part.shear_modulus = modulus[r];
     Vec3 moment = Vec3::Zero();
@@ -100,4 +100,4 @@ void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
   if (total.area > 0.0) total.mean_pressure = total.force / total.area;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

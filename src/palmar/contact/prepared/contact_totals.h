@@ -9,15 +9,15 @@
 #include "palmar/contact/prepared/skin_displacement.h"
 #include "palmar/contact/solve/skin_product.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Deepest penetration [mm] of each region's skin in the problem, and its shear modulus there
 /// [MPa].
 struct DeepestOfRegion {
-  std::array<double, kRegionCount> depth{}, shear_modulus{};
+  std::array<double, hand::kRegionCount> depth{}, shear_modulus{};
 };
 DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
-                           const std::vector<Region>& region);
+                           const std::vector<hand::Region>& region);
 
 /// Sets result.pressure, result.regions and result.total from the forces and the skin as it is
 /// `pressed` (pressed_skin.h). `gap` [mm], of the skin without its bulge, and `shear_modulus` [MPa]
@@ -27,8 +27,8 @@ DeepestOfRegion deepest_of(const SkinOnProduct& skin, const SkinLoad& load,
 void add_totals(const PreparedHand::Impl& prepared, const SkinOnProduct& skin,
                 const SkinGeometry& pressed, const std::vector<double>& gap,
                 const std::vector<double>& shear_modulus,
-                const std::array<double, kRegionCount>& d_max,
-                const std::array<double, kRegionCount>& modulus, double cell_area,
+                const std::array<double, hand::kRegionCount>& d_max,
+                const std::array<double, hand::kRegionCount>& modulus, double cell_area,
                 ContactResult& result);
 
-}  // namespace palmar
+}  // namespace palmar::contact

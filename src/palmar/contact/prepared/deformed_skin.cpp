@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kDirectionRounds = 8;   // the direction turns within as many rings (20 mm)
@@ -27,9 +27,9 @@ void average_once(const SkinGeometry& geometry, const std::vector<int>& vertices
 }
 
 /// Puts vertices that lie inside the product on its surface. Returns the deepest that stays, mm.
-double push_out(const SkinOnProduct& skin, const DistanceField& product,
+double push_out(const SkinOnProduct& skin, const geometry::DistanceField& product,
                 const std::vector<int>& vertices, ContactResult& result,
-                std::vector<DistanceSample>& after) {
+                std::vector<geometry::DistanceSample>& after) {
   std::vector<int> inside;
   for (const int v : vertices) {
     // Skin cannot have come nearer than by what it moved.
@@ -53,7 +53,7 @@ double push_out(const SkinOnProduct& skin, const DistanceField& product,
 }  // namespace
 
 void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
-                 const DistanceField& product, const std::vector<char>& is_active,
+                 const geometry::DistanceField& product, const std::vector<char>& is_active,
                  const SkinMotion& by_skin, ContactResult& result) {
   const std::size_t n = result.undeformed.size();
   result.deformed = result.undeformed;
@@ -84,7 +84,7 @@ void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
   for (const int v : free) {
     motion[v] = result.displacement[v] * direction[v];
     // Out of the product, as far as its tangent plane shows; the rest is left to push_out().
-    const DistanceSample& sample = skin.sample[v];
+    const geometry::DistanceSample& sample = skin.sample[v];
     if (sample.distance >= kNearRange) continue;
     motion[v] += std::max(0.0, -sample.distance - motion[v].dot(sample.normal)) * sample.normal;
   }
@@ -100,7 +100,7 @@ void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
     const int v = by_skin.vertex[k];
     if (!(result.force[v] > 0.0)) result.deformed[v] = result.undeformed[v] + by_skin.whole[k];
   }
-  std::vector<DistanceSample> after = skin.sample;
+  std::vector<geometry::DistanceSample> after = skin.sample;
   for (const int v : skin.traced) after[v] = {};
   result.residual_penetration_other = push_out(skin, product, free, result, after);
   for (const int v : free) {
@@ -113,4 +113,4 @@ void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

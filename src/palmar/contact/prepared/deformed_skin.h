@@ -8,7 +8,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/solve/skin_product.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// What other skin of the same hand does to the skin, mm; empty for nothing.
 struct SkinMotion {
@@ -29,7 +29,7 @@ struct SkinMotion {
 /// Afterwards the displacement is the part of each vertex' motion along its direction.
 /// `is_active` says which vertices may move.
 void deform_skin(const SkinGeometry& geometry, const SkinOnProduct& skin,
-                 const DistanceField& product, const std::vector<char>& is_active,
+                 const geometry::DistanceField& product, const std::vector<char>& is_active,
                  const SkinMotion& by_skin, ContactResult& result);
 
-}  // namespace palmar
+}  // namespace palmar::contact

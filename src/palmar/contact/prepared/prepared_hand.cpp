@@ -12,13 +12,13 @@
 #include "palmar/contact/response/layer_thickness.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kBlockSize = 48;  // vertices; of the preconditioner
 constexpr int kSpotSize = 6;    // vertices
 
-void check_hand(const Hand& hand) {
+void check_hand(const hand::Hand& hand) {
   if (hand.skin.vertices.empty()) {
     throw UsageError("hand \"" + hand.name + "\": the skin has no vertices");
   }
@@ -42,14 +42,15 @@ void check_model(const ContactModel& model) {
   }
 }
 
-void check_size(const Hand& hand, const ContactModel& model) {
+void check_size(const hand::Hand& hand, const ContactModel& model) {
   if (model.tissue != TissueModel::kBone || hand.skin.vertex_count() <= kMostFullVertices) return;
   throw UsageError("hand \"" + hand.name + "\" has " + std::to_string(hand.skin.vertex_count()) +
                    " skin vertices; tissue on bone takes up to " +
                    std::to_string(kMostFullVertices));
 }
 
-std::shared_ptr<const SkinCompliance> compliance_of(const Hand& hand, const SkinGeometry& skin,
+std::shared_ptr<const SkinCompliance> compliance_of(const hand::Hand& hand,
+                                                    const SkinGeometry& skin,
                                                     std::shared_ptr<const SkinCompliance> known) {
   if (known) return known;
   return std::make_shared<const SkinCompliance>(skin_compliance(hand, skin));
@@ -87,15 +88,15 @@ std::vector<double> length_ratios(const SkinGeometry& base, const SkinGeometry& 
 }
 
 /// Volumes of a hand's tissue from those of its family's base: as the cubes of the lengths.
-std::array<double, kRegionCount> scaled_volumes(const std::array<double, kRegionCount>& volume,
-                                                const Hand& hand, const SkinGeometry& base,
-                                                const SkinGeometry& skin) {
-  std::array<double, kRegionCount> own{}, old{};
+std::array<double, hand::kRegionCount> scaled_volumes(
+    const std::array<double, hand::kRegionCount>& volume, const hand::Hand& hand,
+    const SkinGeometry& base, const SkinGeometry& skin) {
+  std::array<double, hand::kRegionCount> own{}, old{};
   for (std::size_t v = 0; v < hand.region.size(); ++v) {
     own[index_of(hand.region[v])] += skin.area[v];
     old[index_of(hand.region[v])] += base.area[v];
   }
-  std::array<double, kRegionCount> result = volume;
+  std::array<double, hand::kRegionCount> result = volume;
   for (std::size_t r = 0; r < result.size(); ++r) {
     if (old[r] > 0.0) result[r] *= std::pow(own[r] / old[r], 1.5);
   }
@@ -111,7 +112,7 @@ ContactModel completed(ContactModel model) {
   return model;
 }
 
-void check_alike(const Hand& hand, const Hand& base) {
+void check_alike(const hand::Hand& hand, const hand::Hand& base) {
   if (hand.skin.triangles != base.skin.triangles || hand.region != base.region) {
     throw UsageError("hand \"" + hand.name + "\" has not the mesh of hand \"" + base.name +
                      "\", as whose family it was to be prepared; the same triangles and regions "
@@ -122,7 +123,7 @@ void check_alike(const Hand& hand, const Hand& base) {
 }  // namespace
 
 struct HandFamily::Impl {
-  std::shared_ptr<const Hand> base;
+  std::shared_ptr<const hand::Hand> base;
   ContactModel model;
   SkinGeometry skin;
   std::optional<SkinPairs> pairs;  ///< nothing for a skin that has a far part, or Isomap
@@ -130,7 +131,7 @@ struct HandFamily::Impl {
   std::shared_ptr<const SkinCompliance> compliance;  ///< with TissueModel::kBone
 };
 
-HandFamily::HandFamily(std::shared_ptr<const Hand> base, const ContactModel& model,
+HandFamily::HandFamily(std::shared_ptr<const hand::Hand> base, const ContactModel& model,
                        std::shared_ptr<const SkinCompliance> compliance) {
   if (!base) throw UsageError("family of hands: no hand was given");
   check_hand(*base);
@@ -161,12 +162,12 @@ HandFamily::~HandFamily() = default;
 HandFamily::HandFamily(HandFamily&&) noexcept = default;
 HandFamily& HandFamily::operator=(HandFamily&&) noexcept = default;
 
-const Hand& HandFamily::base() const { return *impl_->base; }
+const hand::Hand& HandFamily::base() const { return *impl_->base; }
 const ContactModel& HandFamily::model() const { return impl_->model; }
 
-PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const ContactModel& model,
+PreparedHand::PreparedHand(std::shared_ptr<const hand::Hand> hand, const ContactModel& model,
                            std::shared_ptr<const SkinCompliance> compliance,
-                           const std::shared_ptr<const Hand>& base) {
+                           const std::shared_ptr<const hand::Hand>& base) {
   if (!hand) throw UsageError("prepare hand: no hand was given");
   check_hand(*hand);
   check_model(model);
@@ -206,7 +207,7 @@ void PreparedHand::Impl::set_patches() {
   stiffness = skin_stiffness(*hand, skin, response, skin_patches(skin, kSpotSize), blocks, model);
 }
 
-PreparedHand::PreparedHand(std::shared_ptr<const Hand> hand, const HandFamily& family) {
+PreparedHand::PreparedHand(std::shared_ptr<const hand::Hand> hand, const HandFamily& family) {
   if (!hand) throw UsageError("prepare hand: no hand was given");
   check_hand(*hand);
   const HandFamily::Impl& shared = family.impl();
@@ -240,7 +241,7 @@ PreparedHand::~PreparedHand() = default;
 PreparedHand::PreparedHand(PreparedHand&&) noexcept = default;
 PreparedHand& PreparedHand::operator=(PreparedHand&&) noexcept = default;
 
-const Hand& PreparedHand::hand() const { return *impl_->hand; }
+const hand::Hand& PreparedHand::hand() const { return *impl_->hand; }
 const ContactModel& PreparedHand::model() const { return impl_->model; }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -16,10 +16,10 @@
 #include "palmar/contact/tissue/stiffening.h"
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 struct PreparedHand::Impl {
-  std::shared_ptr<const Hand> hand;
+  std::shared_ptr<const hand::Hand> hand;
   ContactModel model;
   SkinGeometry skin;
   /// Of skin that was divided: areas of the skin before per vertex, at rest, mm^2; no pressure is
@@ -41,7 +41,9 @@ struct PreparedHand::Impl {
   /// Blocks of the preconditioner and stiffness, from hand, skin, response and model.
   void set_patches();
 
-  const RegionTissue& tissue(Region r) const { return hand->tissue.region[index_of(r)]; }
+  const hand::RegionTissue& tissue(hand::Region r) const {
+    return hand->tissue.region[index_of(r)];
+  }
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// Of the area at rest; a force needs some area to be spread over. Ten times less changes no
@@ -23,15 +23,15 @@ SkinGeometry pressed_skin(const PreparedHand::Impl& prepared, const SkinOnProduc
   result.ring_begin = prepared.skin.ring_begin;
   result.ring = prepared.skin.ring;
   result.normal = skin.normal;
-  TriangleMesh on_product{undeformed, prepared.hand->skin.triangles};
+  geometry::TriangleMesh on_product{undeformed, prepared.hand->skin.triangles};
   for (const int v : skin.near) {
-    const DistanceSample& sample = skin.sample[v];
+    const geometry::DistanceSample& sample = skin.sample[v];
     if (sample.distance >= kNearRange) continue;
     on_product.vertices[v] = sample.closest;
     // Skin faces the product.
     result.normal[v] = -sample.normal;
   }
-  result.area = vertex_areas(on_product);
+  result.area = geometry::vertex_areas(on_product);
   result.position = std::move(on_product.vertices);
   result.radius.reserve(result.area.size());
   for (std::size_t v = 0; v < result.area.size(); ++v) {
@@ -70,4 +70,4 @@ std::vector<double> pressure_on_skin(const SkinGeometry& pressed,
   return pressure;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

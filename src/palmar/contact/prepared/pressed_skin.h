@@ -7,7 +7,7 @@
 #include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/solve/skin_product.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// The skin as it lies on the product, where its pressure acts: skin that is near is put on the
 /// product's surface (loaded skin ends there anyway, lifted skin below its nearest point), the rest
@@ -26,4 +26,4 @@ std::vector<double> pressure_on_skin(const SkinGeometry& pressed,
                                      const std::vector<double>& at_rest,
                                      const std::vector<double>& force);
 
-}  // namespace palmar
+}  // namespace palmar::contact

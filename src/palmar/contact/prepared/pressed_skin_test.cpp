@@ -11,7 +11,7 @@
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/geometry/distance/analytic_distance.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::ball_hand;
@@ -69,9 +69,9 @@ TEST(PressedSkin, TheThesisCountsAtRest) {
 
 TEST(PressedSkin, PressureTimesAreaIsTheForceAndNothingIsFinerThanTheMesh) {
   // Skin at rest on a plane lattice; then everything left of x = 0 is drawn together to a fifth.
-  const TriangleMesh mesh = make_lattice_patch(12.0, 1.5);
+  const geometry::TriangleMesh mesh = geometry::make_lattice_patch(12.0, 1.5);
   const SkinGeometry at_rest = skin_geometry(mesh);
-  TriangleMesh drawn = mesh;
+  geometry::TriangleMesh drawn = mesh;
   for (Vec3& v : drawn.vertices) v.x() *= v.x() < 0.0 ? 0.2 : 1.0;
   const SkinGeometry pressed = skin_geometry(drawn);
   std::vector<double> force(mesh.vertices.size(), 0.0);
@@ -104,4 +104,4 @@ TEST(PressedSkin, PressureTimesAreaIsTheForceAndNothingIsFinerThanTheMesh) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 std::string percent_of(const RegionContact& contact) {
@@ -23,7 +23,7 @@ bool is_unresolved(const SkinGeometry& skin, const SkinOnProduct& on_product, in
   static const double kLeastCosine = std::cos(kResolvedTurn);
   const Vec3& own = on_product.sample[vertex].normal;
   for (const int w : skin.neighbours(vertex)) {
-    const DistanceSample& other = on_product.sample[w];
+    const geometry::DistanceSample& other = on_product.sample[w];
     if (other.distance < kNearRange && own.dot(other.normal) < kLeastCosine) return true;
   }
   return false;
@@ -71,4 +71,4 @@ std::string unresolved_words(const ContactResult& contact) {
          "); the highest pressures there may be off by 40 %, the hand's force and area hold";
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -8,7 +8,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/solve/skin_product.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// How far the product's surface may turn from a vertex of the pressed skin to its neighbour, rad:
 /// an edge or fillet is resolved if its radius is at least twice the edge of the skin's mesh and
@@ -40,4 +40,4 @@ std::string refinement_words(const ContactResult& contact);
 /// hold". Of a skin that was refined in vain: that it was. Empty if is_resolved().
 std::string unresolved_words(const ContactResult& contact);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -11,7 +11,7 @@
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/geometry/distance/analytic_distance.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::ball_hand;
@@ -25,11 +25,11 @@ ContactResult press_edge(double fillet, int subdivisions, bool refine = false) {
                                                     PreparedHand(ball_hand(kBall, 4)),
                                                     PreparedHand(ball_hand(kBall, 5))};
   const PreparedHand& hand = hands[static_cast<std::size_t>(subdivisions - 3)];
-  const auto bar =
-      make_prism_distance({.width = 40, .depth = 40, .length = 60, .fillet_radius = fillet});
+  const auto bar = geometry::make_prism_distance(
+      {.width = 40, .depth = 40, .length = 60, .fillet_radius = fillet});
   const double apex = std::sqrt(2.0) * (20.0 - fillet) + fillet;
   const double away = (apex + kBall - 1.5) / std::sqrt(2.0);
-  Rigid3 place;
+  geometry::Rigid3 place;
   place.translation = Vec3(away, away, 0.0);
   ContactOptions options;
   options.refine = refine;
@@ -86,4 +86,4 @@ TEST(Resolution, RoundThingsAreResolved) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

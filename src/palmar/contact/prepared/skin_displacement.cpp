@@ -9,7 +9,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/smooth_step.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// gaussian_response() by table: an exponential per pair of vertices would cost more than the
@@ -89,7 +89,7 @@ class FarLoad {
 void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const LoadedPart& part,
               const std::vector<GrownVertex>& around, const std::vector<char>& is_around,
               bool swelling, PartField& field) {
-  const RegionTissue& tissue = prepared.tissue(part.region);
+  const hand::RegionTissue& tissue = prepared.tissue(part.region);
   const GaussianTable gaussian(tissue.swelling_radius, tissue.swelling_width);
   const SkinResponse& response = prepared.response;
   FarLoad far(response);
@@ -113,7 +113,7 @@ void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const Lo
   double highest = 0.0;
   for (const GrownVertex& g : around) {
     double& bulge = field[g.vertex].bulge;
-    bulge *= smooth_step(g.distance / (0.5 * tissue.swelling_radius));
+    bulge *= geometry::smooth_step(g.distance / (0.5 * tissue.swelling_radius));
     highest = std::max(highest, bulge);
   }
   if (!(highest > 0.0)) return;
@@ -124,14 +124,14 @@ void add_held(const PreparedHand::Impl& prepared, const SkinLoad& load, const Lo
 }  // namespace
 
 std::vector<LoadedPart> loaded_parts(const PreparedHand::Impl& prepared, const SkinLoad& load) {
-  std::array<std::vector<int>, kRegionCount> rows;
+  std::array<std::vector<int>, hand::kRegionCount> rows;
   std::vector<int> dorsal;
   std::vector<int> row_of(prepared.skin.vertex_count(), -1);
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     if (!(load.force[k] > 0.0)) continue;
     const int v = load.vertex[k];
-    const Region region = prepared.hand->region[v];
-    if (region == Region::kDorsum) {
+    const hand::Region region = prepared.hand->region[v];
+    if (region == hand::Region::kDorsum) {
       dorsal.push_back(v);
       row_of[v] = static_cast<int>(k);
     } else {
@@ -141,12 +141,12 @@ std::vector<LoadedPart> loaded_parts(const PreparedHand::Impl& prepared, const S
   std::vector<LoadedPart> parts;
   for (const std::vector<int>& patch : connected_parts(prepared.skin, dorsal)) {
     LoadedPart& part = parts.emplace_back();
-    part.region = Region::kDorsum;
+    part.region = hand::Region::kDorsum;
     for (const int v : patch) part.row.push_back(row_of[v]);
   }
-  for (int r = 0; r < kRegionCount; ++r) {
+  for (int r = 0; r < hand::kRegionCount; ++r) {
     if (rows[r].empty()) continue;
-    parts.push_back({static_cast<Region>(r), std::move(rows[r]), 0.0});
+    parts.push_back({static_cast<hand::Region>(r), std::move(rows[r]), 0.0});
   }
   for (LoadedPart& part : parts) {
     for (const int k : part.row) part.force += load.force[k];
@@ -179,7 +179,7 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
     }
     for (const GrownVertex& g : around) {
       const int v = g.vertex;
-      const double fade = smooth_step(3.0 * (1.0 - g.distance / reach));
+      const double fade = geometry::smooth_step(3.0 * (1.0 - g.distance / reach));
       const double weight = fade / (g.distance * g.distance + 1.0);
       weight_sum[v] += weight;
       best_fade[v] = std::max(best_fade[v], fade);
@@ -217,4 +217,4 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
   return u;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

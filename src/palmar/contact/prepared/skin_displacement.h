@@ -7,7 +7,7 @@
 #include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/solve/skin_product.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// The solved contact problem of a hand's skin.
 struct SkinLoad {
@@ -17,7 +17,7 @@ struct SkinLoad {
   std::vector<double> force;          ///< N
   std::vector<double> gap;            ///< after deformation, mm
   std::vector<char> in_contact;
-  TissueLevel level = TissueLevel::kNominal;
+  hand::TissueLevel level = hand::TissueLevel::kNominal;
   /// Square roots of the shear moduli; of tissue on bone only. Responses are
   /// then f_ij / (root_i root_j) (block_energy.h), else f_ij / G_i in the solution.
   std::vector<double> root_modulus;
@@ -26,7 +26,7 @@ struct SkinLoad {
 
 /// Loaded skin of one region (of the dorsum: one connected patch), Xie 2014, A4.
 struct LoadedPart {
-  Region region{};
+  hand::Region region{};
   std::vector<int> row;  ///< in the SkinLoad, ascending
   double force = 0.0;    ///< N
 };
@@ -58,4 +58,4 @@ SkinDisplacement skin_displacement(const PreparedHand::Impl& prepared, const Ski
                                    const SkinLoad& load, const std::vector<LoadedPart>& parts,
                                    bool swelling);
 
-}  // namespace palmar
+}  // namespace palmar::contact

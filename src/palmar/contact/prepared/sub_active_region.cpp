@@ -12,7 +12,7 @@
 #include "palmar/contact/response/response.h"
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// Calls visit(i, j, e) for the entries e of the response among the vertices of a sub-active
@@ -35,8 +35,8 @@ void for_pairs(const PreparedHand::Impl& prepared, const SubActiveRegion& part,
 
 }  // namespace
 
-void find_skin_as_printed(const Hand& hand, const std::vector<Vec3>& posed,
-                          const DistanceField& product, std::optional<Region> only,
+void find_skin_as_printed(const hand::Hand& hand, const std::vector<Vec3>& posed,
+                          const geometry::DistanceField& product, std::optional<hand::Region> only,
                           SkinOnProduct& skin) {
   skin.begin(hand, posed);
   for (std::size_t v = 0; v < posed.size(); ++v) {
@@ -47,7 +47,7 @@ void find_skin_as_printed(const Hand& hand, const std::vector<Vec3>& posed,
   sample_vertices(product, posed, skin.near, std::numeric_limits<double>::infinity(), skin.sample);
   for (const int v : skin.near) {
     if (!(skin.sample[v].distance < 0.0)) continue;
-    (hand.region[v] == Region::kDorsum ? skin.left_out : skin.collision).push_back(v);
+    (hand.region[v] == hand::Region::kDorsum ? skin.left_out : skin.collision).push_back(v);
   }
   if (skin.left_out.empty()) return;
   skin.message = std::to_string(skin.left_out.size()) +
@@ -59,7 +59,7 @@ int neighbour_rings(double range, double mean_edge) {
   return std::max(1, static_cast<int>(std::lround(range / mean_edge)));
 }
 
-std::vector<int> active_region(const Hand& hand, const SkinGeometry& skin,
+std::vector<int> active_region(const hand::Hand& hand, const SkinGeometry& skin,
                                const std::vector<int>& collision) {
   const double mean_edge = std::accumulate(skin.edge_length.begin(), skin.edge_length.end(), 0.0) /
                            static_cast<double>(skin.edge_length.size());
@@ -79,21 +79,21 @@ std::vector<int> active_region(const Hand& hand, const SkinGeometry& skin,
   }
   std::vector<int> active;
   for (int v = 0; v < skin.vertex_count(); ++v) {
-    if (left[v] >= 0 && hand.region[v] != Region::kDorsum) active.push_back(v);
+    if (left[v] >= 0 && hand.region[v] != hand::Region::kDorsum) active.push_back(v);
   }
   return active;
 }
 
-StiffeningLaw printed_law(const RegionTissue& tissue, TissueLevel level) {
-  StiffeningLaw law = law_at(tissue.half_space, level);
+hand::StiffeningLaw printed_law(const hand::RegionTissue& tissue, hand::TissueLevel level) {
+  hand::StiffeningLaw law = hand::law_at(tissue.half_space, level);
   law.g0 = tissue.half_space.low.g0;
   return law;
 }
 
 std::vector<SubActiveRegion> sub_active_regions(const PreparedHand::Impl& prepared,
-                                                const SkinOnProduct& skin, TissueLevel level,
+                                                const SkinOnProduct& skin, hand::TissueLevel level,
                                                 std::optional<double> shear_modulus) {
-  std::array<SubActiveRegion, kRegionCount> parts;
+  std::array<SubActiveRegion, hand::kRegionCount> parts;
   for (const int v : active_region(*prepared.hand, prepared.skin, skin.collision)) {
     SubActiveRegion& part = parts[index_of(prepared.hand->region[v])];
     part.region = prepared.hand->region[v];
@@ -103,8 +103,8 @@ std::vector<SubActiveRegion> sub_active_regions(const PreparedHand::Impl& prepar
   std::vector<SubActiveRegion> result;
   for (SubActiveRegion& part : parts) {
     if (!(part.d_max > 0.0)) continue;
-    const RegionTissue& tissue = prepared.tissue(part.region);
-    const StiffeningLaw law = printed_law(tissue, level);
+    const hand::RegionTissue& tissue = prepared.tissue(part.region);
+    const hand::StiffeningLaw law = printed_law(tissue, level);
     part.shear_modulus = shear_modulus.value_or(shear_modulus_at(law, part.d_max));
     part.swelling = tissue.swelling_height * law.g0 / part.shear_modulus;
     result.push_back(std::move(part));
@@ -114,7 +114,7 @@ std::vector<SubActiveRegion> sub_active_regions(const PreparedHand::Impl& prepar
 
 ContactProblem printed_problem(const PreparedHand::Impl& prepared, const SubActiveRegion& part,
                                const SkinOnProduct& skin) {
-  const RegionTissue& tissue = prepared.tissue(part.region);
+  const hand::RegionTissue& tissue = prepared.tissue(part.region);
   const auto m = static_cast<Eigen::Index>(part.vertex.size());
   ContactProblem problem{Eigen::MatrixXd::Zero(m, m), Eigen::VectorXd(m)};
   for (Eigen::Index i = 0; i < m; ++i) {
@@ -134,7 +134,7 @@ ContactProblem printed_problem(const PreparedHand::Impl& prepared, const SubActi
 
 Eigen::VectorXd printed_bulge(const PreparedHand::Impl& prepared, const SubActiveRegion& part,
                               const SkinOnProduct& skin, const Eigen::VectorXd& force) {
-  const RegionTissue& tissue = prepared.tissue(part.region);
+  const hand::RegionTissue& tissue = prepared.tissue(part.region);
   Eigen::VectorXd bulge = Eigen::VectorXd::Zero(force.size());
   for_pairs(prepared, part, [&](Eigen::Index i, Eigen::Index j, std::size_t e) {
     if (skin.sample[part.vertex[i]].distance < 0.0 || !(force[j] > 0.0)) return;
@@ -162,4 +162,4 @@ std::vector<double> contact_triangles(const std::vector<Vec3>& positions,
   return area;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -6,7 +6,7 @@
 
 #include "palmar/contact/press/press.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 PressOptions sphere_on_layer(double radius, double layer, const Coating& coating) {
@@ -45,4 +45,4 @@ TEST(AgainstFiniteElements, StiffCompressibleCoverOnThickSkin) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -18,7 +18,7 @@
 #include "palmar/contact/solve/lemke.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kFewestCells = 40;     // penetrating; else the lattice is split
@@ -275,10 +275,10 @@ void refine_rim(const PressGap& gap, const PressCompliance& compliance, double l
 }  // namespace
 
 PressStep press_half_space(const PressOptions& options, double depth) {
-  const TissueStiffness& stiffness =
+  const hand::TissueStiffness& stiffness =
       options.layer_thickness ? options.tissue.layered : options.tissue.half_space;
   const double shear_modulus = options.shear_modulus.value_or(
-      shear_modulus_at(law_at(stiffness, options.tissue_level), depth));
+      shear_modulus_at(hand::law_at(stiffness, options.tissue_level), depth));
   const PressCompliance compliance(options, shear_modulus);
   const bool may_split = options.kernel == Kernel::kPatch;
   PressStep step{.depth = depth, .shear_modulus = shear_modulus};
@@ -331,4 +331,4 @@ PressStep press_half_space(const PressOptions& options, double depth) {
   return step;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -15,7 +15,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kFinestPointSpacing = 0.8;  // mm
@@ -153,7 +153,7 @@ std::string name_of(const PressIndenter& indenter) {
   return text.str();
 }
 
-PressOptions::PressOptions() : tissue(finger_tissue()) {}
+PressOptions::PressOptions() : tissue(hand::finger_tissue()) {}
 
 void PressOptions::check() const {
   if (depths.empty() == forces.empty()) {
@@ -172,7 +172,7 @@ void PressOptions::check() const {
   }
   require(is_between(spacing, 0.05, 10.0), "press: spacing", spacing, "mm", "0.05 to 10 mm");
   require(is_between(std::abs(tilt), 0.0, std::numbers::pi / 3), "press: tilt",
-          tilt * kDegreesPerRadian, "deg", "-60 to 60 deg");
+          tilt * geometry::kDegreesPerRadian, "deg", "-60 to 60 deg");
   require(is_between(cell_area, 1e-3, 1000.0), "press: cell area", cell_area, "mm^2",
           "0.001 to 1000 mm^2");
   if (shear_modulus) {
@@ -213,24 +213,25 @@ void PressOptions::check() const {
   }
 }
 
-std::string_view name_of(TissueLevel level) {
-  if (level == TissueLevel::kLow) return "low";
-  return level == TissueLevel::kHigh ? "high" : "nominal";
+std::string_view name_of(hand::TissueLevel level) {
+  if (level == hand::TissueLevel::kLow) return "low";
+  return level == hand::TissueLevel::kHigh ? "high" : "nominal";
 }
 
-std::optional<TissueLevel> tissue_level_named(std::string_view name) {
-  for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
+std::optional<hand::TissueLevel> tissue_level_named(std::string_view name) {
+  for (const hand::TissueLevel level :
+       {hand::TissueLevel::kLow, hand::TissueLevel::kNominal, hand::TissueLevel::kHigh}) {
     if (name_of(level) == name) return level;
   }
   return std::nullopt;
 }
 
-Hand hand_at_tissue_level(Hand hand, TissueLevel level) {
-  for (RegionTissue& tissue : hand.tissue.region) {
-    for (TissueStiffness* stiffness : {&tissue.half_space, &tissue.layered}) {
-      stiffness->nominal = law_at(*stiffness, level);
+hand::Hand hand_at_tissue_level(hand::Hand hand, hand::TissueLevel level) {
+  for (hand::RegionTissue& tissue : hand.tissue.region) {
+    for (hand::TissueStiffness* stiffness : {&tissue.half_space, &tissue.layered}) {
+      stiffness->nominal = hand::law_at(*stiffness, level);
     }
-    tissue.on_bone.nominal = law_at(tissue.on_bone, level);
+    tissue.on_bone.nominal = hand::law_at(tissue.on_bone, level);
   }
   return hand;
 }
@@ -257,4 +258,4 @@ std::vector<PressStep> press(const PressOptions& options, const PreparedHand* ha
   return steps;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -9,7 +9,7 @@
 
 #include "palmar/contact/contact.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// What is pressed.
 struct PressSpecimen {
@@ -21,7 +21,7 @@ struct PressSpecimen {
   Kind kind = Kind::kPlane;
   double radius_x = 10.0;  ///< ellipsoid: radius of curvature at the apex along x, mm
   double radius_y = 10.0;  ///< ellipsoid: along y, mm
-  Region region = Region::kMiddleDistal;  ///< hand region
+  hand::Region region = hand::Region::kMiddleDistal;  ///< hand region
 };
 
 /// The rigid body that presses.
@@ -53,8 +53,8 @@ struct PressOptions {
   double cell_area = 24.0;  ///< mm^2
   std::optional<double> shear_modulus;  ///< MPa; else G(d) of the tissue
   // Of a plane or ellipsoid; a hand has its own tissue and its PreparedHand its own equations.
-  RegionTissue tissue;  ///< default: that of a finger
-  TissueLevel tissue_level = TissueLevel::kNominal;
+  hand::RegionTissue tissue;  ///< default: that of a finger
+  hand::TissueLevel tissue_level = hand::TissueLevel::kNominal;
   Kernel kernel = Kernel::kPatch;
   std::optional<double> layer_thickness;  ///< mm; bonded to rigid bone. None: a half-space
   std::optional<double> poisson;          ///< none: 0.5; of a layer that of the tissue
@@ -110,10 +110,10 @@ struct PressStep {
 std::vector<PressStep> press(const PressOptions& options, const PreparedHand* hand = nullptr);
 
 /// Which tissue a specimen has: "low", "nominal", "high".
-std::string_view name_of(TissueLevel level);
-std::optional<TissueLevel> tissue_level_named(std::string_view name);
+std::string_view name_of(hand::TissueLevel level);
+std::optional<hand::TissueLevel> tissue_level_named(std::string_view name);
 
 /// The hand with the low or high tissue of every region in place of the nominal one.
-Hand hand_at_tissue_level(Hand hand, TissueLevel level);
+hand::Hand hand_at_tissue_level(hand::Hand hand, hand::TissueLevel level);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -8,7 +8,7 @@
 
 #include "palmar/contact/response/response.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 class PressCompliance::Source {
  public:
@@ -115,4 +115,4 @@ std::vector<double> PressCompliance::displacement(const std::vector<Vec2>& point
   return u;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -9,7 +9,7 @@
 #include "palmar/contact/press/press_lattice.h"
 #include "palmar/contact/response/layered_response.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// How far flat skin and the cover of the indenter give way together: two compliances in series,
 ///
@@ -54,4 +54,4 @@ class PressCompliance {
   Kernel kernel_ = Kernel::kPatch;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

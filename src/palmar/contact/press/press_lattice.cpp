@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kRow = 0.86602540378443865;  // sqrt(3) / 2: rows of a lattice of spacing 1
@@ -150,4 +150,4 @@ std::vector<PressCell> split_cells(const PressGap& gap, const std::vector<PressC
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -7,7 +7,7 @@
 
 #include "palmar/contact/press/press.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 using Vec2 = Eigen::Vector2d;
 
@@ -63,4 +63,4 @@ std::vector<PressCell> press_lattice(const PressGap& gap, double spacing, double
 std::vector<PressCell> split_cells(const PressGap& gap, const std::vector<PressCell>& cells,
                                    const std::vector<char>& which, double limit);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 PressOptions sphere_on_plane(double radius, double spacing) {
@@ -91,7 +91,7 @@ TEST(Press, TiltedPunchTouchesWithItsEdgeFirst) {
   // Once all of it touches, the force is that of its centre's depth: 8 G a (depth - a tan(tilt)).
   PressOptions options = sphere_on_plane(5.0, 1.0);
   options.indenter.kind = PressIndenter::Kind::kPunch;
-  options.tilt = 2.0 * kDegree;
+  options.tilt = 2.0 * geometry::kDegree;
   options.depths = {0.05, 1.0};
   const std::vector<PressStep> steps = press(options);
   EXPECT_LT(steps[0].area, 10.0);  // a sliver
@@ -335,10 +335,11 @@ TEST(Press, TissueLevelChoosesTheLaw) {
   PressOptions options = sphere_on_plane(20.0, 1.25);
   options.shear_modulus.reset();
   options.depths = {1.0};
-  for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
+  for (const hand::TissueLevel level :
+       {hand::TissueLevel::kLow, hand::TissueLevel::kNominal, hand::TissueLevel::kHigh}) {
     options.tissue_level = level;
     const PressStep step = press(options).front();
-    const StiffeningLaw& law = law_at(options.tissue.half_space, level);
+    const hand::StiffeningLaw& law = hand::law_at(options.tissue.half_space, level);
     EXPECT_NEAR(step.shear_modulus, law.g0 + (law.g_limit - law.g0) / law.limit_depth, 1e-12);
   }
 }
@@ -397,8 +398,8 @@ TEST(Press, CoverOnAHandGivesWay) {
 }
 
 TEST(Press, HandAtATissueLevelHasItForNominal) {
-  const std::shared_ptr<const Hand> hand = contact_test::ball_hand(20.0, 2);
-  const Hand high = hand_at_tissue_level(*hand, TissueLevel::kHigh);
+  const std::shared_ptr<const hand::Hand> hand = contact_test::ball_hand(20.0, 2);
+  const hand::Hand high = hand_at_tissue_level(*hand, hand::TissueLevel::kHigh);
   for (std::size_t r = 0; r < hand->tissue.region.size(); ++r) {
     EXPECT_EQ(high.tissue.region[r].half_space.nominal.g_limit,
               hand->tissue.region[r].half_space.high.g_limit);
@@ -440,4 +441,4 @@ TEST(Press, RefusesWhatItCannotDo) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kMostDepths = 32;
@@ -137,4 +137,4 @@ PowerCurve::Value PowerCurve::at(double x) const {
   return {std::exp(log_y), slope};
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -8,7 +8,7 @@
 
 #include "palmar/contact/press/press.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// What an indentation test gives at a shear modulus of 1 MPa, at given depths and, if it isn't
 /// known, for several thicknesses of the layer over bone. Force is proportional to the modulus at a
@@ -48,4 +48,4 @@ class PowerCurve {
   std::vector<double> log_x_, log_y_, slope_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -14,7 +14,7 @@
 #include "palmar/contact/prepared/sub_active_region.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::ball_hand;
@@ -27,26 +27,27 @@ using ::testing::ThrowsMessage;
 constexpr double kEdge = 15.0;  // mm
 
 /// Regular tetrahedron about the origin; corners A, B, C of the palm, D of the dorsum.
-std::shared_ptr<Hand> four_corners() {
-  auto hand = std::make_shared<Hand>();
+std::shared_ptr<hand::Hand> four_corners() {
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "four corners";
   const double s = kEdge / std::sqrt(8.0);
   hand->skin.vertices = {s * Vec3(1, 1, 1), s * Vec3(1, -1, -1), s * Vec3(-1, 1, -1),
                          s * Vec3(-1, -1, 1)};
   hand->skin.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
-  hand->region = {Region::kThenar, Region::kThenar, Region::kThenar, Region::kDorsum};
-  hand->segment.assign(4, Segment::kPalm);
-  hand->tissue = default_tissue();
+  hand->region = {hand::Region::kThenar, hand::Region::kThenar, hand::Region::kThenar,
+                  hand::Region::kDorsum};
+  hand->segment.assign(4, hand::Segment::kPalm);
+  hand->tissue = hand::default_tissue();
   return hand;
 }
 
 /// Signed distances given for points; the product's normal looks at the origin.
-class Given : public DistanceField {
+class Given : public geometry::DistanceField {
  public:
   Given(std::vector<Vec3> points, std::vector<double> distances)
       : points_(std::move(points)), distances_(std::move(distances)) {}
   void sample(std::span<const Vec3> asked, double /*range*/,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < asked.size(); ++i) {
       std::size_t nearest = 0;
       for (std::size_t k = 1; k < points_.size(); ++k) {
@@ -64,11 +65,11 @@ class Given : public DistanceField {
   std::vector<double> distances_;
 };
 
-ContactResult contact_of(const std::shared_ptr<Hand>& hand, const std::vector<double>& distances,
-                         const ContactOptions& options = {}) {
+ContactResult contact_of(const std::shared_ptr<hand::Hand>& hand,
+                         const std::vector<double>& distances, const ContactOptions& options = {}) {
   const PreparedHand prepared(hand, xie2014_model());
   const std::vector<Vec3>& skin = hand->skin.vertices;
-  return solve_hand_contact(prepared, skin, Rigid3(), Given(skin, distances), options);
+  return solve_hand_contact(prepared, skin, geometry::Rigid3(), Given(skin, distances), options);
 }
 
 // At d_max = 3.5 mm, half of the palm's limit depth: G = 5 + (60 - 5) / 2 = 32.5 kPa (3-3), a =
@@ -143,7 +144,7 @@ TEST(PrintedContact, EquationsWithoutSolutionAreNamedAndCounted) {
   // a = 60 * 5 / 32.5 = 9.23 mm/N. The rows of B and C added up: 2 (0.16 - 9.23) p + (4.90 + 0.16 -
   // 9.23)(q + r) + 0.2 >= 0 leaves p + 0.23 (q + r) <= 0.011, but the row of A wants 0.7.
   auto hand = four_corners();
-  hand->tissue.region[static_cast<int>(Region::kThenar)].swelling_height = 60.0;
+  hand->tissue.region[static_cast<int>(hand::Region::kThenar)].swelling_height = 60.0;
   const ContactResult contact = contact_of(hand, {-3.5, 0.1, 0.1, 9.0});
   EXPECT_EQ(contact.status, ContactStatus::kSolved);
   EXPECT_EQ(contact.fallbacks.without_bulge, 1);
@@ -178,7 +179,9 @@ TEST(PrintedContact, KnowsNoCover) {
   const PreparedHand prepared(hand, patches);
   const Given product(hand->skin.vertices, {-1.0, 1.0, 1.0, 1.0});
   EXPECT_THAT(
-      [&] { solve_hand_contact(prepared, hand->skin.vertices, Rigid3(), product, options); },
+      [&] {
+        solve_hand_contact(prepared, hand->skin.vertices, geometry::Rigid3(), product, options);
+      },
       ThrowsMessage<UsageError>(HasSubstr("know no soft cover")));
 }
 
@@ -197,7 +200,7 @@ TEST(ActiveRegion, GrowsByRingsAcrossBordersButNotOntoTheDorsum) {
   const SkinGeometry& skin = prepared.impl().skin;
   double mean = 0.0;
   for (const double e : skin.edge_length) mean += e / static_cast<double>(skin.edge_length.size());
-  RegionTissue& tissue = hand->tissue.region[static_cast<int>(Region::kMiddleDistal)];
+  hand::RegionTissue& tissue = hand->tissue.region[static_cast<int>(hand::Region::kMiddleDistal)];
   // A vertex with six neighbours as far as three rings, well below the equator.
   const auto is_regular = [&](int v) {
     if (skin.position[v].z() > -25.0) return false;
@@ -215,11 +218,12 @@ TEST(ActiveRegion, GrowsByRingsAcrossBordersButNotOntoTheDorsum) {
   }
   // Two regions share the lower half: growth does not stop between them.
   for (int v = 0; v < skin.vertex_count(); ++v) {
-    if (hand->region[v] != Region::kDorsum && v != middle) hand->region[v] = Region::kMiddleMiddle;
+    if (hand->region[v] != hand::Region::kDorsum && v != middle)
+      hand->region[v] = hand::Region::kMiddleMiddle;
   }
   EXPECT_THAT(active_region(*hand, skin, {middle}), SizeIs(37));
   for (int v = 0; v < skin.vertex_count(); ++v) {
-    if (v != middle) hand->region[v] = Region::kDorsum;
+    if (v != middle) hand->region[v] = hand::Region::kDorsum;
   }
   EXPECT_THAT(active_region(*hand, skin, {middle}), ElementsAre(middle));
 }
@@ -229,12 +233,13 @@ TEST(SubActiveRegions, HaveTheirOwnDepthAndModulus) {
   auto hand = ball_hand(40.0, 3);
   for (std::size_t v = 0; v < hand->region.size(); ++v) {
     const Vec3& x = hand->skin.vertices[v];
-    if (x.z() < 0.0 && x.x() > 3.0) hand->region[v] = Region::kMiddleMiddle;
+    if (x.z() < 0.0 && x.x() > 3.0) hand->region[v] = hand::Region::kMiddleMiddle;
   }
   const PreparedHand prepared(hand, xie2014_model());
   SkinOnProduct skin;
   find_skin_as_printed(*hand, hand->skin.vertices, HalfSpace(-38.0), {}, skin);
-  const auto parts = sub_active_regions(prepared.impl(), skin, TissueLevel::kNominal, std::nullopt);
+  const auto parts =
+      sub_active_regions(prepared.impl(), skin, hand::TissueLevel::kNominal, std::nullopt);
   ASSERT_THAT(parts, SizeIs(2));
   for (const SubActiveRegion& part : parts) {
     double deepest = 0.0;
@@ -258,4 +263,4 @@ TEST(ContactTriangles, CountWithAnyLoadedCorner) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

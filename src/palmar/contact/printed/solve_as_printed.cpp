@@ -13,7 +13,7 @@
 #include "palmar/contact/prepared/sub_active_region.h"
 #include "palmar/contact/solve/lemke.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 void add_note(std::string& message, const std::string& text) {
@@ -23,7 +23,7 @@ void add_note(std::string& message, const std::string& text) {
 
 }  // namespace
 
-SkinLoad ContactSolver::Impl::solve_as_printed(const SkinOnProduct& skin, TissueLevel level,
+SkinLoad ContactSolver::Impl::solve_as_printed(const SkinOnProduct& skin, hand::TissueLevel level,
                                                ContactResult& result) const {
   struct Row {
     int vertex;
@@ -101,7 +101,8 @@ void ContactSolver::Impl::deform_as_printed(const SkinOnProduct& skin, const Ski
   }
 }
 
-void ContactSolver::Impl::finish_as_printed(const SkinOnProduct& skin, const DistanceField& product,
+void ContactSolver::Impl::finish_as_printed(const SkinOnProduct& skin,
+                                            const geometry::DistanceField& product,
                                             const SkinLoad& load, ContactResult& result) const {
   deform_as_printed(skin, load, result);
   const std::size_t n = result.undeformed.size();
@@ -110,7 +111,7 @@ void ContactSolver::Impl::finish_as_printed(const SkinOnProduct& skin, const Dis
     result.distance[v] = std::min(skin.sample[v].distance, kNearRange);
     result.pressure[v] = result.force[v] / prepared->skin.area[v];
   }
-  std::vector<DistanceSample> after(n);
+  std::vector<geometry::DistanceSample> after(n);
   sample_vertices(product, result.deformed, load.vertex, kNearRange, after);
   for (const int v : load.vertex) {
     double& residual = result.force[v] > 0.0 ? result.residual_penetration_contact
@@ -133,7 +134,7 @@ ContactBand ContactSolver::Impl::band_as_printed(const SkinOnProduct& skin,
     result.regions.push_back({.region = region.region, .force_per_modulus = region.force});
   }
   result.total.force_per_modulus = nominal.total.force;
-  for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kHigh}) {
+  for (const hand::TissueLevel level : {hand::TissueLevel::kLow, hand::TissueLevel::kHigh}) {
     ContactResult other;
     other.undeformed = nominal.undeformed;
     const SkinLoad load = solve_as_printed(skin, level, other);
@@ -143,11 +144,11 @@ ContactBand ContactSolver::Impl::band_as_printed(const SkinOnProduct& skin,
     for (std::size_t v = 0; v < other.force.size(); ++v) {
       other.pressure[v] = other.force[v] / prepared->skin.area[v];
     }
-    const std::array<double, kRegionCount> none{};
+    const std::array<double, hand::kRegionCount> none{};
     add_totals(*prepared, skin, prepared->skin, {}, {}, none, none, options.cell_area, other);
     set_band_level(other, level, result);
   }
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

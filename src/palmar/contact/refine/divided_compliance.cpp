@@ -8,7 +8,7 @@
 #include "palmar/contact/bone/half_space_tensor.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// Of near_share() over the mean edge: 1 up to 3.6 edges, 0 from 7.2 on. Our choice.
@@ -156,4 +156,4 @@ SkinCompliance divided_compliance(const SkinCompliance& compliance,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -8,7 +8,7 @@
 #include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/contact/response/skin_geometry.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Compliance of a skin of which parts were divided, from that of the skin before:
 ///
@@ -33,4 +33,4 @@ SkinCompliance divided_compliance(const SkinCompliance& compliance,
                                   const std::vector<char>& wanted,
                                   double reach = SkinComplianceOptions{}.reach);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -13,17 +13,17 @@
 #include "palmar/contact/bone/loaded_skin.h"
 #include "palmar/contact/refine/skin_division.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::half_space_compliance;
 
 constexpr double kSpacing = 2.5;  // mm
 
-SkinGeometry flat_skin() { return skin_geometry(make_lattice_patch(12.0, kSpacing)); }
+SkinGeometry flat_skin() { return skin_geometry(geometry::make_lattice_patch(12.0, kSpacing)); }
 
 SkinDivision divided_patch(int times) {
-  const TriangleMesh patch = make_lattice_patch(12.0, kSpacing);
+  const geometry::TriangleMesh patch = geometry::make_lattice_patch(12.0, kSpacing);
   SkinDivision division(patch.triangles, patch.vertices, patch.vertices,
                         std::vector<char>(patch.vertices.size(), 1));
   for (int i = 0; i < times; ++i) {
@@ -121,4 +121,4 @@ TEST(DividedCompliance, SkinWithoutComplianceHasNone) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

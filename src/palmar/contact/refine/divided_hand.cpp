@@ -8,13 +8,13 @@
 #include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/contact/refine/divided_compliance.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using Shares = std::vector<std::vector<std::pair<int, double>>>;
 
-std::shared_ptr<const Hand> with_skin(const Hand& hand, const SkinDivision& division) {
-  auto result = std::make_shared<Hand>(hand);
+std::shared_ptr<const hand::Hand> with_skin(const hand::Hand& hand, const SkinDivision& division) {
+  auto result = std::make_shared<hand::Hand>(hand);
   result->skin.vertices = division.at_rest();
   result->skin.triangles = division.triangles();
   for (const auto& [a, b] : division.ends()) {
@@ -58,7 +58,7 @@ std::vector<double> told_areas(const PreparedHand::Impl& from, const Shares& sha
 PreparedHand divided_hand(const PreparedHand& hand, const SkinDivision& division,
                           const std::vector<char>& wanted, bool with_meetings) {
   const PreparedHand::Impl& from = hand.impl();
-  const std::shared_ptr<const Hand> divided = with_skin(*from.hand, division);
+  const std::shared_ptr<const hand::Hand> divided = with_skin(*from.hand, division);
   const Shares share = division.shares();
   if (!from.is_on_bone()) {
     auto impl = std::make_unique<PreparedHand::Impl>(PreparedHand(divided, from.model).impl());
@@ -80,4 +80,4 @@ PreparedHand divided_hand(const PreparedHand& hand, const SkinDivision& division
   return PreparedHand(std::move(impl));
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

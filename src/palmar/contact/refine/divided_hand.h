@@ -5,7 +5,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/contact/refine/skin_division.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// A prepared hand with its skin divided: of new vertices regions and segments are those of an end,
 /// shares of blocks and moduli the means of both; compliance as in divided_compliance.h. Without
@@ -14,4 +14,4 @@ namespace palmar {
 PreparedHand divided_hand(const PreparedHand& hand, const SkinDivision& division,
                           const std::vector<char>& wanted, bool with_meetings);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -14,7 +14,7 @@
 #include "palmar/contact/refine/refined_contact.h"
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kPeakShare = 0.5;  // of the hand's peak on cells; lower ones decide nothing. Ours
@@ -65,7 +65,7 @@ double finest_edge(const SkinGeometry& skin) {
 /// One halving after the other.
 class Refinement {
  public:
-  Refinement(const ContactSolver::Impl& own, const DistanceField& product,
+  Refinement(const ContactSolver::Impl& own, const geometry::DistanceField& product,
              const ContactResult& result)
       : own_(own),
         product_(product),
@@ -99,7 +99,7 @@ class Refinement {
     if (solver_) {
       if (own_.options.error_band) {
         solver_->options.error_band = true;
-        solver_->solve(division_.posed(), Rigid3(), product_, std::nullopt, contact_);
+        solver_->solve(division_.posed(), geometry::Rigid3(), product_, std::nullopt, contact_);
       }
       told_.vertices = static_cast<int>(division_.ends().size());
       told_.finest_edge = finest_edge(solver_->prepared->skin);
@@ -126,12 +126,12 @@ class Refinement {
 
   /// Per vertex, whether its region's peak counts; at first every one does.
   std::vector<char> in_regions_that_count() const {
-    std::array<char, kRegionCount> counts{};
+    std::array<char, hand::kRegionCount> counts{};
     for (const RegionContact& one : contact_.regions) {
       counts[index_of(one.region)] = told_.levels == 0 || does_count(one, contact_) ? 1 : 0;
     }
     std::vector<char> result;
-    for (const Region region : last().prepared->hand->region) {
+    for (const hand::Region region : last().prepared->hand->region) {
       result.push_back(counts[index_of(region)]);
     }
     return result;
@@ -192,12 +192,12 @@ class Refinement {
     auto next = std::make_unique<ContactSolver::Impl>(*hand, options_);
     start(finer, *next);
     ContactResult found;
-    next->solve(finer.posed(), Rigid3(), product_, std::nullopt, found);
+    next->solve(finer.posed(), geometry::Rigid3(), product_, std::nullopt, found);
     for (int aim = 0; own_.prepared->is_on_bone() && aim < kMostAims; ++aim) {
       if (found.status != ContactStatus::kSolved) return false;
       const ContactResult before = found;
       take_aim(finer, found, *next);
-      next->solve(finer.posed(), Rigid3(), product_, std::nullopt, found);
+      next->solve(finer.posed(), geometry::Rigid3(), product_, std::nullopt, found);
       if (change_of_peaks(before, found) < kSteadyAim) break;
     }
     if (found.status != ContactStatus::kSolved) return false;
@@ -245,10 +245,10 @@ class Refinement {
     std::vector<Vec3> ends;
     for (std::size_t v = 0; v < motion_.size(); ++v) {
       if (!motion_[v]) continue;
-      next.aimed.emplace_back(static_cast<int>(v), DistanceSample{});
+      next.aimed.emplace_back(static_cast<int>(v), geometry::DistanceSample{});
       ends.emplace_back(finer.posed()[v] + *motion_[v]);
     }
-    std::vector<DistanceSample> found(ends.size());
+    std::vector<geometry::DistanceSample> found(ends.size());
     product_.sample(ends, kNearRange, found);
     for (std::size_t k = 0; k < ends.size(); ++k) {
       auto& [v, sample] = next.aimed[k];
@@ -258,7 +258,7 @@ class Refinement {
   }
 
   const ContactSolver::Impl& own_;
-  const DistanceField& product_;
+  const geometry::DistanceField& product_;
   ContactOptions options_;
   SkinDivision division_;
   ContactResult contact_;  // of the last level
@@ -270,7 +270,7 @@ class Refinement {
 
 }  // namespace
 
-void refine_contact(const ContactSolver::Impl& solver, const DistanceField& product,
+void refine_contact(const ContactSolver::Impl& solver, const geometry::DistanceField& product,
                     ContactResult& result) {
   if (!is_asked_for(solver, result)) return;
   Refinement refinement(solver, product, result);
@@ -278,4 +278,4 @@ void refine_contact(const ContactSolver::Impl& solver, const DistanceField& prod
   refinement.tell(result);
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -5,7 +5,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/contact/prepared/contact_solver.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Refines the skin of a solved contact where the product turns too far from a loaded vertex to its
 /// neighbour (is_unresolved()), if a region has more than kToldShare of its force there: halves the
@@ -21,7 +21,7 @@ namespace palmar {
 /// the place of that of x, and its tangent plane gives the gap; solved again until the peaks hold.
 /// Skin deeper in an edge than its fillet is round has the flat faces beside it nearest, and every
 /// fillet would press like a sharp edge.
-void refine_contact(const ContactSolver::Impl& solver, const DistanceField& product,
+void refine_contact(const ContactSolver::Impl& solver, const geometry::DistanceField& product,
                     ContactResult& result);
 
-}  // namespace palmar
+}  // namespace palmar::contact

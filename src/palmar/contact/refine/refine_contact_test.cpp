@@ -13,7 +13,7 @@
 #include "palmar/contact/prepared/resolution.h"
 #include "palmar/contact/refine/refined_contact.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::press_on_edge;
@@ -44,11 +44,11 @@ ContactResult press_with_force(double fillet, double force, const ContactOptions
 }
 
 /// A round bar along y that presses skin in the plane z = 0.
-class Bar : public DistanceField {
+class Bar : public geometry::DistanceField {
  public:
   Bar(double radius, double depth) : radius_(radius), height_(radius - depth) {}
   void sample(std::span<const Vec3> points, double /*range*/,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 axis(0.0, points[i].y(), height_);
       const Vec3 n = (points[i] - axis).normalized();
@@ -217,4 +217,4 @@ TEST(RefineContact, TheEdgeOfAPlatePressesTheMoreTheThickerItIs) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -7,13 +7,13 @@
 #include "palmar/contact/contact.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// A contact on the hand's skin as it was refined. `hand` is the hand with that skin, in its
 /// reference posture; its first vertices are those of the hand's own. Per-vertex fields of
 /// `contact` follow it; it has no `refined` of its own.
 struct RefinedContact {
-  std::shared_ptr<const Hand> hand;
+  std::shared_ptr<const hand::Hand> hand;
   ContactResult contact;
 };
 
@@ -24,4 +24,4 @@ inline constexpr int kMostLevels = 3;
 /// Vertices that are added at most; what would take more stays as it is, unresolved. Our choice.
 inline constexpr int kMostAdded = 4000;
 
-}  // namespace palmar
+}  // namespace palmar::contact

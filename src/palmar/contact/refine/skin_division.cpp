@@ -7,7 +7,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kLeastCosine = 0.5;  // of the normals at an edge's ends; below, a crease
@@ -127,7 +127,8 @@ void SkinDivision::close() {
       triangles_.push_back({t[across], edge[k], edge[k + 1]});
     }
   }
-  for (Shape& shape : shape_) area_weighted_normals(shape.position, triangles_, shape.normal);
+  for (Shape& shape : shape_)
+    geometry::area_weighted_normals(shape.position, triangles_, shape.normal);
 }
 
 std::vector<std::vector<std::pair<int, double>>> SkinDivision::shares() const {
@@ -150,4 +151,4 @@ std::vector<std::vector<std::pair<int, double>>> SkinDivision::shares() const {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -10,7 +10,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// A posed skin whose triangles are divided into four where that is asked for, again and again; a
 /// neighbour that is left with one halved edge is cut in two, so that the mesh stays closed (red
@@ -63,4 +63,4 @@ class SkinDivision {
   std::unordered_map<std::uint64_t, int> middle_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

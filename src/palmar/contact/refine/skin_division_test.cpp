@@ -10,13 +10,13 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kSkinBall = 10.0;  // mm
 
 SkinDivision divided_ball(int times, const std::vector<char>& may_divide = {}) {
-  const TriangleMesh ball = make_icosphere(kSkinBall, 3);
+  const geometry::TriangleMesh ball = geometry::make_icosphere(kSkinBall, 3);
   std::vector<Vec3> posed = ball.vertices;
   for (Vec3& x : posed) x += Vec3(100.0, 0.0, 0.0);
   SkinDivision division(ball.triangles, ball.vertices, posed,
@@ -41,7 +41,7 @@ std::map<std::pair<int, int>, int> edges_of(const std::vector<Triangle>& triangl
 
 TEST(SkinDivision, StaysClosedAndKeepsItsVertices) {
   const SkinDivision division = divided_ball(3);
-  const TriangleMesh ball = make_icosphere(kSkinBall, 3);
+  const geometry::TriangleMesh ball = geometry::make_icosphere(kSkinBall, 3);
   ASSERT_GT(division.ends().size(), 300u);
   EXPECT_LT(division.ends().size(), 3000u);
   for (const auto& [edge, count] : edges_of(division.triangles())) EXPECT_EQ(count, 2);
@@ -96,7 +96,7 @@ TEST(SkinDivision, SharesAreThoseOfTheTriangleThatAVertexIsIn) {
 }
 
 TEST(SkinDivision, WhatMayNotBeDividedIsOnlyCutAtItsBorder) {
-  const TriangleMesh ball = make_icosphere(kSkinBall, 3);
+  const geometry::TriangleMesh ball = geometry::make_icosphere(kSkinBall, 3);
   std::vector<char> may_divide;
   for (const Vec3& x : ball.vertices) may_divide.push_back(x.x() > 0.0 ? 1 : 0);
   const SkinDivision division = divided_ball(3, may_divide);
@@ -112,4 +112,4 @@ TEST(SkinDivision, WhatMayNotBeDividedIsOnlyCutAtItsBorder) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -9,7 +9,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/distance/ray_query.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kDirections = 96;
@@ -32,11 +32,11 @@ std::vector<Vec3> cosine_weighted_directions() {
 
 }  // namespace
 
-std::vector<double> effective_layer_thickness(const Hand& hand, const SkinGeometry& skin) {
+std::vector<double> effective_layer_thickness(const hand::Hand& hand, const SkinGeometry& skin) {
   const std::size_t n = skin.position.size();
   std::vector<double> thickness(n, kMostLayerThickness);
-  TriangleMesh bones;
-  for (const Bone& bone : hand.bones) {
+  geometry::TriangleMesh bones;
+  for (const hand::Bone& bone : hand.bones) {
     const int first = bones.vertex_count();
     bones.vertices.insert(bones.vertices.end(), bone.mesh.vertices.begin(),
                           bone.mesh.vertices.end());
@@ -45,7 +45,7 @@ std::vector<double> effective_layer_thickness(const Hand& hand, const SkinGeomet
     }
   }
   if (bones.triangles.empty()) return thickness;
-  const RayQuery query(bones);
+  const geometry::RayQuery query(bones);
   const std::vector<Vec3> directions = cosine_weighted_directions();
   parallel_for(static_cast<int>(n), [&](int vertex) {
     Eigen::Matrix3d axes;
@@ -68,4 +68,4 @@ std::vector<double> effective_layer_thickness(const Hand& hand, const SkinGeomet
   return thickness;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

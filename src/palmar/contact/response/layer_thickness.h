@@ -7,7 +7,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Thickness h [mm] of the flat layer on flat bone that holds the skin at a vertex as firmly as the
 /// real bones do, from all the bone that the vertex sees:
@@ -22,9 +22,9 @@ namespace palmar {
 /// docs/developing/finite-elements.md).
 ///
 /// 96 directions, the same at every vertex. Between kLeast and kMost; kMost without bones.
-std::vector<double> effective_layer_thickness(const Hand& hand, const SkinGeometry& skin);
+std::vector<double> effective_layer_thickness(const hand::Hand& hand, const SkinGeometry& skin);
 
 inline constexpr double kLeastLayerThickness = 1.0;  ///< mm
 inline constexpr double kMostLayerThickness = 40.0;  ///< mm; half-space for the sizes of contacts
 
-}  // namespace palmar
+}  // namespace palmar::contact

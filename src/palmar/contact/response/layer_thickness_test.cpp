@@ -8,12 +8,12 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// One vertex of skin at the origin that looks down on a bone below it.
-Hand over_bone(TriangleMesh bone) {
-  Hand hand;
+hand::Hand over_bone(geometry::TriangleMesh bone) {
+  hand::Hand hand;
   hand.bones.push_back({.name = "bone", .segment = {}, .mesh = std::move(bone)});
   return hand;
 }
@@ -26,7 +26,7 @@ SkinGeometry one_vertex() {
 }
 
 TEST(EffectiveLayerThickness, OfFlatBoneIsItsDepth) {
-  TriangleMesh plate;
+  geometry::TriangleMesh plate;
   plate.vertices = {Vec3(-2e3, -2e3, -4.0), Vec3(2e3, -2e3, -4.0), Vec3(2e3, 2e3, -4.0),
                     Vec3(-2e3, 2e3, -4.0)};
   plate.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -39,7 +39,7 @@ TEST(EffectiveLayerThickness, OfABallOfBoneIsThatOfItsView) {
   // L = D cos t - sqrt(b^2 - D^2 sin^2 t). 1 / h^2 = Int 2 sin t cos t / (L cos t)^2 dt.
   constexpr double kRadius = 3.0;
   constexpr double kDepth = 7.0;
-  TriangleMesh ball = make_icosphere(kRadius, 5);
+  geometry::TriangleMesh ball = geometry::make_icosphere(kRadius, 5);
   for (Vec3& v : ball.vertices) v.z() -= kDepth;
   double sum = 0.0;
   constexpr int kSteps = 100000;
@@ -59,11 +59,11 @@ TEST(EffectiveLayerThickness, OfABallOfBoneIsThatOfItsView) {
 }
 
 TEST(EffectiveLayerThickness, WithoutBoneIsTheMost) {
-  EXPECT_EQ(effective_layer_thickness(Hand(), one_vertex())[0], kMostLayerThickness);
-  TriangleMesh behind = make_icosphere(3.0, 2);
+  EXPECT_EQ(effective_layer_thickness(hand::Hand(), one_vertex())[0], kMostLayerThickness);
+  geometry::TriangleMesh behind = geometry::make_icosphere(3.0, 2);
   for (Vec3& v : behind.vertices) v.z() += 10.0;  // on the outer side of the skin
   EXPECT_EQ(effective_layer_thickness(over_bone(behind), one_vertex())[0], kMostLayerThickness);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -15,7 +15,7 @@
 #include "palmar/contact/response/response.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kStride = LayerKernel::kStride;
@@ -217,4 +217,4 @@ double layered_response(const LayerKernel& kernel, double r, double a, double h)
   return half_space - share * kernel.correction(r / h, a / h);
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

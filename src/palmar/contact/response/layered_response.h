@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Normal displacement of an elastic layer of thickness h bonded to a rigid base (skin over bone,
 /// the cover of a product), under a normal force of 1 N without friction, times its shear modulus
@@ -78,4 +78,4 @@ class LayerSource {
 /// The same force on a half-space of any Poisson's ratio: 2 (1 - nu) disc_response().
 double half_space_response(double poisson, double r, double a);
 
-}  // namespace palmar
+}  // namespace palmar::contact

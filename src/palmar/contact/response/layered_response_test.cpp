@@ -15,7 +15,7 @@
 #include "palmar/contact/response/response.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// M(x) as printed, hyperbolic functions and all.
@@ -179,4 +179,4 @@ TEST(LayerKernelCache, RefusesImpossibleMaterial) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -8,7 +8,7 @@
 #include "palmar/contact/response/skin_response.h"
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// 1 up to two thirds of the reach, 0 beyond it.
@@ -19,11 +19,11 @@ double fade(double distance) {
 
 }  // namespace
 
-PairResponse::PairResponse(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-                           const std::vector<double>& thickness)
+PairResponse::PairResponse(const hand::Hand& hand, const SkinGeometry& skin,
+                           const ContactModel& model, const std::vector<double>& thickness)
     : skin_(&skin), model_(model), thickness_(&thickness) {
   if (model.tissue != TissueModel::kLayered) return;
-  for (const Region region : hand.region) {
+  for (const hand::Region region : hand.region) {
     kernel_.push_back(&layer_kernel(hand.tissue.region[index_of(region)].poisson_layered));
   }
 }
@@ -42,4 +42,4 @@ float PairResponse::operator()(int i, int j, double r) const {
        layered_response(*kernel_[j], r, a_i, h) + layered_response(*kernel_[j], r, a_j, h)));
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using std::numbers::pi;
@@ -61,12 +61,12 @@ double gaussian_response(double r, double b, double c) {
   return x * x > 36.0 ? 0.0 : std::exp(-0.5 * x * x);
 }
 
-double shear_modulus_at(const StiffeningLaw& law, double d_max) {
+double shear_modulus_at(const hand::StiffeningLaw& law, double d_max) {
   const double share = std::clamp(d_max / law.limit_depth, 0.0, 1.0);
   return law.g0 + (law.g_limit - law.g0) * share;
 }
 
-double swelling_height_at(const RegionTissue& tissue, double force) {
+double swelling_height_at(const hand::RegionTissue& tissue, double force) {
   constexpr double kReferenceForce = 1.0;  // N; Xie 2014, Table 3-2
   return tissue.swelling_height * std::min(1.0, force / kReferenceForce);
 }
@@ -82,4 +82,4 @@ double disc_overlap(double r, double a, double b) {
          b * b * std::acos(std::clamp(y / b, -1.0, 1.0)) - r * half_chord;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -4,7 +4,7 @@
 
 #include "palmar/contact/contact.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Normal displacement of an incompressible (nu = 0.5) elastic half-space under a normal force,
 /// times its shear modulus G: u [mm] = response [1/mm] * force [N] / G [MPa], positive inwards.
@@ -35,16 +35,16 @@ double gaussian_response(double r, double b, double c);
 
 /// Shear modulus of a region at the largest penetration d_max [mm] (Xie 2014, eq. 3-3), MPa:
 /// G0 + (G_lim - G0) d_max / d_lim, held at G_lim beyond d_lim.
-double shear_modulus_at(const StiffeningLaw& law, double d_max);
+double shear_modulus_at(const hand::StiffeningLaw& law, double d_max);
 
 /// Height of the bulge around a contact that carries `force` [N] in all, mm: a0 min(1, F / 1 N).
 /// Eq. (3-6), a(d_max) = a0 G0 / G, is meant to keep the height of the bulge while the force grows
 /// (measured change: 0.1 mm; Xie 2014, section 3.3.1), but force grows faster than G, and a wide
 /// palm contact would bulge by 20 mm; so the height itself is held at a0, measured at 1 N.
-double swelling_height_at(const RegionTissue& tissue, double force);
+double swelling_height_at(const hand::RegionTissue& tissue, double force);
 
 /// Area [mm^2] shared by two discs of radii a, b [mm] whose centres are r [mm] apart. Used to
 /// average vertex pressures over a sensor cell.
 double disc_overlap(double r, double a, double b);
 
-}  // namespace palmar
+}  // namespace palmar::contact

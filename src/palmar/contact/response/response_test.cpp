@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 TEST(DiscResponse, MeetsTheClosedFormsOfUniformPressure) {
@@ -55,7 +55,7 @@ TEST(PointResponse, IsHeldBelowHalfAMillimetre) {
 }
 
 TEST(ShearModulus, GrowsLinearlyToItsLimit) {
-  const StiffeningLaw tissue{.g0 = 0.005, .g_limit = 0.085, .limit_depth = 4.0};
+  const hand::StiffeningLaw tissue{.g0 = 0.005, .g_limit = 0.085, .limit_depth = 4.0};
   EXPECT_DOUBLE_EQ(shear_modulus_at(tissue, 0.0), 0.005);
   EXPECT_DOUBLE_EQ(shear_modulus_at(tissue, 2.0), 0.045);
   EXPECT_DOUBLE_EQ(shear_modulus_at(tissue, 9.0), 0.085);
@@ -71,7 +71,7 @@ TEST(DiscOverlap, KnowsApartInsideAndHalfWay) {
 
 TEST(ResponseMatrix, IsSymmetricAndPositiveDefiniteOnIrregularSkin) {
   // Vertices of an icosphere moved about on it: areas and distances vary by a factor of two.
-  auto hand = std::make_shared<Hand>(*contact_test::ball_hand(10.0, 3));
+  auto hand = std::make_shared<hand::Hand>(*contact_test::ball_hand(10.0, 3));
   for (std::size_t v = 0; v < hand->skin.vertices.size(); ++v) {
     Vec3& q = hand->skin.vertices[v];
     const double angle = 2.4 * static_cast<double>(v);
@@ -89,7 +89,7 @@ TEST(ResponseMatrix, IsSymmetricAndPositiveDefiniteOnIrregularSkin) {
 }
 
 TEST(ArcDistance, IsExactOnSphereAndCylinder) {
-  const SkinGeometry ball = skin_geometry(make_icosphere(10.0, 3));
+  const SkinGeometry ball = skin_geometry(geometry::make_icosphere(10.0, 3));
   for (const int j : {5, 77, 300}) {
     const double angle = std::acos(ball.position[0].dot(ball.position[j]) / 100.0);
     // Vertex normals of the mesh lean from the sphere's by a little.
@@ -105,10 +105,10 @@ TEST(ArcDistance, IsExactOnSphereAndCylinder) {
 
 TEST(VoronoiAreas, SumToTheSurface) {
   double sum = 0.0;
-  for (const double a : vertex_areas(make_icosphere(10.0, 4))) sum += a;
+  for (const double a : geometry::vertex_areas(geometry::make_icosphere(10.0, 4))) sum += a;
   EXPECT_NEAR(sum, 400.0 * std::numbers::pi,
               0.004 * 400.0 * std::numbers::pi);  // facets of an inscribed polyhedron
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -14,15 +14,15 @@
 #include "palmar/contact/response/response.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 namespace {
 
 /// Everything but the neighbours, which `result` has.
-void measure_skin(const TriangleMesh& skin, SkinGeometry& result) {
+void measure_skin(const geometry::TriangleMesh& skin, SkinGeometry& result) {
   result.position = skin.vertices;
-  result.normal = area_weighted_normals(skin.vertices, skin.triangles);
-  result.area = vertex_areas(skin);
+  result.normal = geometry::area_weighted_normals(skin.vertices, skin.triangles);
+  result.area = geometry::vertex_areas(skin);
   result.radius.clear();
   result.radius.reserve(result.area.size());
   for (const double a : result.area) result.radius.push_back(std::sqrt(a / std::numbers::pi));
@@ -37,7 +37,7 @@ void measure_skin(const TriangleMesh& skin, SkinGeometry& result) {
 
 }  // namespace
 
-SkinGeometry skin_geometry(const TriangleMesh& skin) {
+SkinGeometry skin_geometry(const geometry::TriangleMesh& skin) {
   SkinGeometry result;
   std::vector<std::pair<int, int>> edges;
   edges.reserve(6 * skin.triangles.size());
@@ -62,7 +62,7 @@ SkinGeometry skin_geometry(const TriangleMesh& skin) {
   return result;
 }
 
-SkinGeometry skin_geometry_like(const TriangleMesh& skin, const SkinGeometry& other) {
+SkinGeometry skin_geometry_like(const geometry::TriangleMesh& skin, const SkinGeometry& other) {
   SkinGeometry result;
   result.ring_begin = other.ring_begin;
   result.ring = other.ring;
@@ -170,4 +170,4 @@ std::vector<std::vector<int>> connected_parts(const SkinGeometry& skin,
   return parts;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Which skin a pressure sensor's cell, a disc on the skin centred on a vertex, covers.
 struct SensorCells {
@@ -35,9 +35,9 @@ struct SkinGeometry {
 /// Cell of the sensors used by Xie 2014 (4.2 per cm^2).
 constexpr double kUsualCellArea = 24.0;  // mm^2
 
-SkinGeometry skin_geometry(const TriangleMesh& skin);
+SkinGeometry skin_geometry(const geometry::TriangleMesh& skin);
 /// The same for a skin with the triangles of `other`, from its neighbours.
-SkinGeometry skin_geometry_like(const TriangleMesh& skin, const SkinGeometry& other);
+SkinGeometry skin_geometry_like(const geometry::TriangleMesh& skin, const SkinGeometry& other);
 
 /// The cells of `cell_area` [mm^2, one each] centred on `centres`, in their order; distances by
 /// arc_distance().
@@ -67,4 +67,4 @@ std::vector<GrownVertex> grow(const SkinGeometry& skin, std::span<const int> sou
 std::vector<std::vector<int>> connected_parts(const SkinGeometry& skin,
                                               const std::vector<int>& vertices);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/contact/response/skin_patches.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 SkinPatches skin_patches(const SkinGeometry& skin, int size) {
   SkinPatches result;
@@ -38,4 +38,4 @@ std::vector<Vec3> patch_centres(const SkinGeometry& skin, const SkinPatches& pat
   return centre;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -6,7 +6,7 @@
 
 #include "palmar/contact/response/skin_geometry.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Partition of a skin into patches of neighbouring vertices: blocks of a preconditioner, clusters,
 /// spots for coarse questions. `patch` per vertex; patches are numbered from 0 in the order of
@@ -22,4 +22,4 @@ SkinPatches skin_patches(const SkinGeometry& skin, int size);
 /// Mean position of the vertices of each patch, mm.
 std::vector<Vec3> patch_centres(const SkinGeometry& skin, const SkinPatches& patches);
 
-}  // namespace palmar
+}  // namespace palmar::contact

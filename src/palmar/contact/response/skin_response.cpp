@@ -12,7 +12,7 @@
 #include "palmar/geometry/geodesic/geodesic.h"
 #include "palmar/geometry/geodesic/isomap.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kFarthestPair = 400.0;  // mm; no two points of a region are farther apart
@@ -28,7 +28,8 @@ struct Pair {
 };
 using Columns = std::vector<std::vector<Pair>>;
 
-Columns columns_of(const GeodesicTable& table, const std::vector<int>& vertices, int count) {
+Columns columns_of(const geometry::GeodesicTable& table, const std::vector<int>& vertices,
+                   int count) {
   Columns columns(count);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     std::vector<Pair>& column = columns[vertices[i]];
@@ -39,19 +40,21 @@ Columns columns_of(const GeodesicTable& table, const std::vector<int>& vertices,
   return columns;
 }
 
-Columns all_within(const GeodesicSolver& solver, double reach,
+Columns all_within(const geometry::GeodesicSolver& solver, double reach,
                    const std::vector<int>* only = nullptr) {
   if (only != nullptr) {
-    return columns_of(geodesic_table(solver, *only, reach), *only, solver.vertex_count());
+    return columns_of(geometry::geodesic_table(solver, *only, reach), *only, solver.vertex_count());
   }
   std::vector<int> vertices(solver.vertex_count());
   for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = static_cast<int>(v);
-  return columns_of(geodesic_table(solver, vertices, reach), vertices, solver.vertex_count());
+  return columns_of(geometry::geodesic_table(solver, vertices, reach), vertices,
+                    solver.vertex_count());
 }
 
 /// Pairs of one region as straight lines in its flat picture (Xie 2014, A2).
-void add_flat_pairs(const Hand& hand, const std::vector<int>& own, Columns& columns) {
-  const FlatPatch flat = flatten_by_isomap(edge_path_distances(hand.skin, own));
+void add_flat_pairs(const hand::Hand& hand, const std::vector<int>& own, Columns& columns) {
+  const geometry::FlatPatch flat =
+      geometry::flatten_by_isomap(geometry::edge_path_distances(hand.skin, own));
   for (std::size_t j = 0; j < own.size(); ++j) {
     std::vector<Pair>& column = columns[own[j]];
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -64,23 +67,23 @@ void add_flat_pairs(const Hand& hand, const std::vector<int>& own, Columns& colu
 }
 
 /// Pairs of the same region along paths inside it, and rows of other regions near a column.
-Columns by_region(const Hand& hand, const GeodesicSolver& solver, SkinDistance kind,
+Columns by_region(const hand::Hand& hand, const geometry::GeodesicSolver& solver, SkinDistance kind,
                   double margin = 1.0) {
   const int count = solver.vertex_count();
   double widest = 0.0;
-  for (const RegionTissue& tissue : hand.tissue.region) {
+  for (const hand::RegionTissue& tissue : hand.tissue.region) {
     widest = std::max(widest, tissue.neighbourhood);
   }
   Columns columns = all_within(solver, margin * widest);
   for (int j = 0; j < count; ++j) {
-    const Region region = hand.region[j];
+    const hand::Region region = hand.region[j];
     const auto reach =
         static_cast<float>(margin * hand.tissue.region[index_of(region)].neighbourhood);
     std::erase_if(columns[j], [&](const Pair& pair) {
       return hand.region[pair.vertex] == region || pair.distance > reach;
     });
   }
-  for (int r = 0; r < kRegionCount; ++r) {
+  for (int r = 0; r < hand::kRegionCount; ++r) {
     std::vector<int> own;
     std::vector<unsigned char> allowed(count, 0);
     for (int v = 0; v < count; ++v) {
@@ -89,12 +92,12 @@ Columns by_region(const Hand& hand, const GeodesicSolver& solver, SkinDistance k
       allowed[v] = 1;
     }
     if (own.empty()) continue;
-    const bool is_dorsum = static_cast<Region>(r) == Region::kDorsum;
+    const bool is_dorsum = static_cast<hand::Region>(r) == hand::Region::kDorsum;
     if (kind == SkinDistance::kIsomap && !is_dorsum) {
       add_flat_pairs(hand, own, columns);
     } else {
-      const GeodesicTable table =
-          geodesic_table(solver, own, is_dorsum ? margin * kResponseReach : kFarthestPair, allowed);
+      const geometry::GeodesicTable table = geometry::geodesic_table(
+          solver, own, is_dorsum ? margin * kResponseReach : kFarthestPair, allowed);
       const Columns inside = columns_of(table, own, count);
       for (const int v : own) {
         const std::vector<Pair>& more = inside[v];
@@ -164,7 +167,8 @@ std::vector<int> middles(const SkinGeometry& skin, const SkinPatches& clusters) 
 /// Weights by which the field of the clusters is interpolated at each vertex: smooth bumps about
 /// the clusters' middles, normalised (Shepard 1968).
 void set_support(const SkinGeometry& skin, const SkinPatches& clusters,
-                 const std::vector<int>& middle, const GeodesicTable& table, SkinResponse& result) {
+                 const std::vector<int>& middle, const geometry::GeodesicTable& table,
+                 SkinResponse& result) {
   result.support_begin.push_back(0);
   for (std::size_t v = 0; v < skin.position.size(); ++v) {
     const auto own = static_cast<std::size_t>(clusters.patch[v]);
@@ -222,12 +226,12 @@ void subtract_far(SkinResponse& result) {
 }
 
 /// Near part by vertex, far part by cluster.
-SkinResponse two_level(const SkinGeometry& skin, const GeodesicSolver& solver,
+SkinResponse two_level(const SkinGeometry& skin, const geometry::GeodesicSolver& solver,
                        const PairResponse& response) {
   const int count = skin.vertex_count();
   const SkinPatches clusters = skin_patches(skin, std::max(2, (count + kClusters / 2) / kClusters));
   const std::vector<int> middle = middles(skin, clusters);
-  const GeodesicTable table = geodesic_table(solver, middle, kResponseReach);
+  const geometry::GeodesicTable table = geometry::geodesic_table(solver, middle, kResponseReach);
   std::vector<std::vector<int>> members(middle.size());
   for (int v = 0; v < count; ++v) {
     members[clusters.patch[v]].push_back(v);
@@ -273,9 +277,10 @@ SkinResponse two_level(const SkinGeometry& skin, const GeodesicSolver& solver,
 
 }  // namespace
 
-SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-                           const std::vector<double>& thickness, const std::vector<int>* only) {
-  const GeodesicSolver solver(hand.skin);
+SkinResponse skin_response(const hand::Hand& hand, const SkinGeometry& skin,
+                           const ContactModel& model, const std::vector<double>& thickness,
+                           const std::vector<int>* only) {
+  const geometry::GeodesicSolver solver(hand.skin);
   const PairResponse response(hand, skin, model, thickness);
   const bool is_coupled = model.coupling == RegionCoupling::kCoupled;
   if (is_coupled && skin.vertex_count() > kMostFullVertices) {
@@ -288,9 +293,9 @@ SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const Con
   return result;
 }
 
-SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
+SkinPairs skin_pairs(const hand::Hand& hand, const SkinGeometry& skin, const ContactModel& model,
                      const std::vector<int>* only) {
-  const GeodesicSolver solver(hand.skin);
+  const geometry::GeodesicSolver solver(hand.skin);
   const Columns columns = model.coupling == RegionCoupling::kCoupled
                               ? all_within(solver, kPairMargin * kResponseReach, only)
                               : by_region(hand, solver, model.distance, kPairMargin);
@@ -317,7 +322,7 @@ SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactMo
 double SkinResponse::near_share(double r) const { return has_far() ? share_near(r) : 1.0; }
 
 Eigen::MatrixXd dense_response(const SkinResponse& response, const std::vector<int>& vertices,
-                               const std::vector<Region>& region, bool across) {
+                               const std::vector<hand::Region>& region, bool across) {
   const auto m = static_cast<Eigen::Index>(vertices.size());
   Eigen::MatrixXd R = Eigen::MatrixXd::Zero(m, m);
   for (Eigen::Index j = 0; j < m; ++j) {
@@ -335,4 +340,4 @@ Eigen::MatrixXd dense_response(const SkinResponse& response, const std::vector<i
   return R;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -11,7 +11,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/response/skin_patches.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// How far a vertex force moves the skin around it, for every vertex of a hand (Xie 2014, eq. 3-11:
 /// R_Bou, and the distances that R_Gau is made of). Sparse columns: entries begin[j] to
@@ -77,8 +77,8 @@ constexpr double kResponseReach = 20.0;  // mm
 ///
 /// `thickness` of the layer per vertex [mm] is used by TissueModel::kLayered. `only`: the vertices
 /// (ascending) among which responses are wanted, of a coupled skin without a far part; null: all.
-SkinResponse skin_response(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
-                           const std::vector<double>& thickness,
+SkinResponse skin_response(const hand::Hand& hand, const SkinGeometry& skin,
+                           const ContactModel& model, const std::vector<double>& thickness,
                            const std::vector<int>* only = nullptr);
 
 /// The pairs of a skin that act on each other on it or on any skin of the same mesh up to
@@ -92,18 +92,18 @@ struct SkinPairs {
 constexpr double kPairMargin = 1.35;  // hands of people are at most that much smaller than a mean
 
 /// `only` as above.
-SkinPairs skin_pairs(const Hand& hand, const SkinGeometry& skin, const ContactModel& model,
+SkinPairs skin_pairs(const hand::Hand& hand, const SkinGeometry& skin, const ContactModel& model,
                      const std::vector<int>* only = nullptr);
 
 /// Responses of another hand of the same mesh: its distances on the skin are its arcs times the
 /// detours of `pairs`. Of a hand's own pairs this gives skin_response() but for rounding.
-SkinResponse stretched_response(const Hand& hand, const SkinGeometry& skin,
+SkinResponse stretched_response(const hand::Hand& hand, const SkinGeometry& skin,
                                 const ContactModel& model, const std::vector<double>& thickness,
                                 const SkinPairs& pairs);
 
 /// The responses in the columns between some vertices (ascending) as a dense matrix, 1/mm; zero
 /// where a pair has none. Without `across`, pairs of different regions have none.
 Eigen::MatrixXd dense_response(const SkinResponse& response, const std::vector<int>& vertices,
-                               const std::vector<Region>& region, bool across);
+                               const std::vector<hand::Region>& region, bool across);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace palmar {
+namespace palmar::contact {
 
 /// A sparse matrix, row by row: entries begin[i] to begin[i + 1] - 1.
 struct SparseRows {
@@ -16,4 +16,4 @@ struct SparseRows {
   std::size_t size() const { return begin.size() - 1; }
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -12,7 +12,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/core/processor.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kBlock = 64;  // columns
@@ -146,24 +146,24 @@ void responses_any(const SkinLines& skin, std::size_t j, const std::int32_t* ver
 /// Up to which distance a response is wanted, mm.
 class Reach {
  public:
-  Reach(const Hand& hand, const ContactModel& model) : hand_(&hand), model_(model) {}
+  Reach(const hand::Hand& hand, const ContactModel& model) : hand_(&hand), model_(model) {}
   float operator()(int i, int j) const {
     if (model_.coupling == RegionCoupling::kCoupled) return static_cast<float>(kResponseReach);
-    const Region own = hand_->region[j];
+    const hand::Region own = hand_->region[j];
     if (hand_->region[i] == own) {
-      return own == Region::kDorsum ? static_cast<float>(kResponseReach) : 1e6F;
+      return own == hand::Region::kDorsum ? static_cast<float>(kResponseReach) : 1e6F;
     }
     return static_cast<float>(hand_->tissue.region[index_of(own)].neighbourhood);
   }
 
  private:
-  const Hand* hand_;
+  const hand::Hand* hand_;
   ContactModel model_;
 };
 
 }  // namespace
 
-SkinResponse stretched_response(const Hand& hand, const SkinGeometry& skin,
+SkinResponse stretched_response(const hand::Hand& hand, const SkinGeometry& skin,
                                 const ContactModel& model, const std::vector<double>& thickness,
                                 const SkinPairs& pairs) {
   const SkinLines lines(skin);
@@ -229,4 +229,4 @@ SkinResponse stretched_response(const Hand& hand, const SkinGeometry& skin,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -10,7 +10,7 @@
 
 #include "palmar/contact/response/response.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using std::numbers::pi;
@@ -78,4 +78,4 @@ Eigen::Matrix3d tangential_response(const Vec3& between, double a_i, double a_j)
   return response;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -4,7 +4,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Tangential displacement of an incompressible (nu = 0.5) elastic half-space under a tangential
 /// force, times its shear modulus G. A point force Q along x gives, at the distance r,
@@ -37,4 +37,4 @@ double directed_disc_response(double r, double a);
 /// response inside an incompressible solid in general, and positive definite like that.
 Eigen::Matrix3d tangential_response(const Vec3& between, double a_i, double a_j);
 
-}  // namespace palmar
+}  // namespace palmar::contact

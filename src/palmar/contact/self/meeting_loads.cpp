@@ -7,7 +7,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 // mm; skin that bulges less than this into other skin is left, as it is far below what the mesh
@@ -296,8 +296,8 @@ void MeetingLoads::add_work(const std::vector<double>& product_force, std::vecto
 }
 
 void MeetingLoads::add_slopes(const std::vector<double>& product_q, const std::vector<double>& y,
-                              const std::vector<Region>& region,
-                              std::array<double, kRegionCount>& slope) const {
+                              const std::vector<hand::Region>& region,
+                              std::array<double, hand::kRegionCount>& slope) const {
   const auto p = static_cast<std::ptrdiff_t>(product_rows_);
   const std::vector<double> own_q = meeting_q();
   const std::vector<double> product_y(y.begin(), y.begin() + p);
@@ -449,4 +449,4 @@ std::vector<SkinTouch> MeetingLoads::touches() const {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -10,7 +10,7 @@
 #include "palmar/contact/response/sparse_rows.h"
 #include "palmar/contact/skin_touch.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Skin on skin in the contact problem of a hand on bone (contact_on_bone.cpp): beside the forces
 /// p_i of the product one unknown f_k >= 0 for each meeting, which acts on the vertex along the
@@ -70,7 +70,8 @@ class MeetingLoads {
   /// Adds to dF / d ln G, by region, what the moduli under the meetings do: with q of the solution
   /// and y of A y = root (rows of the product), 1/2 sum_a (y_a . u_a(q) + q_a . u_a(y)).
   void add_slopes(const std::vector<double>& product_q, const std::vector<double>& y,
-                  const std::vector<Region>& region, std::array<double, kRegionCount>& slope) const;
+                  const std::vector<hand::Region>& region,
+                  std::array<double, hand::kRegionCount>& slope) const;
 
   /// How far the meetings' forces alone move skin at these vertices: in the frame of the posed
   /// skin, mm. Zero for skin without the compliance.
@@ -147,4 +148,4 @@ class MeetingLoads {
   SparseRows responses_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

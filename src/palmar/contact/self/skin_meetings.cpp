@@ -9,7 +9,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/distance/closest_point.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 // A vertex is folded by a joint that turns it by a share between these of the joint's angle; ours.
@@ -25,15 +25,16 @@ constexpr int kMostWalk = 8;      // triangles' rings from the nearest vertex to
 /// How far from the palm a segment is, and of equals how near its finger is to the thumb: the
 /// greater brings the vertices.
 int order_of(int segment) {
-  const auto s = static_cast<Segment>(segment);
-  const auto finger = finger_of(s);
+  const auto s = static_cast<hand::Segment>(segment);
+  const auto finger = hand::finger_of(s);
   if (!finger) return -1;
-  const auto segments = segments_of(*finger);
+  const auto segments = hand::segments_of(*finger);
   int level = 0;
   while (segments[static_cast<std::size_t>(level)] != s) ++level;
   // The thumb's two phalanges count as the outer two.
-  if (*finger == Finger::kThumb) ++level;
-  return level * kFingerCount + (kFingerCount - 1 - static_cast<int>(index_of(*finger)));
+  if (*finger == hand::Finger::kThumb) ++level;
+  return level * hand::kFingerCount +
+         (hand::kFingerCount - 1 - static_cast<int>(index_of(*finger)));
 }
 
 /// The corner of the triangle that the point is nearest to.
@@ -67,9 +68,9 @@ void split(const std::vector<Vec3>& position, std::vector<int> vertices,
 
 }  // namespace
 
-SkinMeetings::SkinMeetings(const Hand& hand) : hand_(&hand) {
+SkinMeetings::SkinMeetings(const hand::Hand& hand) : hand_(&hand) {
   const std::size_t count = hand.skin.vertices.size();
-  std::vector<std::vector<int>> of_segment(kSegmentCount);
+  std::vector<std::vector<int>> of_segment(hand::kSegmentCount);
   for (std::size_t v = 0; v < count; ++v) {
     of_segment[index_of(hand.segment[v])].push_back(static_cast<int>(v));
   }
@@ -81,7 +82,7 @@ SkinMeetings::SkinMeetings(const Hand& hand) : hand_(&hand) {
       cluster_.push_back({static_cast<int>(s), std::move(part), ~0U, ~0U});
     }
   }
-  first_[kSegmentCount] = static_cast<int>(cluster_.size());
+  first_[hand::kSegmentCount] = static_cast<int>(cluster_.size());
 
   triangle_begin_.assign(count + 1, 0);
   for (const Triangle& t : hand.skin.triangles) {
@@ -96,13 +97,13 @@ SkinMeetings::SkinMeetings(const Hand& hand) : hand_(&hand) {
 
   fold_.assign(count, 0);
   beside_.assign(count, 0);
-  for (int f = 0; f < kFingerCount; ++f) {
-    for (const auto& segment : segments_of(static_cast<Finger>(f))) {
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    for (const auto& segment : hand::segments_of(static_cast<hand::Finger>(f))) {
       if (!segment) continue;
-      const unsigned bit = 1U << index_of(joint_of(*segment));
+      const unsigned bit = 1U << index_of(hand::joint_of(*segment));
       // The joint's own phalanx and the next one towards the palm.
-      Segment inner = Segment::kPalm;
-      for (const auto& other : segments_of(static_cast<Finger>(f))) {
+      hand::Segment inner = hand::Segment::kPalm;
+      for (const auto& other : hand::segments_of(static_cast<hand::Finger>(f))) {
         if (other == segment) break;
         inner = *other;
       }
@@ -111,7 +112,7 @@ SkinMeetings::SkinMeetings(const Hand& hand) : hand_(&hand) {
       }
     }
   }
-  for (const JointWeights& weights : hand.weights) {
+  for (const hand::JointWeights& weights : hand.weights) {
     const unsigned bit = 1U << index_of(weights.joint);
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
       const double share = weights.w1[k] * weights.w2[k];
@@ -147,7 +148,7 @@ std::vector<SkinMeeting> SkinMeetings::find(const std::vector<Vec3>& posed,
   };
   std::vector<Ball> ball(cluster_.size());
   std::vector<Lanes> lanes(cluster_.size());
-  std::array<Box3, kSegmentCount> box;
+  std::array<Box3, hand::kSegmentCount> box;
   for (std::size_t c = 0; c < cluster_.size(); ++c) {
     Box3 own;
     Vec3 axis = Vec3::Zero();
@@ -195,8 +196,8 @@ std::vector<SkinMeeting> SkinMeetings::find(const std::vector<Vec3>& posed,
       }
     }
   };
-  for (int a = 0; a < kSegmentCount; ++a) {
-    for (int b = 0; b < kSegmentCount; ++b) {
+  for (int a = 0; a < hand::kSegmentCount; ++a) {
+    for (int b = 0; b < hand::kSegmentCount; ++b) {
       if (a == b || order_of(a) < order_of(b)) continue;
       Box3 near = box[b];
       near.min().array() -= reach;
@@ -245,8 +246,8 @@ void SkinMeetings::walk_to(const std::vector<Vec3>& posed, const Vec3& target, i
     bool is_nearer = false;
     for (int k = triangle_begin_[from]; k < triangle_begin_[from + 1]; ++k) {
       const Triangle& t = hand_->skin.triangles[triangle_[k]];
-      const TrianglePoint at =
-          closest_point_on_triangle(target, posed[t[0]], posed[t[1]], posed[t[2]]);
+      const geometry::TrianglePoint at =
+          geometry::closest_point_on_triangle(target, posed[t[0]], posed[t[1]], posed[t[2]]);
       if (!(at.squared_distance < least)) continue;
       is_nearer = true;
       least = at.squared_distance;
@@ -291,4 +292,4 @@ double deepest_crossing(const std::vector<SkinMeeting>& meetings) {
   return deepest;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

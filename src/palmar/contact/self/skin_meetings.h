@@ -8,7 +8,7 @@
 #include "palmar/contact/skin_touch.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Which skin of a hand meets which when fingers bend: phalanges side by side, on the palm, on each
 /// other, the thumb on fingers.
@@ -23,7 +23,7 @@ namespace palmar {
 /// reaction by construction.
 class SkinMeetings {
  public:
-  explicit SkinMeetings(const Hand& hand);
+  explicit SkinMeetings(const hand::Hand& hand);
 
   /// Meetings in a posture, with the outward normals of the posed skin: at most one per vertex, the
   /// nearest, up to `range` [mm] apart and kDeepestCrossing deep; ascending by vertex. Any frame.
@@ -43,10 +43,10 @@ class SkinMeetings {
   SkinMeeting meeting(const std::vector<Vec3>& posed, const std::vector<Vec3>& normal, int v,
                       int nearest) const;
 
-  const Hand* hand_;
-  std::vector<Cluster> cluster_;                ///< ordered by segment
-  std::array<int, kSegmentCount + 1> first_{};  ///< of each segment in cluster_
-  std::vector<int> triangle_begin_, triangle_;  ///< per vertex: the triangles round it
+  const hand::Hand* hand_;
+  std::vector<Cluster> cluster_;                      ///< ordered by segment
+  std::array<int, hand::kSegmentCount + 1> first_{};  ///< of each segment in cluster_
+  std::vector<int> triangle_begin_, triangle_;        ///< per vertex: the triangles round it
   /// Per vertex, as bits: joints that fold it, and joints that its segment or a fold lies beside.
   std::vector<unsigned> fold_, beside_;
 };
@@ -58,4 +58,4 @@ inline constexpr double kDeepestCrossing = 6.0;
 /// Deepest crossing among meetings, mm; 0 if none crosses.
 double deepest_crossing(const std::vector<SkinMeeting>& meetings);
 
-}  // namespace palmar
+}  // namespace palmar::contact

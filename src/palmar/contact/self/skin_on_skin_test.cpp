@@ -19,7 +19,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::on_bone_model;
@@ -28,13 +28,14 @@ constexpr double kLimbRadius = 9.0;  // mm
 
 /// Two fingertips of sorts, mirror images of each other in the plane x = 0: balls of skin round
 /// balls of bone, 60 mm apart. The first half of the vertices is the index finger's.
-std::shared_ptr<const Hand> two_tips() {
-  auto hand = std::make_shared<Hand>();
+std::shared_ptr<const hand::Hand> two_tips() {
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "two tips";
-  const TriangleMesh ball = make_icosphere(kLimbRadius, 4);
-  const TriangleMesh bone = make_icosphere(4.0, 3);
+  const geometry::TriangleMesh ball = geometry::make_icosphere(kLimbRadius, 4);
+  const geometry::TriangleMesh bone = geometry::make_icosphere(4.0, 3);
   const Vec3 side(30.0, 20.0, 0.0);
-  const auto add = [&](const TriangleMesh& mesh, bool is_mirrored, TriangleMesh& to) {
+  const auto add = [&](const geometry::TriangleMesh& mesh, bool is_mirrored,
+                       geometry::TriangleMesh& to) {
     const int first = to.vertex_count();
     for (const Vec3& x : mesh.vertices) {
       const Vec3 place = x - side;
@@ -47,22 +48,22 @@ std::shared_ptr<const Hand> two_tips() {
   };
   for (const bool is_mirrored : {false, true}) {
     add(ball, is_mirrored, hand->skin);
-    Bone& one = hand->bones.emplace_back();
+    hand::Bone& one = hand->bones.emplace_back();
     add(bone, is_mirrored, one.mesh);
   }
   // Mirroring y as well as x keeps the first ball's triangles outward only with a turn.
   for (std::size_t t = 0; t < hand->skin.triangles.size(); ++t) {
     std::swap(hand->skin.triangles[t][1], hand->skin.triangles[t][2]);
   }
-  for (Bone& one : hand->bones) {
+  for (hand::Bone& one : hand->bones) {
     for (Triangle& t : one.mesh.triangles) std::swap(t[1], t[2]);
   }
   const std::size_t half = ball.vertices.size();
   for (std::size_t v = 0; v < 2 * half; ++v) {
-    hand->segment.push_back(v < half ? Segment::kIndexDistal : Segment::kMiddleDistal);
-    hand->region.push_back(v < half ? Region::kIndexDistal : Region::kMiddleDistal);
+    hand->segment.push_back(v < half ? hand::Segment::kIndexDistal : hand::Segment::kMiddleDistal);
+    hand->region.push_back(v < half ? hand::Region::kIndexDistal : hand::Region::kMiddleDistal);
   }
-  hand->tissue = default_tissue();
+  hand->tissue = hand::default_tissue();
   return hand;
 }
 
@@ -72,11 +73,11 @@ const PreparedHand& prepared() {
 }
 
 /// Both balls moved towards each other until they cross by `overlap` [mm].
-std::vector<Vec3> approached(const Hand& hand, double overlap) {
+std::vector<Vec3> approached(const hand::Hand& hand, double overlap) {
   std::vector<Vec3> skin = hand.skin.vertices;
   const double way = 30.0 - kLimbRadius + 0.5 * overlap;
   for (std::size_t v = 0; v < skin.size(); ++v) {
-    skin[v].x() += hand.segment[v] == Segment::kIndexDistal ? way : -way;
+    skin[v].x() += hand.segment[v] == hand::Segment::kIndexDistal ? way : -way;
   }
   return skin;
 }
@@ -96,29 +97,30 @@ TEST(SkinMeetings, FindCrossingOfTwoBallsAndItsDepth) {
   const auto hand = two_tips();
   const SkinMeetings meetings(*hand);
   const std::vector<Vec3> posed = approached(*hand, 2.0);
-  const auto found = meetings.find(posed, area_weighted_normals(posed, hand->skin.triangles), 0.0);
+  const auto found =
+      meetings.find(posed, geometry::area_weighted_normals(posed, hand->skin.triangles), 0.0);
   ASSERT_FALSE(found.empty());
   EXPECT_NEAR(deepest_crossing(found), 2.0, 0.1);  // flat triangles lie 0.02 mm under the ball
   for (const SkinMeeting& one : found) {
     // The lens that the balls share has its rim where cos = (r - 1) / r.
     const Vec3& x = posed[one.vertex];
     EXPECT_LT(std::hypot(x.y() - 20.0, x.z()), std::sqrt(81.0 - 64.0) + 0.1);
-    EXPECT_EQ(hand->segment[one.vertex], Segment::kIndexDistal);
-    EXPECT_EQ(hand->segment[one.on[0]], Segment::kMiddleDistal);
+    EXPECT_EQ(hand->segment[one.vertex], hand::Segment::kIndexDistal);
+    EXPECT_EQ(hand->segment[one.on[0]], hand::Segment::kMiddleDistal);
     EXPECT_NEAR(one.weight[0] + one.weight[1] + one.weight[2], 1.0, 1e-12);
     // To its mirror image beyond x = 0.
     EXPECT_NEAR(one.distance, -2.0 * x.x(), 0.1);
   }
-  EXPECT_TRUE(
-      meetings
-          .find(approached(*hand, -0.5), area_weighted_normals(posed, hand->skin.triangles), 0.0)
-          .empty());
+  EXPECT_TRUE(meetings
+                  .find(approached(*hand, -0.5),
+                        geometry::area_weighted_normals(posed, hand->skin.triangles), 0.0)
+                  .empty());
 }
 
 TEST(SkinMeetings, LeaveOutWhatAJointFolds) {
-  auto hand = std::make_shared<Hand>(*two_tips());
-  JointWeights& weights = hand->weights.emplace_back();
-  weights.joint = joint_of(Segment::kMiddleDistal);
+  auto hand = std::make_shared<hand::Hand>(*two_tips());
+  hand::JointWeights& weights = hand->weights.emplace_back();
+  weights.joint = hand::joint_of(hand::Segment::kMiddleDistal);
   for (int v = hand->skin.vertex_count() / 2; v < hand->skin.vertex_count(); ++v) {
     weights.vertex.push_back(v);
     weights.w1.push_back(0.5);
@@ -126,11 +128,11 @@ TEST(SkinMeetings, LeaveOutWhatAJointFolds) {
   }
   // The index finger isn't beside the joint that folds the middle finger's skin: they still meet.
   const std::vector<Vec3> posed = approached(*hand, 2.0);
-  const auto normal = area_weighted_normals(posed, hand->skin.triangles);
+  const auto normal = geometry::area_weighted_normals(posed, hand->skin.triangles);
   EXPECT_FALSE(SkinMeetings(*hand).find(posed, normal, 0.0).empty());
   // The middle phalanx of the same finger is beside it.
-  for (Segment& segment : hand->segment) {
-    if (segment == Segment::kIndexDistal) segment = Segment::kMiddleMiddle;
+  for (hand::Segment& segment : hand->segment) {
+    if (segment == hand::Segment::kIndexDistal) segment = hand::Segment::kMiddleMiddle;
   }
   EXPECT_TRUE(SkinMeetings(*hand).find(posed, normal, 0.0).empty());
 }
@@ -152,14 +154,14 @@ TEST(SkinOnSkin, ThoroughTwoEqualTipsPressAsEachOnAPlateHalfWay) {
     // The index tip alone on a plate whose surface is x = 0: z up is x.
     std::vector<Vec3> alone = prepared().hand().skin.vertices;
     for (std::size_t v = 0; v < alone.size(); ++v) {
-      const bool is_index = prepared().hand().segment[v] == Segment::kIndexDistal;
+      const bool is_index = prepared().hand().segment[v] == hand::Segment::kIndexDistal;
       alone[v].x() += is_index ? 30.0 - kLimbRadius + 0.5 * overlap : 200.0;
     }
-    Rigid3 plate;
+    geometry::Rigid3 plate;
     plate.rotation = Quat(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitY()));  // x to -z
     std::vector<Vec3> index = alone;
     for (std::size_t v = 0; v < index.size(); ++v) {
-      if (prepared().hand().segment[v] != Segment::kIndexDistal) index[v].x() = -500.0;
+      if (prepared().hand().segment[v] != hand::Segment::kIndexDistal) index[v].x() = -500.0;
     }
     const ContactResult on_plate =
         solve_hand_contact(prepared(), index, plate, contact_test::HalfSpace(0.0), kOnSkin);
@@ -169,8 +171,8 @@ TEST(SkinOnSkin, ThoroughTwoEqualTipsPressAsEachOnAPlateHalfWay) {
     EXPECT_LT(own.residual_crossing, 0.1);
     EXPECT_LT(own.complementarity_error, 1e-9);
     ASSERT_EQ(own.skin_on_skin.size(), 1U);
-    EXPECT_EQ(own.skin_on_skin[0].region, Region::kIndexDistal);
-    EXPECT_EQ(own.skin_on_skin[0].other, Region::kMiddleDistal);
+    EXPECT_EQ(own.skin_on_skin[0].region, hand::Region::kIndexDistal);
+    EXPECT_EQ(own.skin_on_skin[0].other, hand::Region::kMiddleDistal);
     EXPECT_NEAR(own.skin_on_skin[0].force, sum_of(own.skin_touch), 1e-12);
     EXPECT_LT(own.skin_on_skin[0].force_vector.x(), -0.9 * own.skin_on_skin[0].force);
     EXPECT_NEAR(own.skin_on_skin[0].deepest, overlap, 0.1);
@@ -178,11 +180,11 @@ TEST(SkinOnSkin, ThoroughTwoEqualTipsPressAsEachOnAPlateHalfWay) {
 }
 
 TEST(SkinOnSkin, ResponsesAreSymmetricAndPositive) {
-  const Hand& hand = prepared().hand();
+  const hand::Hand& hand = prepared().hand();
   const SkinCompliance& compliance = *prepared().impl().compliance;
   MeetingLoads loads(prepared().impl().skin, compliance, {});
   const std::vector<Vec3> posed = approached(hand, 2.0);
-  const std::vector<Vec3> normal = area_weighted_normals(posed, hand.skin.triangles);
+  const std::vector<Vec3> normal = geometry::area_weighted_normals(posed, hand.skin.triangles);
   loads.set(SkinMeetings(hand).find(posed, normal, 0.0), posed, normal);
   ASSERT_FALSE(loads.is_empty());
   // One vertex on a product besides, next to the meetings.
@@ -218,7 +220,7 @@ TEST(SkinOnSkin, ActionIsReaction) {
   }
   Vec3 index = Vec3::Zero(), middle = Vec3::Zero();
   for (std::size_t v = 0; v < force.size(); ++v) {
-    (prepared().hand().segment[v] == Segment::kIndexDistal ? index : middle) += force[v];
+    (prepared().hand().segment[v] == hand::Segment::kIndexDistal ? index : middle) += force[v];
   }
   EXPECT_GT(index.norm(), 0.1);
   EXPECT_LT((index + middle).norm(), 1e-9 * index.norm());
@@ -246,7 +248,7 @@ TEST(SkinOnSkin, SkinApartChangesNoBit) {
   const auto on_plate = [&](double overlap) {
     std::vector<Vec3> skin = approached(prepared().hand(), overlap);
     // Both lie on the plate below them, 1.5 mm deep.
-    Rigid3 up;
+    geometry::Rigid3 up;
     up.translation = Vec3(0.0, 0.0, kLimbRadius - 1.5);
     return solve_hand_contact(prepared(), skin, up, contact_test::HalfSpace(0.0), kOnSkin);
   };
@@ -274,4 +276,4 @@ TEST(SkinOnSkin, SameOnOneThreadAndOnMany) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

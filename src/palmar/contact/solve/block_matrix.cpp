@@ -7,7 +7,7 @@
 
 #include "palmar/core/processor.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr int kMostIterations = 500;
@@ -244,4 +244,4 @@ bool BlockMatrix::solve(const std::vector<float>& b, double tolerance, std::vect
   return false;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

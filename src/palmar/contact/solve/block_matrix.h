@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Symmetric positive definite matrix in single precision, sparse by dense blocks, and its solution
 /// by conjugate gradients with the Cholesky factors of the diagonal blocks as preconditioner. Inner
@@ -75,4 +75,4 @@ class BlockMatrix {
   std::vector<float> r_, z_, q_, d_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -9,7 +9,7 @@
 #include "palmar/contact/solve/lcp.h"
 #include "palmar/contact/solve/lemke.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kFirst = 1e-3;  // by what the first solution on a set lowers the residual
@@ -42,7 +42,7 @@ double row_times(const int* column, const float* value, std::size_t count, const
 }  // namespace
 
 void ContactSystem::assemble(const SkinResponse& response, const std::vector<int>& vertices,
-                             const std::vector<Region>* region) {
+                             const std::vector<hand::Region>* region) {
   local_.resize(response.begin.size() - 1, -1);
   for (const int v : vertex_) local_[v] = -1;
   vertex_ = vertices;
@@ -471,4 +471,4 @@ std::optional<std::vector<double>> ContactSystem::solve_on(const std::vector<cha
   return x;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -10,7 +10,7 @@
 #include "palmar/contact/response/sparse_rows.h"
 #include "palmar/contact/solve/block_matrix.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Frictionless contact problem of many coupled skin vertices with sparse symmetric responses:
 ///
@@ -33,7 +33,7 @@ class ContactSystem {
   /// Takes the responses among `vertices` (ascending). With `region` (per vertex of the skin), only
   /// those within one region.
   void assemble(const SkinResponse& response, const std::vector<int>& vertices,
-                const std::vector<Region>* region);
+                const std::vector<hand::Region>* region);
 
   /// Takes a symmetric matrix, whose rows are `vertices` (ascending).
   void assemble(const SparseRows& matrix, const std::vector<int>& vertices);
@@ -124,4 +124,4 @@ class ContactSystem {
   std::vector<float> right_, step_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -11,14 +11,14 @@
 #include "palmar/contact/solve/lemke.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// A flat square of skin with the responses of a half-space up to 12 mm; the product is a ball
 /// above its middle and a second one beside it.
 struct Square {
   Square() {
-    mesh = make_grid_patch(20, 20, 1.1);
+    mesh = geometry::make_grid_patch(20, 20, 1.1);
     skin = skin_geometry(mesh);
     patches = skin_patches(skin, 24);
     response.begin.push_back(0);
@@ -51,7 +51,7 @@ struct Square {
     return b;
   }
 
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   SkinGeometry skin;
   SkinPatches patches;
   SkinResponse response;
@@ -130,12 +130,12 @@ TEST(ContactSystem, EndsInTheSameFromAnyGuess) {
 
 TEST(ContactSystem, LeavesRegionsAloneWhenAsked) {
   const Square& s = square();
-  std::vector<Region> region;
+  std::vector<hand::Region> region;
   for (const Vec3& x : s.skin.position) {
-    region.push_back(x.x() < 11.0 ? Region::kThenar : Region::kCentralPalm);
+    region.push_back(x.x() < 11.0 ? hand::Region::kThenar : hand::Region::kCentralPalm);
   }
   const std::vector<double> b = s.penetration(1.5);
-  const auto total = [&](const std::vector<Region>* by) {
+  const auto total = [&](const std::vector<hand::Region>* by) {
     ContactSystem system(s.patches);
     system.assemble(s.response, s.all, by);
     std::vector<char> in_contact(b.size(), 1);
@@ -233,4 +233,4 @@ TEST(ContactSystem, CountsWhatTheDenseMethodsSolve) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

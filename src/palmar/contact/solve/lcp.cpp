@@ -13,7 +13,7 @@
 #include "palmar/contact/solve/packed_cholesky.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// Values below this share of the largest one are rounding, not infeasibility.
@@ -202,4 +202,4 @@ ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& o
   return solution;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Frictionless contact of one sub-active skin region with a rigid product.
 ///
@@ -65,4 +65,4 @@ ContactSolution solve_contact(const ContactProblem& problem, const LcpOptions& o
 /// Fills gap, complementarity_error and relative_residual of a solution from its force.
 void recompute_residual(const ContactProblem& problem, ContactSolution& solution);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -11,7 +11,7 @@
 #include "palmar/contact/solve/lemke.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using Eigen::MatrixXd;
@@ -179,4 +179,4 @@ TEST(SolveContact, RefusesWhatIsNoProblem) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// Dictionary of s = d + R p + e z: each basic variable as an affine function of the nonbasic ones.
@@ -171,4 +171,4 @@ ContactSolution solve_contact_lemke(const ContactProblem& problem, const LemkeOp
   return solution;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

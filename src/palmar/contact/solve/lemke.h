@@ -6,7 +6,7 @@
 
 #include "palmar/contact/solve/lcp.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 struct LemkeOptions {
   std::optional<int> max_pivots;   ///< unset: 100 + 10 m
@@ -25,4 +25,4 @@ struct LemkeOptions {
 ContactSolution solve_contact_lemke(const ContactProblem& problem,
                                     const LemkeOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::contact {
 
 namespace {
 
@@ -119,4 +119,4 @@ Eigen::VectorXd PackedCholesky::solve(const Eigen::VectorXd& b) const {
   return x.head(n);
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

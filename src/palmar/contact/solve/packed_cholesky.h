@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Cholesky factor of principal blocks of one symmetric matrix, for the small blocks (20 to 300) of
 /// block pivoting: rows that a block shares at its front with the block before are kept. Rows lie
@@ -31,4 +31,4 @@ class PackedCholesky {
   std::vector<double> packed_;  ///< L(4 i + r, k) at panel(i)[4 k + r]; the diagonal is inverted
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// Positive definite: 1 / (1 + |i - j|) is a convex decreasing Toeplitz matrix (Polya).
@@ -51,4 +51,4 @@ TEST(PackedCholesky, RefusesAnIndefiniteBlockAndStartsAfresh) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

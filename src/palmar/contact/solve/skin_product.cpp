@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/smooth_step.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// Product and skin normal of a contact point against each other; when they agree by more than
@@ -38,10 +38,10 @@ constexpr double kDistanceRounding = 1e-9;  // mm; of a distance and of the way 
 constexpr double kSurely = 0.7;  // of the distance is left: the nearest surface is about the same
 
 /// The sample of a point that has come through the surface at `here`: straight back to it.
-DistanceSample back_through(const DistanceField& product, const Vec3& point,
-                            const DistanceSample& here) {
+geometry::DistanceSample back_through(const geometry::DistanceField& product, const Vec3& point,
+                                      const geometry::DistanceSample& here) {
   const double depth = std::max(0.0, (here.closest - point).dot(here.normal));
-  DistanceSample found = product.at(point + (depth + kLift) * here.normal, here);
+  geometry::DistanceSample found = product.at(point + (depth + kLift) * here.normal, here);
   const Vec3 way = found.closest - point;
   found.distance = -way.norm();
   found.normal = way.norm() > kAhead ? Vec3(way.normalized()) : here.normal;
@@ -51,11 +51,12 @@ DistanceSample back_through(const DistanceField& product, const Vec3& point,
 /// Looks for the surface from an inner point, whose sample is `nearest`, against the skin's normal
 /// by sphere tracing. Nothing if there is none within kMaxContactDepth or if it faces the wrong
 /// way.
-std::optional<DistanceSample> surface_behind(const DistanceField& product, const Vec3& point,
-                                             const DistanceSample& nearest,
-                                             const Vec3& skin_normal) {
+std::optional<geometry::DistanceSample> surface_behind(const geometry::DistanceField& product,
+                                                       const Vec3& point,
+                                                       const geometry::DistanceSample& nearest,
+                                                       const Vec3& skin_normal) {
   double t = 0.0;
-  DistanceSample here = nearest;
+  geometry::DistanceSample here = nearest;
   for (int step = 0; step < kMaxTraceSteps; ++step) {
     if (here.distance > -kOnSurface) {
       if (skin_normal.dot(here.normal) > -kSameSide / 2) return std::nullopt;
@@ -70,12 +71,13 @@ std::optional<DistanceSample> surface_behind(const DistanceField& product, const
 
 /// Weight of the surface that skin came through against the nearest one, which looks the skin's own
 /// way by `cosine`. Smooth, so that forces don't jump as skin is pressed through a thin rod.
-double turned_weight(double cosine) { return smooth_step(cosine / kTurned); }
+double turned_weight(double cosine) { return geometry::smooth_step(cosine / kTurned); }
 
 /// Thickness of the product across the nearest surface of an inner point, at most kThick, mm.
-double thickness_at(const DistanceField& product, const DistanceSample& nearest) {
+double thickness_at(const geometry::DistanceField& product,
+                    const geometry::DistanceSample& nearest) {
   double t = -nearest.distance;
-  DistanceSample here = nearest;
+  geometry::DistanceSample here = nearest;
   for (int step = 0; step < kMaxTraceSteps && t < kThick; ++step) {
     here = product.at(nearest.closest - t * nearest.normal, here);
     if (here.distance > -kOnSurface) return t;
@@ -85,20 +87,22 @@ double thickness_at(const DistanceField& product, const DistanceSample& nearest)
 }
 
 /// The same as turned_weight() for skin on the edge of a plate, which looks along its sides.
-double on_edge_weight(const DistanceField& product, const DistanceSample& nearest, double cosine) {
-  const double passes = smooth_step((cosine - kFacesEnd) / (kPassesEnd - kFacesEnd));
+double on_edge_weight(const geometry::DistanceField& product,
+                      const geometry::DistanceSample& nearest, double cosine) {
+  const double passes = geometry::smooth_step((cosine - kFacesEnd) / (kPassesEnd - kFacesEnd));
   if (passes == 0.0) return 0.0;
   const double thickness = thickness_at(product, nearest);
-  return passes * smooth_step((kThick - thickness) / (kThick - kThin));
+  return passes * geometry::smooth_step((kThick - thickness) / (kThick - kThin));
 }
 
 /// Between the nearest surface and the one that the skin came through.
-DistanceSample between(const DistanceField& product, const Vec3& point,
-                       const DistanceSample& nearest, const DistanceSample& behind, double weight) {
+geometry::DistanceSample between(const geometry::DistanceField& product, const Vec3& point,
+                                 const geometry::DistanceSample& nearest,
+                                 const geometry::DistanceSample& behind, double weight) {
   const Vec3 way = (1.0 - weight) * (nearest.closest - point) + weight * (behind.closest - point);
   if (weight >= 1.0 || way.norm() < kAhead) return behind;
   const double depth = way.norm();
-  DistanceSample found = product.at(point + (1.0 + kLift / depth) * way, nearest);
+  geometry::DistanceSample found = product.at(point + (1.0 + kLift / depth) * way, nearest);
   if (found.distance <= 0.0) return weight > 0.5 ? behind : nearest;
   found.normal = way / depth;
   found.distance = -((1.0 - weight) * -nearest.distance + weight * -behind.distance);
@@ -112,8 +116,8 @@ std::string one_decimal(double value) {
 
 }  // namespace
 
-void SkinOnProduct::begin(const Hand& hand, const std::vector<Vec3>& posed) {
-  area_weighted_normals(posed, hand.skin.triangles, normal);
+void SkinOnProduct::begin(const hand::Hand& hand, const std::vector<Vec3>& posed) {
+  geometry::area_weighted_normals(posed, hand.skin.triangles, normal);
   sample.resize(posed.size());
   near.clear();
   collision.clear();
@@ -123,16 +127,17 @@ void SkinOnProduct::begin(const Hand& hand, const std::vector<Vec3>& posed) {
   message.clear();
 }
 
-double flesh_depth(const Hand& hand) {
+double flesh_depth(const hand::Hand& hand) {
   const double thickness = hand.dimensions.hand_thickness;
   return thickness > 0.0 ? std::min(kFleshDepth, kFleshShare * thickness) : kFleshDepth;
 }
 
-std::optional<DistanceSample> surface_passed(const DistanceField& product, const Vec3& point,
-                                             const DistanceSample& nearest, const Vec3& skin_normal,
-                                             double flesh) {
+std::optional<geometry::DistanceSample> surface_passed(const geometry::DistanceField& product,
+                                                       const Vec3& point,
+                                                       const geometry::DistanceSample& nearest,
+                                                       const Vec3& skin_normal, double flesh) {
   double t = flesh;
-  DistanceSample here = nearest;
+  geometry::DistanceSample here = nearest;
   for (int step = 0; step < kMaxTraceSteps; ++step) {
     here = product.at(point - t * skin_normal, here);
     if (here.distance < kAhead) {
@@ -147,22 +152,22 @@ std::optional<DistanceSample> surface_passed(const DistanceField& product, const
   return std::nullopt;
 }
 
-void sample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
+void sample_vertices(const geometry::DistanceField& product, const std::vector<Vec3>& positions,
                      const std::vector<int>& vertices, double range,
-                     std::vector<DistanceSample>& samples) {
+                     std::vector<geometry::DistanceSample>& samples) {
   std::vector<Vec3> points;
   points.reserve(vertices.size());
   for (const int v : vertices) points.push_back(positions[v]);
-  std::vector<DistanceSample> found(vertices.size());
+  std::vector<geometry::DistanceSample> found(vertices.size());
   product.sample(points, range, found);
   for (std::size_t k = 0; k < vertices.size(); ++k) samples[vertices[k]] = found[k];
 }
 
-void resample_vertices(const DistanceField& product, const std::vector<Vec3>& positions,
+void resample_vertices(const geometry::DistanceField& product, const std::vector<Vec3>& positions,
                        const std::vector<int>& vertices, double range,
-                       std::vector<DistanceSample>& samples) {
+                       std::vector<geometry::DistanceSample>& samples) {
   std::vector<Vec3> points;
-  std::vector<DistanceSample> found;
+  std::vector<geometry::DistanceSample> found;
   points.reserve(vertices.size());
   found.reserve(vertices.size());
   for (const int v : vertices) {
@@ -173,9 +178,9 @@ void resample_vertices(const DistanceField& product, const std::vector<Vec3>& po
   for (std::size_t k = 0; k < vertices.size(); ++k) samples[vertices[k]] = found[k];
 }
 
-void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& posed,
+void SkinSampler::sample(const geometry::DistanceField& product, const std::vector<Vec3>& posed,
                          const std::vector<Vec3>& normal, const std::vector<int>& near,
-                         double wanted, std::vector<DistanceSample>& samples) {
+                         double wanted, std::vector<geometry::DistanceSample>& samples) {
   const bool is_new = product.id() != product_ || sample_.size() != posed.size();
   if (is_new) {
     product_ = product.id();
@@ -213,8 +218,8 @@ void SkinSampler::sample(const DistanceField& product, const std::vector<Vec3>& 
   }
 }
 
-void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
-                          const DistanceField& product, std::optional<Region> only,
+void find_skin_on_product(const hand::Hand& hand, const std::vector<Vec3>& posed,
+                          const geometry::DistanceField& product, std::optional<hand::Region> only,
                           SkinSampler* sampler, SkinOnProduct& skin, double wanted) {
   skin.begin(hand, posed);
   Box3 reach = product.bounding_box();
@@ -236,7 +241,7 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
   }
   std::vector<int> deep;
   for (const int v : skin.near) {
-    DistanceSample& sample = skin.sample[v];
+    geometry::DistanceSample& sample = skin.sample[v];
     if (sample.distance <= -range) deep.push_back(v);
     // Fields differ in what they say about far points.
     if (!(sample.distance < kNearRange)) sample = {kNearRange, posed[v], Vec3::UnitZ(), -1};
@@ -248,7 +253,7 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
   int deepest_vertex = -1;
   int far_side = 0;
   for (const int v : skin.near) {
-    DistanceSample& sample = skin.sample[v];
+    geometry::DistanceSample& sample = skin.sample[v];
     const double cosine = skin.normal[v].dot(sample.normal);
     double weight = turned_weight(cosine);
     if (!(sample.distance < 0.0)) {
@@ -282,7 +287,7 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
         deepest = -sample.distance;
         deepest_vertex = v;
       }
-      if (hand.region[v] != Region::kDorsum) skin.is_too_deep = true;
+      if (hand.region[v] != hand::Region::kDorsum) skin.is_too_deep = true;
       continue;
     }
     if (sample.distance < 0.0) skin.collision.push_back(v);
@@ -303,11 +308,12 @@ void find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
   }
 }
 
-SkinOnProduct find_skin_on_product(const Hand& hand, const std::vector<Vec3>& posed,
-                                   const DistanceField& product, std::optional<Region> only) {
+SkinOnProduct find_skin_on_product(const hand::Hand& hand, const std::vector<Vec3>& posed,
+                                   const geometry::DistanceField& product,
+                                   std::optional<hand::Region> only) {
   SkinOnProduct skin;
   find_skin_on_product(hand, posed, product, only, nullptr, skin);
   return skin;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -11,7 +11,7 @@
 #include "palmar/geometry/distance/grid_distance.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using contact_test::Ball;
@@ -34,7 +34,7 @@ void expect_same(const SkinOnProduct& found, const SkinOnProduct& truth, int ste
 }
 
 /// A ball of skin that comes down on the product, sideways, in steps from small to large.
-void expect_same_along_motion(const DistanceField& product) {
+void expect_same_along_motion(const geometry::DistanceField& product) {
   const auto hand = ball_hand(15.0, 3);
   SkinSampler sampler;
   SkinOnProduct found;
@@ -50,23 +50,23 @@ void expect_same_along_motion(const DistanceField& product) {
 }
 
 TEST(SkinSampler, SaysTheSameAlongAMotionOverAClosedMesh) {
-  expect_same_along_motion(MeshDistance(make_icosphere(20.0, 4)));
+  expect_same_along_motion(geometry::MeshDistance(geometry::make_icosphere(20.0, 4)));
 }
 
 TEST(SkinSampler, SaysTheSameWhereTheSideJumpsInAHole) {
   // Without its upper half the mesh has a hole through which the side changes far from any surface.
-  TriangleMesh bowl = make_icosphere(20.0, 4);
+  geometry::TriangleMesh bowl = geometry::make_icosphere(20.0, 4);
   std::erase_if(bowl.triangles, [&](const Triangle& t) {
     return bowl.vertices[t[0]].z() > 8.0 && bowl.vertices[t[1]].z() > 8.0;
   });
-  const MeshDistance field(bowl);
+  const geometry::MeshDistance field(bowl);
   ASSERT_FALSE(field.is_lipschitz());
   expect_same_along_motion(field);
 }
 
 TEST(SkinSampler, SaysTheSameOfInterpolatedAndAnalyticFields) {
-  expect_same_along_motion(
-      GridDistance(std::make_shared<const MeshDistance>(make_icosphere(20.0, 4))));
+  expect_same_along_motion(geometry::GridDistance(
+      std::make_shared<const geometry::MeshDistance>(geometry::make_icosphere(20.0, 4))));
   expect_same_along_motion(Ball(Vec3::Zero(), 20.0));
 }
 
@@ -77,12 +77,12 @@ TEST(SkinSampler, ForgetsAnotherProduct) {
   SkinSampler sampler;
   SkinOnProduct found;
   // The second is made where the first was, so its address shows nothing.
-  auto product = std::make_unique<MeshDistance>(make_icosphere(10.0, 3));
+  auto product = std::make_unique<geometry::MeshDistance>(geometry::make_icosphere(10.0, 3));
   find_skin_on_product(*hand, posed, *product, std::nullopt, &sampler, found);
   EXPECT_TRUE(found.collision.empty());
   const std::uint64_t first = product->id();
   product.reset();
-  product = std::make_unique<MeshDistance>(make_icosphere(30.0, 3));
+  product = std::make_unique<geometry::MeshDistance>(geometry::make_icosphere(30.0, 3));
   EXPECT_NE(product->id(), first);
   find_skin_on_product(*hand, posed, *product, std::nullopt, &sampler, found);
   EXPECT_FALSE(found.collision.empty());
@@ -91,18 +91,18 @@ TEST(SkinSampler, ForgetsAnotherProduct) {
 
 TEST(SkinSampler, LetsOtherRegionsThrough) {
   const auto hand = ball_hand(15.0, 2);
-  const MeshDistance product(make_icosphere(20.0, 3));
+  const geometry::MeshDistance product(geometry::make_icosphere(20.0, 3));
   std::vector<Vec3> posed = hand->skin.vertices;
   for (Vec3& x : posed) x.z() += 33.0;
   SkinSampler sampler;
   SkinOnProduct found;
-  for (const std::optional<Region> only :
-       {std::optional<Region>(), std::optional(Region::kDorsum),
-        std::optional(Region::kMiddleDistal), std::optional<Region>()}) {
+  for (const std::optional<hand::Region> only :
+       {std::optional<hand::Region>(), std::optional(hand::Region::kDorsum),
+        std::optional(hand::Region::kMiddleDistal), std::optional<hand::Region>()}) {
     find_skin_on_product(*hand, posed, product, only, &sampler, found);
     expect_same(found, find_skin_on_product(*hand, posed, product, only), 0);
   }
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -7,11 +7,12 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr double kMixedWidth = 6.0;  // mm; over which blocks mix, as laws do (stiffening.cpp)
-constexpr std::array kLevels = {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh};
+constexpr std::array kLevels = {hand::TissueLevel::kLow, hand::TissueLevel::kNominal,
+                                hand::TissueLevel::kHigh};
 
 }  // namespace
 
@@ -21,8 +22,8 @@ BlockStiffening no_stiffening() {
   return lambda;
 }
 
-BoneTissueBlocks bone_tissue_blocks(const Hand& hand, const SkinGeometry& skin,
-                                    const std::array<double, kRegionCount>& volume) {
+BoneTissueBlocks bone_tissue_blocks(const hand::Hand& hand, const SkinGeometry& skin,
+                                    const std::array<double, hand::kRegionCount>& volume) {
   BoneTissueBlocks blocks;
   // Skin farther from a border than they mix is of one block.
   std::vector<int> at_border;
@@ -44,7 +45,7 @@ BoneTissueBlocks bone_tissue_blocks(const Hand& hand, const SkinGeometry& skin,
       continue;
     }
     const int source = static_cast<int>(v);
-    std::array<double, kRegionCount> weight{};
+    std::array<double, hand::kRegionCount> weight{};
     double sum = 0.0;
     for (const GrownVertex& g : grow(skin, std::span(&source, 1), kMixedWidth)) {
       const double w = skin.area[g.vertex] * (1.0 - g.distance / kMixedWidth);
@@ -56,10 +57,10 @@ BoneTissueBlocks bone_tissue_blocks(const Hand& hand, const SkinGeometry& skin,
     }
     blocks.begin.push_back(blocks.share.size());
   }
-  for (const TissueLevel level : kLevels) {
+  for (const hand::TissueLevel level : kLevels) {
     const std::size_t l = index_of(level);
     for (std::size_t b = 0; b < volume.size(); ++b) {
-      const BoneTissueLaw& law = law_at(hand.tissue.region[b].on_bone, level);
+      const hand::BoneTissueLaw& law = hand::law_at(hand.tissue.region[b].on_bone, level);
       blocks.block_g0[l][b] = law.g0;
       blocks.per_energy[l][b] =
           volume[b] > 0.0 ? law.stiffening * law.stiffening / (volume[b] * law.g0) : 0.0;
@@ -78,8 +79,8 @@ BlockRoots::BlockRoots(const BlockStiffening& lambda) : inverse{} {
   for (std::size_t b = 0; b < lambda.size(); ++b) inverse[b] = 1.0 / std::sqrt(lambda[b]);
 }
 
-double root_modulus(const BoneTissueBlocks& blocks, TissueLevel level, const BlockRoots& roots,
-                    int vertex) {
+double root_modulus(const BoneTissueBlocks& blocks, hand::TissueLevel level,
+                    const BlockRoots& roots, int vertex) {
   double sum = 0.0;
   for (std::size_t k = blocks.begin[vertex]; k < blocks.begin[vertex + 1]; ++k) {
     sum += blocks.share[k].second * roots.inverse[blocks.share[k].first];
@@ -87,11 +88,11 @@ double root_modulus(const BoneTissueBlocks& blocks, TissueLevel level, const Blo
   return std::sqrt(blocks.g0[index_of(level)][vertex]) / sum;
 }
 
-BlockStiffening stiffening_of(const BoneTissueBlocks& blocks, TissueLevel level,
+BlockStiffening stiffening_of(const BoneTissueBlocks& blocks, hand::TissueLevel level,
                               const BlockStiffening& lambda, const std::vector<int>& vertex,
                               const std::vector<double>& force,
                               const std::vector<double>& displacement) {
-  std::array<double, kRegionCount> work{};
+  std::array<double, hand::kRegionCount> work{};
   const BlockRoots roots(lambda);
   for (std::size_t i = 0; i < vertex.size(); ++i) {
     if (force[i] == 0.0) continue;
@@ -112,7 +113,7 @@ BlockStiffening stiffening_of(const BoneTissueBlocks& blocks, TissueLevel level,
   return result;
 }
 
-double stiffening_energy(const BoneTissueBlocks& blocks, TissueLevel level,
+double stiffening_energy(const BoneTissueBlocks& blocks, hand::TissueLevel level,
                          const BlockStiffening& lambda) {
   double sum = 0.0;
   for (std::size_t b = 0; b < lambda.size(); ++b) {
@@ -122,4 +123,4 @@ double stiffening_energy(const BoneTissueBlocks& blocks, TissueLevel level,
   return sum;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

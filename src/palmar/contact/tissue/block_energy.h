@@ -9,7 +9,7 @@
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Stiffening of tissue on bone, from one energy.
 ///
@@ -38,18 +38,19 @@ struct BoneTissueBlocks {
   /// Shares of the blocks (Region) at each vertex: begin[v] to begin[v + 1] - 1.
   std::vector<std::size_t> begin;
   std::vector<std::pair<int, double>> share;
-  std::array<std::vector<double>, 3> g0;                         ///< per level and vertex, MPa
-  std::array<std::array<double, kRegionCount>, 3> block_g0{};    ///< per level, MPa
-  std::array<std::array<double, kRegionCount>, 3> per_energy{};  ///< k_b^2 / (V_b G0_b), 1/(N mm)
+  std::array<std::vector<double>, 3> g0;                             ///< per level and vertex, MPa
+  std::array<std::array<double, hand::kRegionCount>, 3> block_g0{};  ///< per level, MPa
+  std::array<std::array<double, hand::kRegionCount>, 3>
+      per_energy{};  ///< k_b^2 / (V_b G0_b), 1/(N mm)
 };
 
-using BlockStiffening = std::array<double, kRegionCount>;  ///< lambda_b
-BlockStiffening no_stiffening();                           ///< all 1
+using BlockStiffening = std::array<double, hand::kRegionCount>;  ///< lambda_b
+BlockStiffening no_stiffening();                                 ///< all 1
 
 /// Blocks and moduli mix over 6 mm where regions meet, as laws do in stiffening.h. `volume`: V_b,
 /// mm^3; a block without any doesn't stiffen.
-BoneTissueBlocks bone_tissue_blocks(const Hand& hand, const SkinGeometry& skin,
-                                    const std::array<double, kRegionCount>& volume);
+BoneTissueBlocks bone_tissue_blocks(const hand::Hand& hand, const SkinGeometry& skin,
+                                    const std::array<double, hand::kRegionCount>& volume);
 
 /// lambda_b^(-1/2) of each block.
 struct BlockRoots {
@@ -59,18 +60,18 @@ struct BlockRoots {
 };
 
 /// 1 / tau of a vertex, sqrt(MPa).
-double root_modulus(const BoneTissueBlocks& blocks, TissueLevel level, const BlockRoots& roots,
-                    int vertex);
+double root_modulus(const BoneTissueBlocks& blocks, hand::TissueLevel level,
+                    const BlockRoots& roots, int vertex);
 
 /// The lambda_b that belong to the work of these forces [N] and displacements [mm, inwards] under
 /// the present ones. A fixed point of this is the solution.
-BlockStiffening stiffening_of(const BoneTissueBlocks& blocks, TissueLevel level,
+BlockStiffening stiffening_of(const BoneTissueBlocks& blocks, hand::TissueLevel level,
                               const BlockStiffening& lambda, const std::vector<int>& vertex,
                               const std::vector<double>& force,
                               const std::vector<double>& displacement);
 
 /// sum_b chi_b(lambda_b), N mm: with K = k^2 / (V G0), chi = (lambda - 1)^3 / 3 K.
-double stiffening_energy(const BoneTissueBlocks& blocks, TissueLevel level,
+double stiffening_energy(const BoneTissueBlocks& blocks, hand::TissueLevel level,
                          const BlockStiffening& lambda);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// A ball of skin round a ball of bone, its halves two regions with different tissue; the skin near
@@ -19,18 +19,18 @@ namespace {
 class PressedBall : public testing::Test {
  protected:
   void SetUp() override {
-    ball.skin = make_icosphere(12.0, 3);
-    ball.tissue = default_tissue();
+    ball.skin = geometry::make_icosphere(12.0, 3);
+    ball.tissue = hand::default_tissue();
     for (Vec3& x : ball.skin.vertices) x.y() += 20.0;
     for (const Vec3& x : ball.skin.vertices) {
-      ball.region.push_back(x.x() > 0.0 ? Region::kIndexDistal : Region::kThenar);
+      ball.region.push_back(x.x() > 0.0 ? hand::Region::kIndexDistal : hand::Region::kThenar);
     }
-    ball.segment.assign(ball.region.size(), Segment::kIndexDistal);
-    Bone& bone = ball.bones.emplace_back();
-    bone.mesh = make_icosphere(6.0, 3);
+    ball.segment.assign(ball.region.size(), hand::Segment::kIndexDistal);
+    hand::Bone& bone = ball.bones.emplace_back();
+    bone.mesh = geometry::make_icosphere(6.0, 3);
     for (Vec3& x : bone.mesh.vertices) x.y() += 20.0;
-    for (RegionTissue& tissue : ball.tissue.region) {
-      for (BoneTissueLaw* law :
+    for (hand::RegionTissue& tissue : ball.tissue.region) {
+      for (hand::BoneTissueLaw* law :
            {&tissue.on_bone.low, &tissue.on_bone.nominal, &tissue.on_bone.high}) {
         law->stiffening = 8.0;
       }
@@ -60,13 +60,13 @@ class PressedBall : public testing::Test {
   Eigen::VectorXd roots(const BlockStiffening& lambda) const {
     Eigen::VectorXd root(responses.rows());
     for (int i = 0; i < root.size(); ++i) {
-      root[i] = root_modulus(ball_blocks, TissueLevel::kNominal, lambda, pressed[i]);
+      root[i] = root_modulus(ball_blocks, hand::TissueLevel::kNominal, lambda, pressed[i]);
     }
     return root;
   }
   BlockStiffening next(const BlockStiffening& lambda, const Eigen::VectorXd& force,
                        const Eigen::VectorXd& displacement) const {
-    return stiffening_of(ball_blocks, TissueLevel::kNominal, lambda, pressed,
+    return stiffening_of(ball_blocks, hand::TissueLevel::kNominal, lambda, pressed,
                          {force.begin(), force.end()}, {displacement.begin(), displacement.end()});
   }
   /// Contact with gaps d before deformation.
@@ -95,7 +95,7 @@ class PressedBall : public testing::Test {
   /// Stored energy, p . u - U*(p).
   double energy(const Solution& s) const {
     return 0.5 * s.force.dot(s.displacement) -
-           stiffening_energy(ball_blocks, TissueLevel::kNominal, s.lambda);
+           stiffening_energy(ball_blocks, hand::TissueLevel::kNominal, s.lambda);
   }
   /// Gaps of a ball of 30 mm whose lowest point is at (x, 20 + y) and `depth` under the skin's top.
   Eigen::VectorXd gaps(double x, double y, double depth) const {
@@ -108,7 +108,7 @@ class PressedBall : public testing::Test {
     return d;
   }
 
-  Hand ball;
+  hand::Hand ball;
   SkinGeometry ball_skin;
   SkinCompliance ball_compliance;
   BoneTissueBlocks ball_blocks;
@@ -118,8 +118,8 @@ class PressedBall : public testing::Test {
 
 TEST_F(PressedBall, StiffensInBothBlocks) {
   const Solution s = solve(gaps(0.5, 0.0, 2.0));
-  EXPECT_GT(s.lambda[static_cast<std::size_t>(Region::kIndexDistal)], 1.2);
-  EXPECT_GT(s.lambda[static_cast<std::size_t>(Region::kThenar)], 1.2);
+  EXPECT_GT(s.lambda[static_cast<std::size_t>(hand::Region::kIndexDistal)], 1.2);
+  EXPECT_GT(s.lambda[static_cast<std::size_t>(hand::Region::kThenar)], 1.2);
 }
 
 TEST_F(PressedBall, ForcesAreTheGradientOfTheEnergy) {
@@ -184,8 +184,8 @@ TEST_F(PressedBall, NoWorkIsGainedOverAClosedPath) {
 TEST(BlockEnergy, OneBlockStiffensWithTheRootOfItsEnergy) {
   BoneTissueBlocks blocks;
   blocks.begin = {0, 1};
-  blocks.share = {{static_cast<int>(Region::kThenar), 1.0}};
-  const auto block = static_cast<std::size_t>(Region::kThenar);
+  blocks.share = {{static_cast<int>(hand::Region::kThenar), 1.0}};
+  const auto block = static_cast<std::size_t>(hand::Region::kThenar);
   for (auto& g0 : blocks.g0) g0 = {0.01};
   for (auto& k : blocks.per_energy) k[block] = 0.7;
   // Displacement u under the modulus G0 stores W = u^2 / 2 at a response of 100 mm/N.
@@ -196,13 +196,13 @@ TEST(BlockEnergy, OneBlockStiffensWithTheRootOfItsEnergy) {
   start[block] = lambda;
   const double force = lambda * u;  // at a response of 1 mm/N
   const BlockStiffening found =
-      stiffening_of(blocks, TissueLevel::kNominal, start, {0}, {force}, {u});
+      stiffening_of(blocks, hand::TissueLevel::kNominal, start, {0}, {force}, {u});
   EXPECT_NEAR(found[block], lambda, 1e-12);
   // U* is the dual of W + 2/3 sqrt(K) W^1.5.
   const double dual = force * u - energy - 2.0 / 3.0 * std::sqrt(0.7) * std::pow(energy, 1.5);
-  EXPECT_NEAR(0.5 * force * u + stiffening_energy(blocks, TissueLevel::kNominal, start), dual,
+  EXPECT_NEAR(0.5 * force * u + stiffening_energy(blocks, hand::TissueLevel::kNominal, start), dual,
               1e-12);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 // Choices: what is learnt from a step, and which steps are taken.
@@ -50,4 +50,4 @@ BlockStiffening ModulusSearch::next(const BlockStiffening& from, const BlockStif
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

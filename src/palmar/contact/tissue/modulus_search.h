@@ -6,7 +6,7 @@
 
 #include "palmar/contact/tissue/block_energy.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// Search for the moduli of tissue on bone: the fixed point of stiffening_of() in x_b = ln
 /// lambda_b. Plain repetition comes nearer by a factor of 3 to 5 a round, because a block's energy
@@ -20,12 +20,12 @@ class ModulusSearch {
   BlockStiffening next(const BlockStiffening& from, const BlockStiffening& to);
 
  private:
-  using Vector = Eigen::Matrix<double, kRegionCount, 1>;
-  using Matrix = Eigen::Matrix<double, kRegionCount, kRegionCount>;
+  using Vector = Eigen::Matrix<double, hand::kRegionCount, 1>;
+  using Matrix = Eigen::Matrix<double, hand::kRegionCount, hand::kRegionCount>;
 
   Matrix gain_ = Matrix::Identity();  ///< step over what is asked for: -(df/dx)^-1, f = g(x) - x
   Vector last_x_ = Vector::Zero(), last_asked_ = Vector::Zero();
   bool has_last_ = false;
 };
 
-}  // namespace palmar
+}  // namespace palmar::contact

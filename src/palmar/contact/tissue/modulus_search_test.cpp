@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 /// A map of two blocks, linear in the logarithms: each asks for less as the other is stiffer. With
@@ -65,4 +65,4 @@ TEST(ModulusSearch, NoModulusFallsBelowThatOfTissueAtRest) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

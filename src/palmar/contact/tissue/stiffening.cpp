@@ -7,29 +7,30 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 constexpr float kPlateau = 8.0F;     // mm
 constexpr float kEnd = 16.0F;        // mm
 constexpr float kBlendWidth = 6.0F;  // mm; laws of neighbouring regions are mixed over it
 
-using Laws = std::array<StiffeningLaw, 3>;  // low, nominal, high
+using Laws = std::array<hand::StiffeningLaw, 3>;  // low, nominal, high
 
-Laws laws_of(const RegionTissue& tissue, TissueModel model) {
-  const TissueStiffness& stiffness =
+Laws laws_of(const hand::RegionTissue& tissue, TissueModel model) {
+  const hand::TissueStiffness& stiffness =
       model == TissueModel::kLayered ? tissue.layered : tissue.half_space;
   Laws laws;
-  for (const TissueLevel level : {TissueLevel::kLow, TissueLevel::kNominal, TissueLevel::kHigh}) {
-    laws[index_of(level)] = law_at(stiffness, level);
+  for (const hand::TissueLevel level :
+       {hand::TissueLevel::kLow, hand::TissueLevel::kNominal, hand::TissueLevel::kHigh}) {
+    laws[index_of(level)] = hand::law_at(stiffness, level);
   }
   return laws;
 }
 
 /// Mean of the laws around a vertex, weighted by area and nearness.
-Laws blended(const Hand& hand, const SkinGeometry& skin, const SkinResponse& response,
-             const std::array<Laws, kRegionCount>& by_region, int vertex) {
-  std::array<double, kRegionCount> weight{};  // of each region's law
+Laws blended(const hand::Hand& hand, const SkinGeometry& skin, const SkinResponse& response,
+             const std::array<Laws, hand::kRegionCount>& by_region, int vertex) {
+  std::array<double, hand::kRegionCount> weight{};  // of each region's law
   double weights = 0.0;
   for (std::size_t k = response.begin[vertex]; k < response.begin[vertex + 1]; ++k) {
     if (response.distance[k] >= kBlendWidth) continue;
@@ -58,17 +59,17 @@ std::vector<Eigen::Vector3f> centres(const SkinGeometry& skin, const SkinPatches
 
 }  // namespace
 
-SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
+SkinStiffness skin_stiffness(const hand::Hand& hand, const SkinGeometry& skin,
                              const SkinResponse& response, const SkinPatches& spots,
                              const SkinPatches& blocks, const ContactModel& model) {
   SkinStiffness result;
   const auto count = static_cast<std::size_t>(skin.vertex_count());
   const bool has_laws = model.tissue != TissueModel::kBone;
-  std::array<Laws, kRegionCount> by_region;
+  std::array<Laws, hand::kRegionCount> by_region;
   for (std::size_t r = 0; r < by_region.size(); ++r) {
     by_region[r] = laws_of(hand.tissue.region[r], model.tissue);
   }
-  for (std::vector<StiffeningLaw>& law : result.law) law.resize(has_laws ? count : 0);
+  for (std::vector<hand::StiffeningLaw>& law : result.law) law.resize(has_laws ? count : 0);
   for (std::size_t v = 0; v < count && has_laws; ++v) {
     const Laws laws = model.coupling == RegionCoupling::kCoupled
                           ? blended(hand, skin, response, by_region, static_cast<int>(v))
@@ -77,7 +78,7 @@ SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
   }
   result.finger.assign(count, -1);
   for (std::size_t v = 0; v < count && !hand.segment.empty(); ++v) {
-    if (const auto finger = finger_of(hand.segment[v]))
+    if (const auto finger = hand::finger_of(hand.segment[v]))
       result.finger[v] = static_cast<int>(*finger);
   }
   result.spots = spots;
@@ -99,7 +100,7 @@ SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
 
 std::vector<double> local_depth(const SkinStiffness& stiffness, const SkinGeometry& skin,
                                 const std::vector<int>& vertices, const std::vector<int>& collision,
-                                const std::vector<DistanceSample>& sample) {
+                                const std::vector<geometry::DistanceSample>& sample) {
   std::vector<float> deepest(stiffness.spots.count, 0.0F);
   std::vector<std::size_t> touched;
   for (const int v : collision) {
@@ -157,4 +158,4 @@ std::vector<double> local_depth(const SkinStiffness& stiffness, const SkinGeomet
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

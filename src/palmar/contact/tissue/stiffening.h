@@ -9,14 +9,14 @@
 #include "palmar/contact/solve/contact_system.h"
 #include "palmar/contact/solve/skin_product.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// What the shear modulus of a hand's skin depends on, besides the depth of a contact.
 struct SkinStiffness {
   /// Per level (low, nominal, high) and vertex. With coupled regions the laws of neighbouring
   /// regions run into each other over 6 mm, else each vertex has its region's. Empty with
   /// TissueModel::kBone, which has a law of its own (block_energy.h).
-  std::array<std::vector<StiffeningLaw>, 3> law;
+  std::array<std::vector<hand::StiffeningLaw>, 3> law;
   // Spots of a few vertices, by which local_depth() looks around.
   SkinPatches spots;
   std::vector<Eigen::Vector3f> spot_centre;  ///< reference posture, mm
@@ -28,7 +28,7 @@ struct SkinStiffness {
   std::vector<int> finger;                    ///< per vertex
 };
 
-SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
+SkinStiffness skin_stiffness(const hand::Hand& hand, const SkinGeometry& skin,
                              const SkinResponse& response, const SkinPatches& spots,
                              const SkinPatches& blocks, const ContactModel& model);
 
@@ -41,6 +41,6 @@ SkinStiffness skin_stiffness(const Hand& hand, const SkinGeometry& skin,
 /// d_max (Xie 2014, eq. 3-3), which knows the borders of regions only and jumps there.
 std::vector<double> local_depth(const SkinStiffness& stiffness, const SkinGeometry& skin,
                                 const std::vector<int>& vertices, const std::vector<int>& collision,
-                                const std::vector<DistanceSample>& sample);
+                                const std::vector<geometry::DistanceSample>& sample);
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -12,23 +12,23 @@
 #include "palmar/core/text.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace tissue_fit {
 namespace {
 
 constexpr double kWidestFactor = 3.0;  // of a confidence interval, to either side
 
-StiffeningLaw law_of(const Unknowns& x) {
+hand::StiffeningLaw law_of(const Unknowns& x) {
   const double g0 = std::exp(x[kG0]);
   return {g0, g0 * std::exp(x[kRho]), std::exp(x[kLimitDepth])};
 }
 
-Unknowns unknowns_of(const StiffeningLaw& law, double thickness) {
+Unknowns unknowns_of(const hand::StiffeningLaw& law, double thickness) {
   return {std::log(law.g0), std::log(law.g_limit / law.g0), std::log(law.limit_depth),
           std::log(thickness)};
 }
 
-StiffeningLaw scaled(const StiffeningLaw& law, double factor) {
+hand::StiffeningLaw scaled(const hand::StiffeningLaw& law, double factor) {
   return {law.g0 * factor, law.g_limit * factor, law.limit_depth};
 }
 /// A fit in the making.
@@ -143,7 +143,7 @@ class Fit {
   }
 
   void report() {
-    const LeastSquaresSolution& numbers = solved_.least_squares;
+    const geometry::LeastSquaresSolution& numbers = solved_.least_squares;
     fit_.status = numbers.status;
     fit_.iterations = numbers.iterations;
     fit_.degrees_of_freedom = confidence_.degrees_of_freedom;
@@ -159,8 +159,8 @@ class Fit {
     report_points();
     report_parameters();
     report_range();
-    if (fit_.status == LeastSquaresStatus::kIterationLimit ||
-        fit_.status == LeastSquaresStatus::kBadStart) {
+    if (fit_.status == geometry::LeastSquaresStatus::kIterationLimit ||
+        fit_.status == geometry::LeastSquaresStatus::kBadStart) {
       fit_.remarks.insert(fit_.remarks.begin(), "The fit did not converge: don't use its numbers.");
     }
     if (fit_.area_ratio && std::abs(*fit_.area_ratio - 1.0) > 0.15) {
@@ -205,7 +205,7 @@ class Fit {
   }
 
   void report_parameters() {
-    const StiffeningLaw law = law_of(solved_.x);
+    const hand::StiffeningLaw law = law_of(solved_.x);
     const double thickness = std::exp(solved_.x[kThickness]);
     if (mask_[kThickness]) fit_.layer_thickness = thickness;
     const std::array<double, kUnknowns> value = {1000.0 * law.g0, 1000.0 * law.g_limit,
@@ -269,7 +269,7 @@ class Fit {
   }
 
   void report_range() {
-    TissueStiffness& stiffness = fit_.stiffness;
+    hand::TissueStiffness& stiffness = fit_.stiffness;
     stiffness.nominal = law_of(solved_.x);
     stiffness.low = stiffness.nominal;
     stiffness.high = stiffness.nominal;
@@ -287,9 +287,9 @@ class Fit {
     } else {
       for (const std::string& name : names) add_subject(name);
     }
-    for (StiffeningLaw* law : {&stiffness.low, &stiffness.high}) {
-      law->g0 = std::clamp(law->g0, kMinShearModulus, kMaxShearModulus);
-      law->g_limit = std::clamp(law->g_limit, law->g0, kMaxShearModulus);
+    for (hand::StiffeningLaw* law : {&stiffness.low, &stiffness.high}) {
+      law->g0 = std::clamp(law->g0, hand::kMinShearModulus, hand::kMaxShearModulus);
+      law->g_limit = std::clamp(law->g_limit, law->g0, hand::kMaxShearModulus);
     }
   }
 
@@ -337,7 +337,7 @@ class Fit {
       squares += std::pow(force - points_[own[k]].force, 2);
     }
     subject.force_rms = std::sqrt(squares / static_cast<double>(own.size()));
-    TissueStiffness& stiffness = fit_.stiffness;
+    hand::TissueStiffness& stiffness = fit_.stiffness;
     stiffness.low.g0 = std::min(stiffness.low.g0, subject.law.g0);
     stiffness.low.g_limit = std::min(stiffness.low.g_limit, subject.law.g_limit);
     stiffness.high.g0 = std::max(stiffness.high.g0, subject.law.g0);
@@ -359,9 +359,9 @@ class Fit {
 }  // namespace tissue_fit
 
 void TissueFitOptions::check() const {
-  if (limit_depth && !(*limit_depth > 0.0 && *limit_depth <= kMaxTissueLength)) {
+  if (limit_depth && !(*limit_depth > 0.0 && *limit_depth <= hand::kMaxTissueLength)) {
     throw UsageError("fit: limit depth is " + significant(*limit_depth, 3) +
-                     " mm; more than 0 and at most " + significant(kMaxTissueLength, 3) +
+                     " mm; more than 0 and at most " + significant(hand::kMaxTissueLength, 3) +
                      " mm is required");
   }
   if (!(confidence > 0.0 && confidence < 1.0)) {
@@ -395,4 +395,4 @@ TissueFit fit_tissue(const std::vector<MeasuredPoint>& points, const SpecimenRes
   return tissue_fit::Fit(points, response, options).run();
 }
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -12,7 +12,7 @@
 #include "palmar/geometry/least_squares.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::contact {
 
 /// One reading of an indentation test.
 struct MeasuredPoint {
@@ -30,9 +30,9 @@ struct TissueFitOptions {
   /// Residuals relative to the reading instead of in N: every depth counts alike.
   bool is_relative = false;
   double confidence = 0.95;
-  std::optional<StiffeningLaw> start;     ///< none: the best of a grid
-  std::optional<double> start_thickness;  ///< mm
-  void check() const;                     ///< throws UsageError: field, value, allowed range
+  std::optional<hand::StiffeningLaw> start;  ///< none: the best of a grid
+  std::optional<double> start_thickness;     ///< mm
+  void check() const;                        ///< throws UsageError: field, value, allowed range
 };
 
 enum class ParameterStatus {
@@ -59,13 +59,13 @@ struct FittedPoint {
 /// One subject alone, with d_lim and h of the fit over all.
 struct SubjectFit {
   std::string subject;
-  StiffeningLaw law;
+  hand::StiffeningLaw law;
   int points = 0;
   double force_rms = 0.0;  ///< N
 };
 
 struct TissueFit {
-  TissueStiffness stiffness;              ///< nominal: all readings; low, high: see fit_tissue()
+  hand::TissueStiffness stiffness;        ///< nominal: all readings; low, high: see fit_tissue()
   std::optional<double> layer_thickness;  ///< fitted, mm
   std::vector<FittedParameter> parameters;
   std::vector<std::string> fitted;   ///< names of the rows of what follows
@@ -78,7 +78,7 @@ struct TissueFit {
   std::optional<double> area_ratio;  ///< measured / model, mean over readings with an area
   std::optional<double> area_rms_relative;
   int degrees_of_freedom = 0;
-  LeastSquaresStatus status = LeastSquaresStatus::kBadStart;
+  geometry::LeastSquaresStatus status = geometry::LeastSquaresStatus::kBadStart;
   int iterations = 0;
   std::vector<FittedPoint> points;
   std::vector<SubjectFit> subjects;  ///< if there are two or more
@@ -109,4 +109,4 @@ struct TissueFit {
 TissueFit fit_tissue(const std::vector<MeasuredPoint>& points, const SpecimenResponse& response,
                      const TissueFitOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -13,7 +13,7 @@
 #include "palmar/core/text.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar::tissue_fit {
+namespace palmar::contact::tissue_fit {
 namespace {
 
 constexpr double kLargestRho = 1000.0;
@@ -30,8 +30,8 @@ Model::Model(const std::vector<MeasuredPoint>& points, const SpecimenResponse& r
     upper_[kThickness] = std::log(response.thickness.back());
   }
   read_points(response, options);
-  lower_[kG0] = std::log(kMinShearModulus);
-  upper_[kG0] = std::log(kMaxShearModulus);
+  lower_[kG0] = std::log(hand::kMinShearModulus);
+  upper_[kG0] = std::log(hand::kMaxShearModulus);
   lower_[kRho] = 0.0;
   upper_[kRho] = std::log(kLargestRho);
   lower_[kLimitDepth] = std::log(depths_.size() > 1 ? depths_[1] : 0.5 * depths_[0]);
@@ -91,7 +91,7 @@ Unknowns Model::best_linear(double log_limit, double log_h, bool is_constant) co
       rise = 0.0;
     }
   }
-  base = std::clamp(base, kMinShearModulus, kMaxShearModulus);
+  base = std::clamp(base, hand::kMinShearModulus, hand::kMaxShearModulus);
   return {std::log(base), std::min(std::log1p(rise / base), upper_[kRho]), log_limit, log_h};
 }
 
@@ -181,7 +181,7 @@ std::vector<int> free_unknowns(const Mask& mask) {
 Solved descend(const Model& model, const Unknowns& start, const Mask& mask) {
   const std::vector<int> free = free_unknowns(mask);
   const auto n = static_cast<Eigen::Index>(free.size());
-  LeastSquaresProblem problem;
+  geometry::LeastSquaresProblem problem;
   problem.lower.resize(n);
   problem.upper.resize(n);
   Eigen::VectorXd from(n);
@@ -209,7 +209,7 @@ Solved descend(const Model& model, const Unknowns& start, const Mask& mask) {
   };
   Solved solved;
   solved.is_free = mask;
-  solved.least_squares = solve_least_squares(problem, from);
+  solved.least_squares = geometry::solve_least_squares(problem, from);
   solved.x = whole(solved.least_squares.x);
   return solved;
 }
@@ -283,4 +283,4 @@ Confidence confidence_of(const Solved& solved, double level) {
   return result;
 }
 
-}  // namespace palmar::tissue_fit
+}  // namespace palmar::contact::tissue_fit

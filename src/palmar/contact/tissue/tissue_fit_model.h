@@ -11,7 +11,7 @@
 #include "palmar/geometry/least_squares.h"
 
 /// The model behind fit_tissue() (tissue_fit.cpp): residuals of readings, descent and confidence.
-namespace palmar::tissue_fit {
+namespace palmar::contact::tissue_fit {
 
 /// Logarithms of the unknowns, in this order.
 enum Unknown { kG0, kRho, kLimitDepth, kThickness, kUnknowns };
@@ -83,7 +83,7 @@ class Model {
 struct Solved {
   Unknowns x{};
   Mask is_free{};
-  LeastSquaresSolution least_squares;
+  geometry::LeastSquaresSolution least_squares;
 };
 
 std::vector<int> free_unknowns(const Mask& mask);
@@ -104,4 +104,4 @@ struct Confidence {
 
 Confidence confidence_of(const Solved& solved, double level);
 
-}  // namespace palmar::tissue_fit
+}  // namespace palmar::contact::tissue_fit

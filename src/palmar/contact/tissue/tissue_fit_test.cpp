@@ -13,7 +13,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::contact {
 namespace {
 
 using ::testing::HasSubstr;
@@ -39,7 +39,7 @@ SpecimenResponse hertz_response(const std::vector<double>& depths) {
   return response;
 }
 
-double law(const StiffeningLaw& l, double depth) {
+double law(const hand::StiffeningLaw& l, double depth) {
   return l.g0 + (l.g_limit - l.g0) * std::min(1.0, depth / l.limit_depth);
 }
 
@@ -98,7 +98,7 @@ std::string remarks(const TissueFit& fit) {
   return all;
 }
 
-constexpr StiffeningLaw kTruth = {0.008, 0.060, 3.0};  // MPa, MPa, mm
+constexpr hand::StiffeningLaw kTruth = {0.008, 0.060, 3.0};  // MPa, MPa, mm
 const std::vector<double> kDepths = row(0.3, 0.3, 18);
 
 TEST(TissueFit, FindsTheLawBehindHertzForcesExactly) {
@@ -158,13 +158,14 @@ TEST(TissueFit, ReachesTheSameLawFromBadStarts) {
       kDepths, [](double d) { return law(kTruth, d); }, 0.02, 3);
   const SpecimenResponse response = hertz_response(kDepths);
   const TissueFit best = fit_tissue(points, response);
-  for (const StiffeningLaw start :
-       {StiffeningLaw{1e-4, 2e-4, 0.7}, StiffeningLaw{0.5, 5.0, 2.0}, StiffeningLaw{5.0, 9.0, 5.0},
-        StiffeningLaw{1e-5, 9e-3, 4.0}, StiffeningLaw{0.03, 0.031, 1.0}}) {
+  for (const hand::StiffeningLaw start :
+       {hand::StiffeningLaw{1e-4, 2e-4, 0.7}, hand::StiffeningLaw{0.5, 5.0, 2.0},
+        hand::StiffeningLaw{5.0, 9.0, 5.0}, hand::StiffeningLaw{1e-5, 9e-3, 4.0},
+        hand::StiffeningLaw{0.03, 0.031, 1.0}}) {
     TissueFitOptions options;
     options.start = start;
     const TissueFit fit = fit_tissue(points, response, options);
-    EXPECT_NE(fit.status, LeastSquaresStatus::kIterationLimit);
+    EXPECT_NE(fit.status, geometry::LeastSquaresStatus::kIterationLimit);
     EXPECT_NEAR(fit.stiffness.nominal.g0, best.stiffness.nominal.g0, 1e-4 * 0.008) << start.g0;
     EXPECT_NEAR(fit.stiffness.nominal.limit_depth, best.stiffness.nominal.limit_depth, 1e-3);
   }
@@ -230,8 +231,8 @@ TEST(TissueFit, SubjectsGiveTheRange) {
         return law({0.006, 0.045, 3.0}, d);
       },
       0, 1, "A");
-  for (const auto& [subject, more] : {std::pair("B", StiffeningLaw{0.008, 0.060, 3.0}),
-                                      std::pair("C", StiffeningLaw{0.012, 0.072, 3.0})}) {
+  for (const auto& [subject, more] : {std::pair("B", hand::StiffeningLaw{0.008, 0.060, 3.0}),
+                                      std::pair("C", hand::StiffeningLaw{0.012, 0.072, 3.0})}) {
     const auto theirs = readings(
         kDepths, [l = more](double d) { return law(l, d); }, 0, 1, subject);
     points.insert(points.end(), theirs.begin(), theirs.end());
@@ -390,4 +391,4 @@ TEST(PowerCurve, IsExactForPowersAndGivesItsOwnSlope) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::contact

@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 void check(const Drawing& drawing) {
@@ -205,4 +205,4 @@ std::string svg_of(const Drawing& drawing) {
   return out + "</svg>\n";
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Lines of one kind.
 struct DrawingLayer {
@@ -47,4 +47,4 @@ std::string dxf_of(const Drawing& drawing);
 /// SVG 1.1 whose width and height are in millimetres: printed at 100 % it is in true scale.
 std::string svg_of(const Drawing& drawing);
 
-}  // namespace palmar
+}  // namespace palmar::formats

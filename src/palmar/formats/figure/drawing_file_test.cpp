@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 Drawing drawing() {
@@ -89,4 +89,4 @@ TEST(Drawing, RefusesWhatIsntThere) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

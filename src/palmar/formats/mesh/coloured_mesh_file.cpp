@@ -14,7 +14,7 @@
 #include "palmar/formats/mesh/texture_file.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,8 +56,8 @@ void read_materials(const fs::path& path, std::map<std::string, std::string>& im
   }
 }
 
-void read_obj_textures(const fs::path& path, const ObjColours& obj, SurfaceColours& colours,
-                       std::vector<std::string>& notes) {
+void read_obj_textures(const fs::path& path, const ObjColours& obj,
+                       geometry::SurfaceColours& colours, std::vector<std::string>& notes) {
   std::map<std::string, std::string> image_of;
   for (const std::string& library : obj.library) {
     const fs::path file = neighbour(path, library);
@@ -123,15 +123,15 @@ ColouredMeshFile read_coloured_mesh(const fs::path& path) {
   return file;
 }
 
-void write_coloured_mesh(const fs::path& path, const ColouredMesh& mesh) {
+void write_coloured_mesh(const fs::path& path, const geometry::ColouredMesh& mesh) {
   if (path.extension() != ".ply") {
     throw UsageError(path.string() + ": colours are written as .ply only");
   }
   write_file(path, format_ply(mesh));
 }
 
-void write_textured_mesh(const fs::path& path, const TriangleMesh& mesh,
-                         const SurfaceColours& colours) {
+void write_textured_mesh(const fs::path& path, const geometry::TriangleMesh& mesh,
+                         const geometry::SurfaceColours& colours) {
   if (path.extension() != ".obj" || colours.textures.size() != 1 ||
       colours.place.size() != mesh.triangles.size()) {
     throw UsageError(path.string() + ": one texture on all triangles is written, as .obj");
@@ -161,4 +161,4 @@ void write_textured_mesh(const fs::path& path, const TriangleMesh& mesh,
   write_file(path, text);
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

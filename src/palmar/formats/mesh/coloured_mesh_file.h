@@ -7,12 +7,12 @@
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// A surface with its colours, in the file's own unit.
 struct ColouredMeshFile {
   MeshFile shape;
-  SurfaceColours colours;  ///< empty if the file has none
+  geometry::SurfaceColours colours;  ///< empty if the file has none
 };
 
 /// Reads a scan: OBJ (vertex colours, or textures by its material file), PLY (vertex colours), GLB
@@ -22,11 +22,11 @@ struct ColouredMeshFile {
 ColouredMeshFile read_coloured_mesh(const std::filesystem::path& path);
 
 /// Writes a .ply with vertex colours, coordinates as they are.
-void write_coloured_mesh(const std::filesystem::path& path, const ColouredMesh& mesh);
+void write_coloured_mesh(const std::filesystem::path& path, const geometry::ColouredMesh& mesh);
 
 /// Writes an .obj with its material file and texture beside it (same name, .mtl and .png).
 /// `colours` holds one texture that all triangles use; throws UsageError otherwise, OutputError.
-void write_textured_mesh(const std::filesystem::path& path, const TriangleMesh& mesh,
-                         const SurfaceColours& colours);
+void write_textured_mesh(const std::filesystem::path& path, const geometry::TriangleMesh& mesh,
+                         const geometry::SurfaceColours& colours);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -14,7 +14,7 @@
 #include "palmar/formats/mesh/texture_file.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -46,12 +46,12 @@ TEST(ColouredMeshFile, ObjTakesItsTextureFromTheMaterialFile) {
   write_file(folder / "hand.png", png_bytes());
   const ColouredMeshFile file = read_coloured_mesh(folder / "scan.obj");
   ASSERT_EQ(file.shape.mesh.triangle_count(), 2);
-  const ColouredMesh mesh = coloured_mesh(file.shape.mesh, file.colours, 10.0);
+  const geometry::ColouredMesh mesh = geometry::coloured_mesh(file.shape.mesh, file.colours, 10.0);
   // The origin is the lower left of the image: blue.
-  EXPECT_EQ(mesh.colour[0], Srgb(0, 0, 1));
-  EXPECT_EQ(mesh.colour[1], Srgb(1, 1, 1));
-  EXPECT_EQ(mesh.colour[2], Srgb(0, 1, 0));
-  EXPECT_EQ(mesh.colour[3], Srgb(1, 0, 0));
+  EXPECT_EQ(mesh.colour[0], geometry::Srgb(0, 0, 1));
+  EXPECT_EQ(mesh.colour[1], geometry::Srgb(1, 1, 1));
+  EXPECT_EQ(mesh.colour[2], geometry::Srgb(0, 1, 0));
+  EXPECT_EQ(mesh.colour[3], geometry::Srgb(1, 0, 0));
 }
 
 TEST(ColouredMeshFile, NamesWhatIsMissingOrDamaged) {
@@ -74,7 +74,7 @@ TEST(ColouredMeshFile, NamesWhatIsMissingOrDamaged) {
 }
 
 TEST(TextureFile, AJpegThatIsCutOffOrDamagedIsRefused) {
-  RgbImage image{64, 48, {}};
+  geometry::RgbImage image{64, 48, {}};
   for (int p = 0; p < 64 * 48 * 3; ++p) {
     image.rgb.push_back(static_cast<std::uint8_t>(p * 37 % 251));  // no two blocks alike
   }
@@ -100,15 +100,16 @@ TEST(ColouredMeshFile, VertexColoursOfObjAndPlyReadBack) {
   write_file(folder / "a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 0.5\nf 1 2 3\n");
   ColouredMeshFile file = read_coloured_mesh(folder / "a.obj");
   ASSERT_EQ(file.colours.vertex.size(), 3u);
-  EXPECT_EQ(file.colours.vertex[2], Srgb(0, 0, 0.5F));
+  EXPECT_EQ(file.colours.vertex[2], geometry::Srgb(0, 0, 0.5F));
   write_file(folder / "b.obj", "v 0 0 0 255 0 0\nv 1 0 0 0 255 0\nv 0 1 0 0 0 51\nf 1 2 3\n");
   file = read_coloured_mesh(folder / "b.obj");
   EXPECT_NEAR(file.colours.vertex[2].z(), 0.2F, 1e-6);
   write_file(folder / "c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_TRUE(read_coloured_mesh(folder / "c.obj").colours.empty());
 
-  const ColouredMesh mesh{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}},
-                          {Srgb(1, 0, 0), Srgb(0, 0.2F, 0), Srgb(0, 0, 0.6F)}};
+  const geometry::ColouredMesh mesh{
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}},
+      {geometry::Srgb(1, 0, 0), geometry::Srgb(0, 0.2F, 0), geometry::Srgb(0, 0, 0.6F)}};
   write_coloured_mesh(folder / "d.ply", mesh);
   file = read_coloured_mesh(folder / "d.ply");
   ASSERT_EQ(file.colours.vertex.size(), 3u);
@@ -144,7 +145,7 @@ TEST(ColouredMeshFile, UnusedVerticesTakeTheirColoursAlong) {
              "v 9 9 9 0 0 0\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 2 2 3\nf 2 3 4\n");
   const ColouredMeshFile file = read_coloured_mesh(folder / "a.obj");
   ASSERT_EQ(file.shape.mesh.vertex_count(), 3);
-  EXPECT_EQ(file.colours.vertex[0], Srgb(1, 0, 0));
+  EXPECT_EQ(file.colours.vertex[0], geometry::Srgb(1, 0, 0));
   EXPECT_TRUE(file.colours.texture.empty());
 }
 
@@ -186,13 +187,13 @@ TEST(ColouredMeshFile, GltfTexturesAndLinearColours) {
   write_file(folder / "b.bin", buffer + image);
   write_file(folder / "a.gltf", json.dump());
   ColouredMeshFile file = read_coloured_mesh(folder / "a.gltf");
-  EXPECT_EQ(file.shape.unit, LengthUnit::kMetre);
+  EXPECT_EQ(file.shape.unit, geometry::LengthUnit::kMetre);
   ASSERT_EQ(file.colours.vertex.size(), 3u);
   EXPECT_NEAR(file.colours.vertex[1].x(), 0.5F, 1e-4);
-  ColouredMesh mesh = coloured_mesh(file.shape.mesh, file.colours, 10.0);
-  EXPECT_EQ(mesh.colour[0], Srgb(1, 0, 0));  // the upper left of the image
-  EXPECT_EQ(mesh.colour[1], Srgb(0, 1, 0));
-  EXPECT_EQ(mesh.colour[2], Srgb(0, 0, 1));
+  geometry::ColouredMesh mesh = geometry::coloured_mesh(file.shape.mesh, file.colours, 10.0);
+  EXPECT_EQ(mesh.colour[0], geometry::Srgb(1, 0, 0));  // the upper left of the image
+  EXPECT_EQ(mesh.colour[1], geometry::Srgb(0, 1, 0));
+  EXPECT_EQ(mesh.colour[2], geometry::Srgb(0, 0, 1));
 
   json["images"][0]["bufferView"] = 7;
   write_file(folder / "a.gltf", json.dump());
@@ -201,4 +202,4 @@ TEST(ColouredMeshFile, GltfTexturesAndLinearColours) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -12,7 +12,7 @@
 #include "palmar/formats/json_reason.h"
 #include "palmar/formats/json_whole.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 constexpr std::uint32_t kGlbMagic = 0x46546C67;   // "glTF"
@@ -323,4 +323,4 @@ int add_doubles(Glb& glb, const std::vector<double>& value) {
   return add_view(glb, value.data(), value.size() * sizeof(double), 0);
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// A binary glTF 2.0 container: the JSON chunk and the one embedded buffer (Khronos glTF 2.0,
 /// section 4). For use inside `io` only.
@@ -52,4 +52,4 @@ int add_indices(Glb& glb, const std::vector<std::uint32_t>& value);
 int add_bytes(Glb& glb, const std::vector<std::uint8_t>& value, int components);
 int add_doubles(Glb& glb, const std::vector<double>& value);
 
-}  // namespace palmar
+}  // namespace palmar::formats

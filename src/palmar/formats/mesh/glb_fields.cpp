@@ -10,7 +10,7 @@
 #include "palmar/core/version.h"
 #include "palmar/formats/mesh/glb.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
@@ -31,7 +31,7 @@ std::string attribute_name(const std::string& field) {
   return name;
 }
 
-std::vector<float> smooth_normals(const TriangleMesh& mesh) {
+std::vector<float> smooth_normals(const geometry::TriangleMesh& mesh) {
   std::vector<Vec3> sum(mesh.vertices.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
     const Vec3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
@@ -134,4 +134,4 @@ std::string format_glb_fields(const std::vector<FieldMesh>& meshes) {
   return {bytes.begin(), bytes.end()};
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -10,7 +10,7 @@
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Colour as on the screen: sRGB, 0 to 255.
 using VertexColour = std::array<std::uint8_t, 3>;
@@ -18,7 +18,7 @@ using VertexColour = std::array<std::uint8_t, 3>;
 /// One mesh of a scene, with a colour and any number of scalars at each vertex.
 struct FieldMesh {
   std::string name;
-  TriangleMesh mesh;                 ///< mm
+  geometry::TriangleMesh mesh;       ///< mm
   std::vector<VertexColour> colour;  ///< per vertex, or one for all, or none (light grey)
   std::vector<PointField> field;  ///< scalars; "pressure_mpa" becomes the attribute _PRESSURE_MPA
 };
@@ -28,4 +28,4 @@ struct FieldMesh {
 /// without triangles are left out. Throws Error if colours or a field don't fit their mesh.
 std::string format_glb_fields(const std::vector<FieldMesh>& meshes);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -102,4 +102,4 @@ TEST(Glb, AnAccessorBeyondItsBufferIsRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -16,7 +16,7 @@
 #include "palmar/formats/mesh/texture_file.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using Json = nlohmann::json;
@@ -212,11 +212,11 @@ class Loader {
 class SceneReader {
  public:
   /// `colours`: null if only the shape is wanted.
-  SceneReader(const Loader& loader, const std::string& name, SurfaceColours* colours)
+  SceneReader(const Loader& loader, const std::string& name, geometry::SurfaceColours* colours)
       : loader_(loader), glb_(loader.glb()), name_(name), colours_(colours), welder_(1024) {}
 
   MeshFile read() {
-    file_.unit = LengthUnit::kMetre;
+    file_.unit = geometry::LengthUnit::kMetre;
     for (const std::int64_t root : root_nodes()) visit(root, Affine::Identity(), 0);
     note(skin_count_, "skinned meshes read in their rest pose");
     note(morph_count_, "morph targets skipped");
@@ -475,7 +475,7 @@ class SceneReader {
   const Loader& loader_;
   const Glb& glb_;
   const std::string& name_;
-  SurfaceColours* colours_;
+  geometry::SurfaceColours* colours_;
   std::vector<std::int64_t> image_;          ///< behind each of colours_->textures
   std::vector<Eigen::Vector4f> colour_sum_;  ///< per vertex: colours met there, their number
   int transformed_count_ = 0;
@@ -489,7 +489,8 @@ class SceneReader {
   MeshFile file_;
 };
 
-MeshFile parse(std::string_view bytes, const std::filesystem::path& path, SurfaceColours* colours) {
+MeshFile parse(std::string_view bytes, const std::filesystem::path& path,
+               geometry::SurfaceColours* colours) {
   const std::string name = path.string();
   try {
     const Loader loader(bytes, path);
@@ -508,8 +509,8 @@ MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path) {
 }
 
 MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path,
-                    SurfaceColours& colours) {
+                    geometry::SurfaceColours& colours) {
   return parse(bytes, path, &colours);
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -8,7 +8,7 @@
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Reads the triangles of the default scene of a glTF 2.0 file, text (.gltf, with embedded or
 /// neighbouring buffers) or binary (.glb): node transforms applied, strips and fans unrolled,
@@ -23,6 +23,6 @@ MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path);
 /// The same with its colours: base colour textures (images as they are coded in the file, read by
 /// read_texture()), and COLOR_0, which glTF stores linear, as sRGB.
 MeshFile parse_gltf(std::string_view bytes, const std::filesystem::path& path,
-                    SurfaceColours& colours);
+                    geometry::SurfaceColours& colours);
 
-}  // namespace palmar
+}  // namespace palmar::formats

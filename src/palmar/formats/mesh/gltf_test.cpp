@@ -15,7 +15,7 @@
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -24,7 +24,7 @@ using Json = nlohmann::json;
 
 /// Box of 1 x 2 x 3 as one buffer: positions, then 16-bit indices.
 std::string box_buffer() {
-  const TriangleMesh box = box_mesh({1, 2, 3});
+  const geometry::TriangleMesh box = box_mesh({1, 2, 3});
   std::string bytes;
   for (const Vec3& v : box.vertices) {
     for (int c = 0; c < 3; ++c) append_value(bytes, static_cast<float>(v[c]));
@@ -58,7 +58,7 @@ MeshFile gltf(const Json& json) { return parse_gltf(json.dump(), "x.gltf"); }
 std::string gltf_error(const Json& json) {
   return message_of<InputError>([&] { parse_gltf(json.dump(), "x.gltf"); });
 }
-Box3 bounds(const TriangleMesh& mesh) {
+Box3 bounds(const geometry::TriangleMesh& mesh) {
   Box3 box;
   for (const Vec3& v : mesh.vertices) box.extend(v);
   return box;
@@ -66,7 +66,7 @@ Box3 bounds(const TriangleMesh& mesh) {
 
 TEST(Gltf, EmbeddedAndNeighbouringBuffersGiveTheSameBoxInMetres) {
   const MeshFile embedded = gltf(box_gltf(kPlainNode, data_uri()));
-  EXPECT_EQ(embedded.unit, LengthUnit::kMetre);
+  EXPECT_EQ(embedded.unit, geometry::LengthUnit::kMetre);
   EXPECT_EQ(embedded.format, "glTF");
   EXPECT_EQ(embedded.mesh.vertex_count(), 8);
   EXPECT_DOUBLE_EQ(signed_volume(embedded.mesh), 6.0);
@@ -100,7 +100,7 @@ TEST(Gltf, AMirroredNodeKeepsTheOutsideOutside) {
 
 TEST(Gltf, StripsAndFansAreUnrolledWithOneSense) {
   // A unit square as strip 0 1 2 3 (z-shaped order) and as fan 0 1 3 2.
-  TriangleMesh square;
+  geometry::TriangleMesh square;
   for (const int mode : {5, 6}) {
     std::string buffer;
     const std::vector<Vec3> strip = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
@@ -113,7 +113,7 @@ TEST(Gltf, StripsAndFansAreUnrolledWithOneSense) {
     json["bufferViews"] = Json::array({{{"buffer", 0}, {"byteLength", 48}}});
     json["accessors"] =
         Json::array({{{"bufferView", 0}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}}});
-    const TriangleMesh mesh = gltf(json).mesh;
+    const geometry::TriangleMesh mesh = gltf(json).mesh;
     ASSERT_EQ(mesh.triangle_count(), 2) << mode;
     EXPECT_DOUBLE_EQ(surface_area(mesh), 1.0) << mode;
     for (const Triangle& t : mesh.triangles) {
@@ -186,4 +186,4 @@ TEST(Gltf, ErrorsNameThePlace) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -170,8 +170,8 @@ void check_triangle_count(const std::string& name, std::uint64_t count) {
   }
 }
 
-void finish_mesh(MeshFile& file, const std::string& name, SurfaceColours* colours) {
-  TriangleMesh& mesh = file.mesh;
+void finish_mesh(MeshFile& file, const std::string& name, geometry::SurfaceColours* colours) {
+  geometry::TriangleMesh& mesh = file.mesh;
   if (mesh.triangles.empty()) {
     throw InputError(name + ": holds " +
                      (mesh.vertices.empty()
@@ -226,4 +226,4 @@ void finish_mesh(MeshFile& file, const std::string& name, SurfaceColours* colour
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -10,7 +10,7 @@
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Splits polygons into triangles: fans where they are convex, ear clipping where not (in the plane
 /// of Newell's normal). The effort over all polygons of one file is bounded, so that no file can
@@ -56,6 +56,7 @@ void check_triangle_count(const std::string& name, std::uint64_t count);
 /// Makes the promises of MeshFile true: drops triangles that name a vertex twice and vertices
 /// without triangle, with notes; `colours`, if there are any, are kept. Throws InputError
 /// "`name`: ..." if no triangle is left.
-void finish_mesh(MeshFile& file, const std::string& name, SurfaceColours* colours = nullptr);
+void finish_mesh(MeshFile& file, const std::string& name,
+                 geometry::SurfaceColours* colours = nullptr);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -16,7 +16,7 @@
 #include "palmar/formats/mesh/three_mf.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 constexpr std::string_view kSupported = "STL, OBJ, PLY, 3MF, glTF and GLB are read";
@@ -117,7 +117,7 @@ MeshFile read_mesh(const std::filesystem::path& path) {
   return file;
 }
 
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+void write_mesh(const std::filesystem::path& path, const geometry::TriangleMesh& mesh) {
   const std::string extension = lower_case(path.extension().string());
   if (extension == ".stl") {
     write_file(path, format_stl(mesh));
@@ -131,4 +131,4 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

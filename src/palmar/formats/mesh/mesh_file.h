@@ -10,7 +10,7 @@
 #include "palmar/geometry/length_unit.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// A mesh as it stands in a file: coordinates in the file's own unit, not yet mm.
 ///
@@ -18,8 +18,8 @@ namespace palmar {
 /// twice; every vertex belongs to a triangle. Nothing else is promised: it may be open, flipped or
 /// self-crossing.
 struct MeshFile {
-  TriangleMesh mesh;               ///< in the file's unit
-  std::optional<LengthUnit> unit;  ///< if the format carries it (3MF, glTF)
+  geometry::TriangleMesh mesh;               ///< in the file's unit
+  std::optional<geometry::LengthUnit> unit;  ///< if the format carries it (3MF, glTF)
   std::string format;              ///< "binary STL", "OBJ", "PLY (ascii)", "3MF", "glTF binary" ...
   std::vector<std::string> notes;  ///< what was skipped, dropped or doubted, with counts
 };
@@ -35,6 +35,6 @@ MeshFile read_mesh(const std::filesystem::path& path);
 /// Writes by extension: .stl (binary, single precision), .obj (text that reads back exactly) or
 /// .ply (binary little-endian, double precision). Coordinates are written as they are, in mm: none
 /// of the three formats carries a unit. Throws UsageError on another extension, OutputError.
-void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+void write_mesh(const std::filesystem::path& path, const geometry::TriangleMesh& mesh);
 
-}  // namespace palmar
+}  // namespace palmar::formats

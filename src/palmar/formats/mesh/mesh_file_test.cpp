@@ -16,7 +16,7 @@
 #include "palmar/formats/mesh/test_archives.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -28,7 +28,7 @@ std::string mesh_message(const std::filesystem::path& path) {
 
 TEST(MeshFile, EveryFormatWrittenReadsBack) {
   const TestFolder folder;
-  const TriangleMesh box = box_mesh({20, 30, 40});
+  const geometry::TriangleMesh box = box_mesh({20, 30, 40});
   for (const char* name : {"box.stl", "box.OBJ", "box.ply"}) {
     write_mesh(folder / name, box);
     const MeshFile file = read_mesh(folder / name);
@@ -43,7 +43,7 @@ TEST(MeshFile, EveryFormatWrittenReadsBack) {
 
 TEST(MeshFile, TheContentDecidesNotTheName) {
   const TestFolder folder;
-  const TriangleMesh box = box_mesh({20, 30, 40});
+  const geometry::TriangleMesh box = box_mesh({20, 30, 40});
   write_file(folder / "a.stl", format_ply(box));
   write_file(folder / "b.obj", format_stl(box));
   write_file(folder / "c", format_obj(box));
@@ -55,8 +55,8 @@ TEST(MeshFile, TheContentDecidesNotTheName) {
   EXPECT_EQ(read_mesh(folder / "b.obj").format, "binary STL");
   EXPECT_EQ(read_mesh(folder / "c").format, "OBJ");
   EXPECT_TRUE(read_mesh(folder / "c").notes.empty());
-  EXPECT_EQ(read_mesh(folder / "d.stl").unit, LengthUnit::kInch);
-  EXPECT_EQ(read_mesh(folder / "e.ply").unit, LengthUnit::kMetre);
+  EXPECT_EQ(read_mesh(folder / "d.stl").unit, geometry::LengthUnit::kInch);
+  EXPECT_EQ(read_mesh(folder / "e.ply").unit, geometry::LengthUnit::kMetre);
 }
 
 TEST(MeshFile, WhatCantBeReadIsNamedWithWhatCan) {
@@ -126,7 +126,7 @@ TEST(MeshFile, RealScansHaveTheTrianglesTheirSourcesState) {
     write_mesh(folder / "again.ply", file.mesh);
     EXPECT_EQ(read_mesh(folder / "again.ply").mesh.vertices, file.mesh.vertices) << scan.name;
     write_mesh(folder / "again.stl", file.mesh);
-    const TriangleMesh stl = read_mesh(folder / "again.stl").mesh;
+    const geometry::TriangleMesh stl = read_mesh(folder / "again.stl").mesh;
     EXPECT_EQ(stl.triangle_count(), scan.triangles) << scan.name;
     EXPECT_EQ(stl.vertex_count(), scan.vertices) << scan.name;
     EXPECT_NEAR(signed_volume(stl), signed_volume(file.mesh), 1.0) << scan.name;
@@ -134,4 +134,4 @@ TEST(MeshFile, RealScansHaveTheTrianglesTheirSourcesState) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -20,7 +20,7 @@
 #include "palmar/formats/mesh/three_mf.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 class Mutator {
@@ -86,7 +86,7 @@ class Mutator {
   std::mt19937_64 random_;
 };
 
-void check_promises(const TriangleMesh& mesh) {
+void check_promises(const geometry::TriangleMesh& mesh) {
   ASSERT_GT(mesh.triangle_count(), 0);
   for (const Vec3& v : mesh.vertices) ASSERT_LE(v.cwiseAbs().maxCoeff(), 1e12);
   for (const Triangle& t : mesh.triangles) {
@@ -202,4 +202,4 @@ TEST(MeshFuzz, ThreeMf) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

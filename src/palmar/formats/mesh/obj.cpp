@@ -9,7 +9,7 @@
 #include "palmar/formats/mesh/mesh_build.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 /// Statements of the format; others are unknown.
@@ -129,7 +129,7 @@ class ObjReader {
   }
 
   void read_vertex_colour() {
-    Srgb colour = Srgb::Zero();
+    geometry::Srgb colour = geometry::Srgb::Zero();
     for (int c = 0; c < 3; ++c) {
       const auto value = parse_double(next_word());
       if (!value || !(*value >= 0.0 && *value <= 255.0)) {
@@ -199,12 +199,12 @@ class ObjReader {
   }
 
   void finish_colours() {
-    SurfaceColours& surface = colours_->surface;
+    geometry::SurfaceColours& surface = colours_->surface;
     if (!all_have_colour_) surface.vertex.clear();
     float largest = 0.0F;
-    for (const Srgb& c : surface.vertex) largest = std::max(largest, c.maxCoeff());
+    for (const geometry::Srgb& c : surface.vertex) largest = std::max(largest, c.maxCoeff());
     if (largest > 1.0F) {
-      for (Srgb& c : surface.vertex) c /= 255.0F;
+      for (geometry::Srgb& c : surface.vertex) c /= 255.0F;
     }
   }
 
@@ -303,7 +303,7 @@ MeshFile parse_obj(std::string_view bytes, const std::string& name, ObjColours& 
   return parse_obj_text(bytes, name, &colours);
 }
 
-std::string format_obj(const TriangleMesh& mesh) {
+std::string format_obj(const geometry::TriangleMesh& mesh) {
   std::string text = "# Palmar; millimetre\n";
   text.reserve(60 * mesh.vertices.size() + 24 * mesh.triangles.size() + 64);
   for (const Vec3& v : mesh.vertices) {
@@ -316,4 +316,4 @@ std::string format_obj(const TriangleMesh& mesh) {
   return text;
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

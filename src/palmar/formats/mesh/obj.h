@@ -8,7 +8,7 @@
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// True if the bytes are text with a vertex or face line of a Wavefront OBJ before anything else
 /// that the format doesn't know.
@@ -27,7 +27,7 @@ MeshFile parse_obj(std::string_view bytes, const std::string& name);
 struct ObjColours {
   /// Vertex colours ("v x y z r g b", 0 to 1 or to 255, an extension) and places of textures;
   /// `texture` counts `material`; no images.
-  SurfaceColours surface;
+  geometry::SurfaceColours surface;
   std::vector<std::string> material;  ///< names, in order of first use
   std::vector<std::string> library;   ///< files that describe them (mtllib)
 };
@@ -35,6 +35,6 @@ struct ObjColours {
 MeshFile parse_obj(std::string_view bytes, const std::string& name, ObjColours& colours);
 
 /// OBJ text whose numbers read back to the same doubles.
-std::string format_obj(const TriangleMesh& mesh);
+std::string format_obj(const geometry::TriangleMesh& mesh);
 
-}  // namespace palmar
+}  // namespace palmar::formats

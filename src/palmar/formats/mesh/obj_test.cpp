@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -25,7 +25,7 @@ std::string obj_error(const std::string& text) {
 }
 
 TEST(Obj, TextReadsBackExactly) {
-  TriangleMesh mesh = box_mesh({1.0 / 3.0, std::numbers::pi, 1e-7});
+  geometry::TriangleMesh mesh = box_mesh({1.0 / 3.0, std::numbers::pi, 1e-7});
   const MeshFile file = obj(format_obj(mesh));
   EXPECT_EQ(file.mesh.vertices, mesh.vertices);
   EXPECT_EQ(file.mesh.triangles, mesh.triangles);
@@ -151,4 +151,4 @@ TEST(Obj, WhatIsSkippedIsCounted) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

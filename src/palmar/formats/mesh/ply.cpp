@@ -11,7 +11,7 @@
 #include "palmar/formats/mesh/mesh_build.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 enum class Type { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
@@ -231,7 +231,7 @@ template <typename Source>
 class BodyReader {
  public:
   BodyReader(Source source, std::size_t body_bytes, const std::string& name,
-             SurfaceColours* colours)
+             geometry::SurfaceColours* colours)
       : source_(std::move(source)), body_bytes_(body_bytes), name_(name), colours_(colours) {}
 
   MeshFile read(const std::vector<Element>& elements) {
@@ -366,7 +366,7 @@ class BodyReader {
     file_.mesh.vertices.reserve(file_.mesh.vertices.size() + element.count);
     for (std::uint64_t row = 0; row < element.count; ++row) {
       Vec3 p = Vec3::Zero();
-      Srgb colour = Srgb::Zero();
+      geometry::Srgb colour = geometry::Srgb::Zero();
       for (std::size_t k = 0; k < axis.size(); ++k) {
         if (axis[k] >= 0) {
           p[axis[k]] = value(element.properties[k].type, element, row);
@@ -457,10 +457,11 @@ class BodyReader {
   std::vector<std::pair<std::uint64_t, std::vector<int>>> waiting_;  ///< faces before vertices
   PolygonSplitter splitter_;
   MeshFile file_;
-  SurfaceColours* colours_;  ///< null: only the shape is wanted
+  geometry::SurfaceColours* colours_;  ///< null: only the shape is wanted
 };
 
-MeshFile parse_ply_bytes(std::string_view bytes, const std::string& name, SurfaceColours* colours) {
+MeshFile parse_ply_bytes(std::string_view bytes, const std::string& name,
+                         geometry::SurfaceColours* colours) {
   if (!is_ply(bytes)) {
     throw InputError(name + ": is no PLY: starts with " + in_quotes(bytes.substr(0, 8)) +
                      "; a line \"ply\" is required");
@@ -482,7 +483,7 @@ MeshFile parse_ply_bytes(std::string_view bytes, const std::string& name, Surfac
   return file;
 }
 
-std::string format(const TriangleMesh& mesh, const std::vector<Srgb>& colour,
+std::string format(const geometry::TriangleMesh& mesh, const std::vector<geometry::Srgb>& colour,
                    const std::vector<PlyByteProperty>& properties = {}) {
   std::string names;
   for (const PlyByteProperty& property : properties) {
@@ -526,16 +527,20 @@ MeshFile parse_ply(std::string_view bytes, const std::string& name) {
   return parse_ply_bytes(bytes, name, nullptr);
 }
 
-MeshFile parse_ply(std::string_view bytes, const std::string& name, SurfaceColours& colours) {
+MeshFile parse_ply(std::string_view bytes, const std::string& name,
+                   geometry::SurfaceColours& colours) {
   return parse_ply_bytes(bytes, name, &colours);
 }
 
-std::string format_ply(const TriangleMesh& mesh) { return format(mesh, {}); }
+std::string format_ply(const geometry::TriangleMesh& mesh) { return format(mesh, {}); }
 
-std::string format_ply(const ColouredMesh& mesh) { return format(mesh.mesh, mesh.colour); }
+std::string format_ply(const geometry::ColouredMesh& mesh) {
+  return format(mesh.mesh, mesh.colour);
+}
 
-std::string format_ply(const ColouredMesh& mesh, const std::vector<PlyByteProperty>& properties) {
+std::string format_ply(const geometry::ColouredMesh& mesh,
+                       const std::vector<PlyByteProperty>& properties) {
   return format(mesh.mesh, mesh.colour, properties);
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

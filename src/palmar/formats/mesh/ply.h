@@ -10,7 +10,7 @@
 #include "palmar/formats/mesh/mesh_file.h"
 #include "palmar/geometry/mesh/textured_mesh.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// True if the bytes start as a PLY file does.
 bool is_ply(std::string_view bytes);
@@ -26,17 +26,19 @@ MeshFile parse_ply(std::string_view bytes, const std::string& name);
 /// The same with the colours of the vertices (red, green, blue; whole numbers to 255 or fractions
 /// to 1), if it has any, and with them which were seen: property measured (0: a guess), else views
 /// (less than 2).
-MeshFile parse_ply(std::string_view bytes, const std::string& name, SurfaceColours& colours);
+MeshFile parse_ply(std::string_view bytes, const std::string& name,
+                   geometry::SurfaceColours& colours);
 
 /// Binary little-endian PLY in double precision.
-std::string format_ply(const TriangleMesh& mesh);
+std::string format_ply(const geometry::TriangleMesh& mesh);
 /// The same with a colour of every vertex in bytes, as other programs read it.
-std::string format_ply(const ColouredMesh& mesh);
+std::string format_ply(const geometry::ColouredMesh& mesh);
 /// The same with more properties of the vertices, a byte each.
 struct PlyByteProperty {
   std::string name;
   std::vector<std::uint8_t> value;  ///< per vertex
 };
-std::string format_ply(const ColouredMesh& mesh, const std::vector<PlyByteProperty>& properties);
+std::string format_ply(const geometry::ColouredMesh& mesh,
+                       const std::vector<PlyByteProperty>& properties);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -11,7 +11,7 @@
 #include "palmar/formats/bytes.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -39,7 +39,7 @@ void put(std::string& bytes, T value, std::endian order) {
 }
 
 TEST(Ply, BinaryReadsBackExactly) {
-  const TriangleMesh mesh = box_mesh({1.0 / 3.0, 2.0, 1e-9});
+  const geometry::TriangleMesh mesh = box_mesh({1.0 / 3.0, 2.0, 1e-9});
   const MeshFile file = ply(format_ply(mesh));
   EXPECT_EQ(file.mesh.vertices, mesh.vertices);
   EXPECT_EQ(file.mesh.triangles, mesh.triangles);
@@ -149,4 +149,4 @@ TEST(Ply, PointCloudsAndStripsAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -9,7 +9,7 @@
 #include "palmar/formats/mesh/mesh_build.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 84;
@@ -176,7 +176,7 @@ MeshFile parse_stl(std::string_view bytes, const std::string& name) {
   return parse_binary(bytes, name);
 }
 
-std::string format_stl(const TriangleMesh& mesh) {
+std::string format_stl(const geometry::TriangleMesh& mesh) {
   std::string bytes;
   bytes.reserve(kHeaderBytes + kFacetBytes * mesh.triangles.size());
   // Must not start with "solid": many readers would take it for text.
@@ -196,4 +196,4 @@ std::string format_stl(const TriangleMesh& mesh) {
   return bytes;
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

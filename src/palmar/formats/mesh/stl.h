@@ -7,7 +7,7 @@
 
 #include "palmar/formats/mesh/mesh_file.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// True if the bytes are an STL file beyond doubt: the length fits the binary triangle count, or
 /// text that starts with "solid" and goes on with a facet or an end.
@@ -22,6 +22,6 @@ bool is_stl(std::string_view bytes);
 MeshFile parse_stl(std::string_view bytes, const std::string& name);
 
 /// Binary STL; coordinates are rounded to single precision, as the format demands.
-std::string format_stl(const TriangleMesh& mesh);
+std::string format_stl(const geometry::TriangleMesh& mesh);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -12,7 +12,7 @@
 #include "palmar/formats/bytes.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -133,4 +133,4 @@ TEST(Stl, FacetsWithTwoEqualCornersAreDropped) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

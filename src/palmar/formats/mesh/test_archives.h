@@ -13,7 +13,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// A ZIP archive with these members, for tests.
 inline std::string zip_bytes(const std::vector<std::pair<std::string, std::string>>& members,
@@ -68,7 +68,7 @@ inline std::string zip_bytes(const std::vector<std::pair<std::string, std::strin
 }
 
 /// The <mesh> element of a 3MF model.
-inline std::string mesh_xml(const TriangleMesh& mesh) {
+inline std::string mesh_xml(const geometry::TriangleMesh& mesh) {
   std::string xml = "<mesh><vertices>";
   for (const Vec3& v : mesh.vertices) {
     xml += "<vertex x=\"" + shortest(v.x()) + "\" y=\"" + shortest(v.y()) + "\" z=\"" +
@@ -99,4 +99,4 @@ inline std::string box_three_mf(const Vec3& size, const std::string& unit) {
       true);
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

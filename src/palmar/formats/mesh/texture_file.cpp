@@ -16,7 +16,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 void check_size(std::uint64_t width, std::uint64_t height, const std::string& name) {
@@ -26,7 +26,7 @@ void check_size(std::uint64_t width, std::uint64_t height, const std::string& na
   }
 }
 
-RgbImage read_png(std::string_view bytes, const std::string& name) {
+geometry::RgbImage read_png(std::string_view bytes, const std::string& name) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   const auto fail = [&] {
@@ -43,7 +43,7 @@ RgbImage read_png(std::string_view bytes, const std::string& name) {
   }
   png.format = PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(png));
-  RgbImage image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
+  geometry::RgbImage image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
   if (png_image_finish_read(&png, nullptr, rgba.data(), 0, nullptr) == 0) fail();
   image.rgb.resize(rgba.size() / 4 * 3);
   for (std::size_t p = 0; p < rgba.size() / 4; ++p) {
@@ -76,7 +76,7 @@ extern "C" void keep_warning(j_common_ptr decoder, int level) {
 // The decoder's part by itself: nothing with a destructor may live where longjmp() leaves from.
 // Returns false with errors.message set.
 bool decode_jpeg(std::string_view bytes, jpeg_decompress_struct& decoder, JpegErrors& errors,
-                 RgbImage& image) {
+                 geometry::RgbImage& image) {
   if (setjmp(errors.back) != 0) return false;
   jpeg_create_decompress(&decoder);
   jpeg_mem_src(&decoder, reinterpret_cast<const unsigned char*>(bytes.data()),
@@ -97,13 +97,13 @@ bool decode_jpeg(std::string_view bytes, jpeg_decompress_struct& decoder, JpegEr
   return true;
 }
 
-RgbImage read_jpeg(std::string_view bytes, const std::string& name) {
+geometry::RgbImage read_jpeg(std::string_view bytes, const std::string& name) {
   jpeg_decompress_struct decoder{};
   JpegErrors errors{};
   decoder.err = jpeg_std_error(&errors.base);
   errors.base.error_exit = leave_jpeg;
   errors.base.emit_message = keep_warning;
-  RgbImage image;
+  geometry::RgbImage image;
   const bool is_read = decode_jpeg(bytes, decoder, errors, image);
   const long warnings = errors.base.num_warnings;
   jpeg_destroy_decompress(&decoder);
@@ -117,7 +117,7 @@ RgbImage read_jpeg(std::string_view bytes, const std::string& name) {
 }
 
 // As decode_jpeg().
-bool encode_jpeg(const RgbImage& image, int quality, const std::string& exif,
+bool encode_jpeg(const geometry::RgbImage& image, int quality, const std::string& exif,
                  jpeg_compress_struct& encoder, JpegErrors& errors, unsigned char*& bytes,
                  unsigned long& size) {
   if (setjmp(errors.back) != 0) return false;
@@ -146,14 +146,14 @@ bool encode_jpeg(const RgbImage& image, int quality, const std::string& exif,
 
 }  // namespace
 
-RgbImage read_texture(std::string_view bytes, const std::string& name) {
+geometry::RgbImage read_texture(std::string_view bytes, const std::string& name) {
   if (bytes.starts_with("\x89PNG")) return read_png(bytes, name);
   if (bytes.starts_with("\xff\xd8\xff")) return read_jpeg(bytes, name);
   throw InputError(name + ": is neither PNG nor JPEG: starts with " +
                    in_quotes(bytes.substr(0, 8)));
 }
 
-std::string format_png(const RgbImage& image) {
+std::string format_png(const geometry::RgbImage& image) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   png.width = static_cast<png_uint_32>(image.width);
@@ -168,7 +168,7 @@ std::string format_png(const RgbImage& image) {
   return bytes;
 }
 
-std::string format_jpeg(const RgbImage& image, int quality, const std::string& exif) {
+std::string format_jpeg(const geometry::RgbImage& image, int quality, const std::string& exif) {
   if (quality < 1 || quality > 100) {
     throw UsageError(fmt::format("JPEG quality {}; 1 to 100 is allowed", quality));
   }
@@ -188,4 +188,4 @@ std::string format_jpeg(const RgbImage& image, int quality, const std::string& e
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

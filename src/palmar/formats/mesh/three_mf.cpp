@@ -12,7 +12,7 @@
 #include "palmar/formats/xml_scan.h"
 #include "palmar/formats/zip.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using Affine = Eigen::Affine3d;
@@ -26,13 +26,13 @@ struct Placed {
 };
 
 struct Object {
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   std::vector<Placed> components;
   bool is_support = false;
 };
 
 struct Unit {
-  LengthUnit unit = LengthUnit::kMillimetre;
+  geometry::LengthUnit unit = geometry::LengthUnit::kMillimetre;
   double scale = 1.0;  ///< of the coordinates, to be in `unit`
 };
 
@@ -43,7 +43,9 @@ struct Model {
   std::vector<Placed> build;
 };
 
-double to_millimetres(const Unit& unit) { return millimetres_per(unit.unit) * unit.scale; }
+double to_millimetres(const Unit& unit) {
+  return geometry::millimetres_per(unit.unit) * unit.scale;
+}
 
 class ModelReader {
  public:
@@ -128,12 +130,12 @@ class ModelReader {
   }
 
   Unit unit(std::string_view text) const {
-    if (text == "millimeter") return {LengthUnit::kMillimetre, 1.0};
-    if (text == "centimeter") return {LengthUnit::kCentimetre, 1.0};
-    if (text == "meter") return {LengthUnit::kMetre, 1.0};
-    if (text == "inch") return {LengthUnit::kInch, 1.0};
-    if (text == "foot") return {LengthUnit::kInch, 12.0};
-    if (text == "micron") return {LengthUnit::kMillimetre, 1e-3};
+    if (text == "millimeter") return {geometry::LengthUnit::kMillimetre, 1.0};
+    if (text == "centimeter") return {geometry::LengthUnit::kCentimetre, 1.0};
+    if (text == "meter") return {geometry::LengthUnit::kMetre, 1.0};
+    if (text == "inch") return {geometry::LengthUnit::kInch, 1.0};
+    if (text == "foot") return {geometry::LengthUnit::kInch, 12.0};
+    if (text == "micron") return {geometry::LengthUnit::kMillimetre, 1e-3};
     fail("unit is " + in_quotes(text) +
          "; micron, millimeter, centimeter, inch, foot or meter is required");
   }
@@ -295,4 +297,4 @@ MeshFile parse_three_mf(std::string_view bytes, const std::string& name) {
   return Package(bytes, name).read();
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 
 #include "palmar/formats/mesh/mesh_file.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Reads a 3MF package: every object that the build section places, with the transforms of build
 /// items and components, joined into one mesh (a note says of how many). Objects in other parts of
@@ -18,4 +18,4 @@ namespace palmar {
 /// Source: 3MF Consortium, 3MF Core Specification 1.3, sections 2 to 4; Production Extension 1.1.
 MeshFile parse_three_mf(std::string_view bytes, const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -10,7 +10,7 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/formats/zip.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::ElementsAre;
@@ -31,7 +31,7 @@ MeshFile three_mf(const std::string& bytes) { return parse_three_mf(bytes, "x.3m
 std::string three_mf_error(const std::string& bytes) {
   return message_of<InputError>([&] { parse_three_mf(bytes, "x.3mf"); });
 }
-Box3 bounds_of(const TriangleMesh& mesh) {
+Box3 bounds_of(const geometry::TriangleMesh& mesh) {
   Box3 box;
   for (const Vec3& v : mesh.vertices) box.extend(v);
   return box;
@@ -43,7 +43,7 @@ TEST(ThreeMf, ABoxIsReadStoredOrDeflated) {
                                            "unit=\"millimeter\"", deflate));
     EXPECT_EQ(file.mesh.vertices, box_mesh({20, 30, 40}).vertices);
     EXPECT_DOUBLE_EQ(signed_volume(file.mesh), 24000.0);
-    EXPECT_EQ(file.unit, LengthUnit::kMillimetre);
+    EXPECT_EQ(file.unit, geometry::LengthUnit::kMillimetre);
     EXPECT_EQ(file.format, "3MF");
     EXPECT_TRUE(file.notes.empty());
   }
@@ -52,15 +52,15 @@ TEST(ThreeMf, ABoxIsReadStoredOrDeflated) {
 TEST(ThreeMf, EveryUnitOfTheSpecificationIsKept) {
   struct Case {
     std::string text;
-    LengthUnit unit;
+    geometry::LengthUnit unit;
     double size;  // of a side of 2
   };
-  for (const Case& one : {Case{"", LengthUnit::kMillimetre, 2.0},
-                          Case{"unit=\"centimeter\"", LengthUnit::kCentimetre, 2.0},
-                          Case{"unit=\"inch\"", LengthUnit::kInch, 2.0},
-                          Case{"unit='meter'", LengthUnit::kMetre, 2.0},
-                          Case{"unit=\"foot\"", LengthUnit::kInch, 24.0},
-                          Case{"unit=\"micron\"", LengthUnit::kMillimetre, 0.002}}) {
+  for (const Case& one : {Case{"", geometry::LengthUnit::kMillimetre, 2.0},
+                          Case{"unit=\"centimeter\"", geometry::LengthUnit::kCentimetre, 2.0},
+                          Case{"unit=\"inch\"", geometry::LengthUnit::kInch, 2.0},
+                          Case{"unit='meter'", geometry::LengthUnit::kMetre, 2.0},
+                          Case{"unit=\"foot\"", geometry::LengthUnit::kInch, 24.0},
+                          Case{"unit=\"micron\"", geometry::LengthUnit::kMillimetre, 0.002}}) {
     const MeshFile file =
         three_mf(package(object_box("1", {2, 2, 2}), "<item objectid=\"1\"/>", one.text));
     EXPECT_EQ(file.unit, one.unit) << one.text;
@@ -147,7 +147,7 @@ TEST(ThreeMf, ErrorsNamePartAndLine) {
                                      "y=\"NaN\" z=\"0\"/></vertices></mesh></object>",
                                      build)),
               HasSubstr("vertex 0: y is nan; a finite number is required"));
-  TriangleMesh wrong = box_mesh({1, 1, 1});
+  geometry::TriangleMesh wrong = box_mesh({1, 1, 1});
   wrong.triangles[3][1] = 8;
   EXPECT_THAT(three_mf_error(package("<object id=\"1\">" + mesh_xml(wrong) + "</object>", build)),
               HasSubstr("object 1, triangle 3 names vertex 8; the object has 8 (from 0)"));
@@ -171,4 +171,4 @@ TEST(Zip, DamageIsNoticed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

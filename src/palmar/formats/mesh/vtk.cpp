@@ -8,7 +8,7 @@
 #include "palmar/formats/bytes.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 /// Collects the arrays that stand behind the XML part.
@@ -82,7 +82,7 @@ PointField vector_field(const std::string& name, const std::vector<Vec3>& vector
   return field;
 }
 
-std::string format_vtp(const TriangleMesh& mesh, const std::vector<PointField>& fields,
+std::string format_vtp(const geometry::TriangleMesh& mesh, const std::vector<PointField>& fields,
                        const std::vector<MeshNote>& notes) {
   Appended appended;
   std::string point_data;
@@ -118,4 +118,4 @@ std::string format_vtp(const TriangleMesh& mesh, const std::vector<PointField>& 
          appended.data() + "\n</AppendedData>\n</VTKFile>\n";
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

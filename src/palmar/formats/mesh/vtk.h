@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Numbers at the vertices of a mesh.
 struct PointField {
@@ -31,10 +31,10 @@ struct MeshNote {
 /// Throws Error if a field doesn't fit the mesh (names field and sizes).
 ///
 /// Source: Kitware, VTK File Formats for VTK 4.2 (XML file formats, appended data).
-std::string format_vtp(const TriangleMesh& mesh, const std::vector<PointField>& fields,
+std::string format_vtp(const geometry::TriangleMesh& mesh, const std::vector<PointField>& fields,
                        const std::vector<MeshNote>& notes = {});
 
 /// Base64 with padding (RFC 4648, section 4).
 std::string base64(std::string_view bytes);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -15,7 +15,7 @@
 #include "palmar/formats/bytes.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 constexpr std::size_t kBlock = 512;
@@ -47,11 +47,11 @@ class Reader {
  public:
   Reader(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
 
-  MarkerRecording read(std::optional<LengthUnit> unit) {
+  MarkerRecording read(std::optional<geometry::LengthUnit> unit) {
     if (!is_c3d(bytes_)) fail(0, "no C3D header");
     read_parameters();
     read_layout();
-    const double factor = millimetres_per(unit ? *unit : unit_of_file());
+    const double factor = geometry::millimetres_per(unit ? *unit : unit_of_file());
     read_labels();
     read_frames(factor);
     recording_.format = fmt::format("C3D ({}, {})",
@@ -234,12 +234,12 @@ class Reader {
     data_ = (static_cast<std::size_t>(block) - 1) * kBlock;
   }
 
-  LengthUnit unit_of_file() {
+  geometry::LengthUnit unit_of_file() {
     const std::vector<std::string> units = strings("POINT:UNITS");
     if (units.empty() || units.front().empty()) {
       throw InputError(path_ + ": POINT:UNITS is missing; give the unit by setting \"unit\"");
     }
-    if (const auto unit = length_unit_named(units.front())) return *unit;
+    if (const auto unit = geometry::length_unit_named(units.front())) return *unit;
     throw InputError(path_ + ": POINT:UNITS is " + in_quotes(units.front()) +
                      ", which is not known; give the unit by setting \"unit\"");
   }
@@ -350,8 +350,8 @@ bool is_c3d(std::string_view bytes) {
 }
 
 MarkerRecording parse_c3d(std::string_view bytes, const std::string& path,
-                          std::optional<LengthUnit> unit) {
+                          std::optional<geometry::LengthUnit> unit) {
   return Reader(bytes, path).read(unit);
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 
 #include "palmar/formats/motion/marker_file.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Whether the first bytes are those of a C3D file.
 bool is_c3d(std::string_view bytes);
@@ -23,6 +23,6 @@ bool is_c3d(std::string_view bytes);
 ///
 /// Source: Motion Lab Systems 2008, "The C3D File Format User Guide".
 MarkerRecording parse_c3d(std::string_view bytes, const std::string& path,
-                          std::optional<LengthUnit> unit = {});
+                          std::optional<geometry::LengthUnit> unit = {});
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/motion/c3d_test_file.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -85,12 +85,13 @@ TEST(C3d, UnitsComeFromTheFileOrTheUser) {
   C3dTestFile file = sample();
   file.unit = "m";
   EXPECT_NEAR(parse_c3d(file.bytes(), "x").frames[0].position[0]->x(), 100250, 1e-6);
-  EXPECT_NEAR(parse_c3d(file.bytes(), "x", LengthUnit::kCentimetre).frames[0].position[0]->x(),
-              1002.5, 1e-6);
+  EXPECT_NEAR(
+      parse_c3d(file.bytes(), "x", geometry::LengthUnit::kCentimetre).frames[0].position[0]->x(),
+      1002.5, 1e-6);
   file.unit = "ell";
   EXPECT_THAT(c3d_message(file.bytes()), HasSubstr("\"ell\""));
   EXPECT_THAT(c3d_message(file.bytes()), HasSubstr("setting \"unit\""));
-  EXPECT_NO_THROW(parse_c3d(file.bytes(), "x", LengthUnit::kMillimetre));
+  EXPECT_NO_THROW(parse_c3d(file.bytes(), "x", geometry::LengthUnit::kMillimetre));
 }
 
 TEST(C3d, MoreThan255LabelsGoOnInTheNextParameter) {
@@ -179,4 +180,4 @@ TEST(C3d, MutatedFilesNeitherCrashNorHang) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Writes a C3D file byte by byte as its specification has it (Motion Lab Systems, The C3D File
 /// Format User Guide): every processor, both number formats.
@@ -161,4 +161,4 @@ struct C3dTestFile {
   }
 };
 
-}  // namespace palmar
+}  // namespace palmar::formats

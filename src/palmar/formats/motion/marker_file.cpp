@@ -12,14 +12,14 @@
 #include "palmar/formats/motion/c3d.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 /// One coordinate of a marker.
 struct Coordinate {
   std::string label;
   int axis = 0;
-  std::optional<LengthUnit> unit;
+  std::optional<geometry::LengthUnit> unit;
 };
 
 /// Nothing if the column is none.
@@ -27,7 +27,7 @@ std::optional<Coordinate> coordinate_of(const std::string& column) {
   Coordinate coordinate;
   std::string name = column;
   if (const auto last = name.rfind('_'); last != name.npos) {
-    coordinate.unit = length_unit_named(std::string_view(name).substr(last + 1));
+    coordinate.unit = geometry::length_unit_named(std::string_view(name).substr(last + 1));
     if (coordinate.unit) name.resize(last);
   }
   if (name.size() < 3 || name[name.size() - 2] != '_') return std::nullopt;
@@ -38,7 +38,7 @@ std::optional<Coordinate> coordinate_of(const std::string& column) {
   return coordinate;
 }
 
-MarkerRecording read_csv_markers(const CsvFile& csv, std::optional<LengthUnit> unit) {
+MarkerRecording read_csv_markers(const CsvFile& csv, std::optional<geometry::LengthUnit> unit) {
   struct Columns {
     std::array<int, 3> column = {-1, -1, -1};
     std::array<double, 3> factor = {1.0, 1.0, 1.0};
@@ -73,7 +73,7 @@ MarkerRecording read_csv_markers(const CsvFile& csv, std::optional<LengthUnit> u
                    " and " + in_quotes(name) + " say the same");
     }
     markers[i].column[axis] = static_cast<int>(c);
-    markers[i].factor[axis] = millimetres_per(unit ? *unit : *coordinate->unit);
+    markers[i].factor[axis] = geometry::millimetres_per(unit ? *unit : *coordinate->unit);
   }
   if (markers.empty()) {
     csv.fail(csv.header_line,
@@ -132,7 +132,7 @@ MarkerRecording read_csv_markers(const CsvFile& csv, std::optional<LengthUnit> u
 
 }  // namespace
 
-MarkerRecording read_markers(const std::string& path, std::optional<LengthUnit> unit) {
+MarkerRecording read_markers(const std::string& path, std::optional<geometry::LengthUnit> unit) {
   const std::string bytes = read_file(path);
   if (looks_like_text(std::string_view(bytes).substr(0, 4096))) {
     return read_csv_markers(parse_csv(bytes, path), unit);
@@ -141,4 +141,4 @@ MarkerRecording read_markers(const std::string& path, std::optional<LengthUnit> 
   throw InputError(path + ": no marker positions that Palmar knows; C3D and CSV are read");
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -9,7 +9,7 @@
 #include "palmar/geometry/length_unit.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Positions of markers over time, mm.
 struct MarkerRecording {
@@ -32,6 +32,7 @@ struct MarkerRecording {
 /// be called LABEL_x.
 ///
 /// Throws InputError naming file, place and what is needed.
-MarkerRecording read_markers(const std::string& path, std::optional<LengthUnit> unit = {});
+MarkerRecording read_markers(const std::string& path,
+                             std::optional<geometry::LengthUnit> unit = {});
 
-}  // namespace palmar
+}  // namespace palmar::formats

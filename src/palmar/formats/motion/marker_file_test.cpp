@@ -12,7 +12,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/motion/c3d_test_file.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using ::testing::HasSubstr;
@@ -25,7 +25,7 @@ class MarkerFileTest : public testing::Test {
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
-  MarkerRecording read(const std::string& bytes, std::optional<LengthUnit> unit = {}) {
+  MarkerRecording read(const std::string& bytes, std::optional<geometry::LengthUnit> unit = {}) {
     const std::string path = (folder_ / "take.csv").string();
     write_file(path, bytes);
     return read_markers(path, unit);
@@ -58,7 +58,7 @@ TEST_F(MarkerFileTest, CsvInSeveralUnitsWithMissingMarkers) {
 
 TEST_F(MarkerFileTest, TheUserMayGiveTheUnit) {
   EXPECT_THAT(message("a_x,a_y,a_z\n1,2,3\n"), HasSubstr("has no unit"));
-  EXPECT_EQ(*read("a_x,a_y,a_z\n1,2,3\n", LengthUnit::kCentimetre).frames[0].position[0],
+  EXPECT_EQ(*read("a_x,a_y,a_z\n1,2,3\n", geometry::LengthUnit::kCentimetre).frames[0].position[0],
             Vec3(10, 20, 30));
 }
 
@@ -84,4 +84,4 @@ TEST_F(MarkerFileTest, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::formats

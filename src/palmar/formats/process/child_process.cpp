@@ -24,7 +24,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -293,4 +293,4 @@ std::string words_of_signal(int signal) {
   return words + " (signal " + std::to_string(signal) + ")";
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

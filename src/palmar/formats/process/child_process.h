@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// What a child process may use.
 struct ChildLimits {
@@ -47,4 +47,4 @@ ChildResult run_child(const std::filesystem::path& program,
 /// "segmentation fault (signal 11)"
 std::string words_of_signal(int signal);
 
-}  // namespace palmar
+}  // namespace palmar::formats

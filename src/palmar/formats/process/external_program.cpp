@@ -12,7 +12,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 std::optional<std::filesystem::path> find_program(const std::string& name) {
   const char* const variable = std::getenv("PATH");
@@ -97,4 +97,4 @@ bool start_detached(const std::filesystem::path& program,
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::formats {
 
 /// Where a program is found on PATH; nothing if it isn't.
 std::optional<std::filesystem::path> find_program(const std::string& name);
@@ -23,4 +23,4 @@ int run_program(const std::filesystem::path& program, const std::vector<std::str
 bool start_detached(const std::filesystem::path& program,
                     const std::vector<std::string>& arguments);
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -4,7 +4,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// A program that a benchmark, an export or photographs call isn't installed. Exit code 6.
 class ProgramMissing : public Error {
@@ -13,4 +13,4 @@ class ProgramMissing : public Error {
   int exit_code() const override { return 6; }
 };
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -18,7 +18,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/process/child_process.h"
 
-namespace palmar {
+namespace palmar::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -166,4 +166,4 @@ std::string run_worker(const Worker& worker, const std::string& verb, const std:
                    " and said nothing");
 }
 
-}  // namespace palmar
+}  // namespace palmar::formats

@@ -7,7 +7,7 @@
 
 #include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::formats {
 
 /// What a child process may use. Beyond it, it is ended and the user is told which limit it was.
 struct WorkerLimits {
@@ -59,4 +59,4 @@ std::string run_worker(const Worker& worker, const std::string& verb, const std:
                        const WorkerFolder& folder, const std::string& object,
                        const WorkerLimits& limits = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::formats

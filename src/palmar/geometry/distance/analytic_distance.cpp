@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// Signed distance and its gradient at a point.
@@ -237,4 +237,4 @@ DistanceFieldPtr make_ellipsoid_distance(const Vec3& semi_axes) {
   return make_field([semi_axes](const Vec3& p) { return ellipsoid(p, semi_axes); }, semi_axes);
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/distance/distance_field.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 // Exact signed distances of simple solids, in the solid's own frame; lengths in mm. Negative
 // inside; the normal is the gradient, at a sharp edge the middle of its two faces. Where several
@@ -53,4 +53,4 @@ DistanceFieldPtr make_prism_distance(const PrismShape& shape);
 /// ellipsoid, or a hyperellipsoid, section 3.
 DistanceFieldPtr make_ellipsoid_distance(const Vec3& semi_axes);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

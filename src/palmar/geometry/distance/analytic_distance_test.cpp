@@ -13,7 +13,7 @@
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 std::vector<Vec3> random_points(int count, double half, unsigned seed) {
@@ -166,4 +166,4 @@ TEST(GridDistance, RefusesASpacingOfZero) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -13,7 +13,7 @@
 // Vectors of eight are passed between inlined functions only.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// A triangle with what the test needs, side by side in memory.
@@ -518,4 +518,4 @@ std::optional<ClosestPoint> ClosestPointQuery::closest(const Vec3& point, double
                       std::sqrt(search.best2)};
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Nearest point of a triangle.
 struct TrianglePoint {
@@ -56,4 +56,4 @@ class ClosestPointQuery {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <limits>
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 std::uint64_t next_id() {
@@ -39,4 +39,4 @@ DistanceSample DistanceField::at(const Vec3& point, const DistanceSample& near) 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// What a distance field says about one point.
 struct DistanceSample {
@@ -57,4 +57,4 @@ class DistanceField {
   std::uint64_t id_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::geometry

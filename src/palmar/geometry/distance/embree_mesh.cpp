@@ -7,7 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/triangle_partition.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 // One device for the whole process, never released: other static objects may still hold scenes.
@@ -59,4 +59,4 @@ EmbreeMesh::EmbreeMesh(const TriangleMesh& mesh) {
 
 EmbreeMesh::~EmbreeMesh() { rtcReleaseScene(scene_); }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// An Embree 3 scene of one mesh, in float, shifted so that the middle of its box is the origin
 /// (that keeps the rounding of float small). For sources of this module only: no header that others
@@ -29,4 +29,4 @@ class EmbreeMesh {
   Box3 box_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr double kMaxNodes = 20e6;  // 320 MB
@@ -210,4 +210,4 @@ void GridDistance::sample(std::span<const Vec3> points, double range,
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

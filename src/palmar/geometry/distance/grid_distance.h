@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/distance/distance_field.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 struct GridDistanceOptions {
   double spacing = 2.0;  ///< mm between nodes; grows if the grid would have more than 20 million
@@ -44,4 +44,4 @@ class GridDistance : public DistanceField {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -16,7 +16,7 @@
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/distance/winding_number.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr double kOnSurface = 1e-7;  // mm; below, (q - x) / d is rounding
@@ -296,4 +296,4 @@ void MeshDistance::resample(std::span<const Vec3> points, double range,
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

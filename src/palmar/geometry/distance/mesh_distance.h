@@ -7,7 +7,7 @@
 #include "palmar/geometry/distance/distance_field.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Signed distance to a triangle mesh that may be imperfect: open, with gaps, tunnels, unshared or
 /// crossing patches. Only the orientation of its patches must be right; see orient.h.
@@ -46,4 +46,4 @@ class MeshDistance : public DistanceField {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::geometry

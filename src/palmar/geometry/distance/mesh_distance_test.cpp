@@ -19,7 +19,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/repair/orient.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 std::vector<Vec3> random_points(int count, const Box3& box, unsigned seed) {
@@ -415,4 +415,4 @@ TEST(OrientOutwards, SaysThatAMoebiusBandIsOneSided) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

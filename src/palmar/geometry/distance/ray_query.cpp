@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/distance/embree_mesh.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 RTCRayHit make_ray(const EmbreeMesh& mesh, const Vec3& origin, const Vec3& direction, double from,
@@ -76,4 +76,4 @@ std::vector<RayHit> RayQuery::all_hits(const Vec3& origin, const Vec3& direction
   return hits;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

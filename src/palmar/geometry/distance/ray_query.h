@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Where a ray meets a mesh.
 struct RayHit {
@@ -39,4 +39,4 @@ class RayQuery {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -11,7 +11,7 @@
 
 #include "palmar/geometry/mesh/triangle_partition.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using Float4 = Eigen::Array<float, 4, 1>;
@@ -227,4 +227,4 @@ double exact_winding_number(const TriangleMesh& mesh, const Vec3& point) {
   return sum.value() / (2.0 * std::numbers::pi);
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

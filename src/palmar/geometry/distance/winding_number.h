@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Generalised winding number of a triangle mesh at a point q,
 ///
@@ -43,4 +43,4 @@ class WindingNumber {
 /// The sum over all triangles without expansion; for tests and tiny meshes.
 double exact_winding_number(const TriangleMesh& mesh, const Vec3& point);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

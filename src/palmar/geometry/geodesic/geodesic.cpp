@@ -14,7 +14,7 @@
 // Vectors of four are passed between inlined functions only.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -384,4 +384,4 @@ GeodesicTable geodesic_table(const GeodesicSolver& solver, std::span<const int> 
   return table;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

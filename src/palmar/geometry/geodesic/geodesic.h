@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// A vertex and its distance along the surface from a source, mm.
 struct GeodesicReach {
@@ -106,4 +106,4 @@ struct GeodesicTable {
 GeodesicTable geodesic_table(const GeodesicSolver& solver, std::span<const int> vertices,
                              double radius, std::span<const unsigned char> allowed = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -17,7 +17,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/rigid3.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 double straight(const TriangleMesh& mesh, size_t i, size_t j) {
@@ -248,4 +248,4 @@ TEST(GeodesicTable, IsSymmetricAscendingAndTheSameOnAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

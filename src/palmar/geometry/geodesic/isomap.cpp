@@ -18,7 +18,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using Eigen::Index;
@@ -241,4 +241,4 @@ MatrixXd edge_path_distances(const TriangleMesh& mesh, std::span<const int> vert
   return distance;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// A patch of skin flattened.
 struct FlatPatch {
@@ -43,4 +43,4 @@ FlatPatch flatten_by_isomap(const Eigen::MatrixXd& distance);
 /// Source: Dijkstra 1959.
 Eigen::MatrixXd edge_path_distances(const TriangleMesh& mesh, std::span<const int> vertices);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -14,7 +14,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using Eigen::Index;
@@ -217,4 +217,4 @@ TEST(EdgePaths, SameBytesForOneThreadAndTwo) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

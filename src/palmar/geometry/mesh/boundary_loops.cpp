@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// Free half-edges of a mesh, turned round: from each corner to where the hole's rim goes on.
@@ -93,4 +93,4 @@ BoundaryLoops find_boundary_loops(const TriangleMesh& mesh, const MeshTopology& 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// One hole of a surface: the free edges round it, as a ring.
 struct BoundaryLoop {
@@ -30,4 +30,4 @@ struct BoundaryLoops {
 /// corner once. Vertices must be in the list (see build_topology()).
 BoundaryLoops find_boundary_loops(const TriangleMesh& mesh, const MeshTopology& topology);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -12,7 +12,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 TriangleMesh cluster_vertices(const TriangleMesh& mesh, double spacing) {
   if (!(spacing > 0.0)) {
@@ -51,4 +51,4 @@ TriangleMesh cluster_vertices(const TriangleMesh& mesh, double spacing) {
   return coarse;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

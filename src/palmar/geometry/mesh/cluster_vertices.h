@@ -4,7 +4,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// A coarser mesh: vertices in one cube of a grid of `spacing` [mm] become one at their mean, and
 /// triangles that collapse go. For looking things up (nearest points, normals), where a tenth of
@@ -15,4 +15,4 @@ namespace palmar {
 /// Source: Rossignac, Borrel 1993.
 TriangleMesh cluster_vertices(const TriangleMesh& mesh, double spacing);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -8,7 +8,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 TEST(ClusterVertices, ABallStaysABallWithFarFewerTriangles) {
@@ -34,4 +34,4 @@ TEST(ClusterVertices, SmallSpacingLeavesTheMesh) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

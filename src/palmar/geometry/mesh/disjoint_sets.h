@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Sets of the numbers from 0 to count - 1, each at first its own; the root of a set is its
 /// smallest member, whatever the order in which sets were united.
@@ -30,4 +30,4 @@ class DisjointSets {
   std::vector<int> parent_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 EditableMesh::EditableMesh(const TriangleMesh& mesh) : position_(mesh.vertices) {
   const MeshTopology topology = build_topology(mesh);
@@ -210,4 +210,4 @@ EditableMesh::Compacted EditableMesh::compacted() const {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

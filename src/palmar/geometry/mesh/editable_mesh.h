@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// A 2-manifold mesh whose edges can be split, collapsed and flipped. Every operation either keeps
 /// the mesh 2-manifold and oriented, with the same Euler number and the same borders (as curves),
@@ -79,4 +79,4 @@ class EditableMesh {
   std::vector<int> start_, twin_, outgoing_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 // What must hold between the arrays of a 2-manifold mesh.
@@ -169,4 +169,4 @@ TEST(EditableMesh, RefusesNonManifoldInput) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

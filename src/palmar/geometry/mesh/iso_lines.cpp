@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 void check_size(const TriangleMesh& mesh, std::span<const double> field) {
@@ -170,4 +170,4 @@ IsoParts iso_parts(const TriangleMesh& mesh, std::span<const double> field, doub
   return parts;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 // Level lines of a field that has one value per vertex and is linear on every triangle. A vertex is
 // inside if its value is at or above the level. Vertices on borders, on edges of more than two
@@ -36,4 +36,4 @@ struct IsoParts {
 };
 IsoParts iso_parts(const TriangleMesh& mesh, std::span<const double> field, double level);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

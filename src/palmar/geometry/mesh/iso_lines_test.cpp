@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 std::vector<double> field_of(const TriangleMesh& mesh, double (*f)(const Vec3&)) {
@@ -98,4 +98,4 @@ TEST(IsoLoops, NothingAboveGivesNothing) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 const Vec3& point(std::span<const Vec3> vertices, int i) { return vertices[i]; }
@@ -198,4 +198,4 @@ EdgeLengths edge_lengths(const TriangleMesh& mesh) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 // Measures of a triangle mesh. Lengths in mm, areas in mm^2, volumes in mm^3, angles in rad. All
 // expect triangle corners within the vertex list (build_topology() checks that). A function that
@@ -68,4 +68,4 @@ struct EdgeLengths {
 /// Statistics over the edges, each counted once. All zero for a mesh without edges.
 EdgeLengths edge_lengths(const TriangleMesh& mesh);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

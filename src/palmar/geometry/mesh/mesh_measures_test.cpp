@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/rigid3.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 TriangleMesh triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -166,4 +166,4 @@ TEST(AreaWeightedNormals, FollowTheLargerFaceWhereThoseByAngleLieBetweenThem) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

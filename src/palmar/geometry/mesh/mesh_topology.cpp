@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/disjoint_sets.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 bool is_collapsed(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
@@ -221,4 +221,4 @@ void require_closed_manifold(const TriangleMesh& mesh, const std::string& object
                    "; a closed, 2-manifold, consistently oriented mesh is required");
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

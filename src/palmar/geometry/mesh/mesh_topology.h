@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Adjacency of a triangle mesh (corner table).
 ///
@@ -80,4 +80,4 @@ std::vector<std::vector<int>> vertex_neighbours(const MeshTopology& topology);
 /// consistently oriented.
 void require_closed_manifold(const TriangleMesh& mesh, const std::string& object);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

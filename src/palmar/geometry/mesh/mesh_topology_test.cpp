@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using ::testing::ElementsAre;
@@ -168,4 +168,4 @@ TEST(RequireClosedManifold, NamesTheObjectAndItsFault) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

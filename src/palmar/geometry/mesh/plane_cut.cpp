@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// The cut while it is made: vertices of the result by where they come from.
@@ -139,4 +139,4 @@ CutMesh cut_by_plane(const TriangleMesh& closed, const Vec3& point, const Vec3& 
   return PlaneCutter(closed, point, normal, snap).run();
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// What is left of a closed mesh on one side of a plane: an open mesh and the loops of its rim.
 struct CutMesh {
@@ -25,4 +25,4 @@ struct CutMesh {
 CutMesh cut_by_plane(const TriangleMesh& closed, const Vec3& point, const Vec3& normal,
                      double snap = 0.0);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

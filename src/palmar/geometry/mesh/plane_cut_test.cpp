@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 double rim_length(const CutMesh& cut) {
@@ -94,4 +94,4 @@ TEST(CutByPlane, SaysWhatIsWrongWithThePlane) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

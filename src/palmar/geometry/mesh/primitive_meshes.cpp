@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
@@ -310,4 +310,4 @@ TriangleMesh make_torus(double major_radius, double minor_radius, int major_segm
   return mesh;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -4,7 +4,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 // Meshes of simple shapes: specimens, indenters and handles. All are 2-manifold with triangles
 // counter-clockwise seen from outside (patches: seen from +z); lengths in mm. The vertices lie on
@@ -47,4 +47,4 @@ TriangleMesh make_cylinder(const CylinderOptions& options);
 TriangleMesh make_torus(double major_radius, double minor_radius, int major_segments,
                         int minor_segments);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

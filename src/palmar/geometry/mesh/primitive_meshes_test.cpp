@@ -13,7 +13,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 TEST(MakeIcosphere, HasTheCountsOfASubdividedIcosahedronOnTheSphere) {
@@ -152,4 +152,4 @@ TEST(PrimitiveMeshes, RefuseSizesThatCloseNoShape) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/convex_hull.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using MeshEdge = std::array<int, 2>;
@@ -144,4 +144,4 @@ double girth(const std::vector<Vec3>& points, const Vec3& normal) {
   return length;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

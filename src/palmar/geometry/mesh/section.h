@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// One curve of a plane section: corners in order, mm. A closed curve doesn't repeat its first
 /// corner; seen against the plane's normal it runs counter-clockwise round solid material.
@@ -35,4 +35,4 @@ double extent(const std::vector<Vec3>& points, const Vec3& direction);
 /// convex hull, mm. 0 for fewer than two distinct points.
 double girth(const std::vector<Vec3>& points, const Vec3& normal);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

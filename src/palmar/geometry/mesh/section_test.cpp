@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 TEST(PlaneSection, OfAPrismIsItsPolygon) {
@@ -114,4 +114,4 @@ TEST(Girth, OfFewPoints) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 Srgb pixel(const RgbImage& image, int column, int row) {
@@ -195,4 +195,4 @@ ColouredMesh coloured_mesh(const TriangleMesh& mesh, const SurfaceColours& colou
   return refiner.result();
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

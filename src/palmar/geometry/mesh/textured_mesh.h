@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Red, green, blue as sRGB (IEC 61966-2-1) codes them, 0 to 1.
 using Srgb = Eigen::Vector3f;
@@ -58,4 +58,4 @@ ColouredMesh coloured_mesh(const TriangleMesh& mesh, const SurfaceColours& colou
                            double edge_length);
 inline constexpr int kMaxColouredTriangles = 8'000'000;
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -9,7 +9,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// Red rises to the right, green downwards.
@@ -90,4 +90,4 @@ TEST(TexturedMesh, RefusesWhatCannotBe) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

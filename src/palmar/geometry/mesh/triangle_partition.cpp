@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 struct Item {
@@ -97,4 +97,4 @@ void check_finite_and_indexed(const TriangleMesh& mesh) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// The triangles of a mesh divided again and again by kParts (4 or 8), at the median centroid of
 /// the longest side: the frame that nearest-point search and winding number hang their own data on.
@@ -37,4 +37,4 @@ WideTrianglePartition<kParts> partition_triangles(const TriangleMesh& mesh, int 
 /// Throws InputError on a coordinate that is not finite and on a corner outside the vertex list.
 void check_finite_and_indexed(const TriangleMesh& mesh);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

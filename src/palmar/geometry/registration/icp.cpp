@@ -16,7 +16,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -239,7 +239,7 @@ void sort_places(const Registration& registration, std::vector<Place>& places) {
   const double missing = 0.5 * registration.radius();
   double least = std::numeric_limits<double>::infinity();
   for (const Place& place : places) {
-    least = std::min(least, median(registration.distances(place, missing)));
+    least = std::min(least, statistics::median(registration.distances(place, missing)));
   }
   const double c = std::max(3.0 * least, 0.01 * registration.radius());
   std::vector<std::pair<double, std::size_t>> cost;
@@ -411,4 +411,4 @@ IcpResult register_rigidly(const TriangleMesh& moving, const TriangleMesh& fixed
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -8,7 +8,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 struct IcpOptions {
   double trim = 0.2;         ///< share of the worst pairs left out of each step, [0, 0.9]
@@ -45,4 +45,4 @@ IcpResult register_rigidly(const TriangleMesh& moving, const TriangleMesh& fixed
                            const Rigid3& start = {}, const IcpOptions& options = {},
                            const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -16,7 +16,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// About the shape of a phalanx: 44 mm long, waisted, flat on one side, a broad base and a head of
@@ -206,4 +206,4 @@ TEST(RegisterRigidly, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/editable_mesh.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 // Edges kept between 4/5 and 4/3 of the length L that steers the rounds end up with a mean of 1.02
@@ -376,4 +376,4 @@ RemeshResult remesh(const TriangleMesh& mesh, const RemeshOptions& options) {
   return Remesher(mesh, options).run(mesh);
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 struct RemeshOptions {
   double edge_length = 2.5;  ///< wanted mean edge, mm; reached within about 3 %
@@ -40,4 +40,4 @@ struct RemeshResult {
 /// Source: Botsch, Kobbelt 2004, "A remeshing approach to multiresolution modeling", section 4.
 RemeshResult remesh(const TriangleMesh& mesh, const RemeshOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/repair/self_intersection.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 double smallest_angle(const TriangleMesh& mesh) {
@@ -131,4 +131,4 @@ TEST(Remesh, RefusesBadOptionsAndMeshes) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

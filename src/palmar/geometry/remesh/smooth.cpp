@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 void require_rounds(const char* method, int rounds) {
@@ -117,4 +117,4 @@ TriangleMesh smooth_tangentially(const TriangleMesh& mesh, const TangentialOptio
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -4,7 +4,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 struct TaubinOptions {
   int rounds = 10;         ///< pairs of steps, 0 to 10000
@@ -33,4 +33,4 @@ struct TangentialOptions {
 /// in second order of the step alone. Border vertices stay.
 TriangleMesh smooth_tangentially(const TriangleMesh& mesh, const TangentialOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

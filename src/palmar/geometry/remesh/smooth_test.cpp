@@ -12,7 +12,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 double radial_noise(const TriangleMesh& mesh, double radius) {
@@ -104,4 +104,4 @@ TEST(Smoothing, NamesTheOptionThatIsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -12,7 +12,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 // A round shortens the longest edge of a triangle to 0.87 of it at most (the median of an
@@ -141,4 +141,4 @@ TriangleMesh split_long_edges(const TriangleMesh& mesh, double edge_length,
   return split_with_parents(mesh, edge_length, where).mesh;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Whether the triangle with these corners [mm] is to be refined.
 using TriangleChoice = std::function<bool(const Vec3&, const Vec3&, const Vec3&)>;
@@ -30,4 +30,4 @@ SplitMesh split_with_parents(const TriangleMesh& mesh, double edge_length,
 TriangleMesh split_long_edges(const TriangleMesh& mesh, double edge_length,
                               const TriangleChoice& where = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -10,7 +10,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// A box of 60 x 40 x 1 mm: twelve triangles, needles on its rim.
@@ -108,4 +108,4 @@ TEST(SplitLongEdges, NamesWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -10,7 +10,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 void require_range(const char* name, int value, int lowest, int highest) {
@@ -188,4 +188,4 @@ TriangleMesh subdivide(const TriangleMesh& mesh, const SubdivisionOptions& optio
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -4,7 +4,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 enum class SubdivisionScheme {
   kLoop,          ///< Loop's scheme: smoothest, but shrinks (a coarse hand by 3 % of its volume)
@@ -42,4 +42,4 @@ struct SubdivisionOptions {
 /// fit.
 TriangleMesh subdivide(const TriangleMesh& mesh, const SubdivisionOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

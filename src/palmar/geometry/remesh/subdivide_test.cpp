@@ -13,7 +13,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/geometry/rigid3.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 const SubdivisionOptions kPlainLoop{
@@ -136,4 +136,4 @@ TEST(Subdivide, RefusesLevelsOutOfRangeAndOpenMeshesWhereTheVolumeIsKept) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

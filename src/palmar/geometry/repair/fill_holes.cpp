@@ -16,7 +16,7 @@
 #include "palmar/geometry/repair/hole_patch.h"
 #include "palmar/geometry/repair/self_intersection.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr double kFoldedPatch = 2.1;   // rad, 120 degrees between two triangles of a patch
@@ -323,4 +323,4 @@ FillHolesResult fill_holes(const TriangleMesh& mesh, const FillHolesOptions& opt
   return Filler(mesh, options).run();
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

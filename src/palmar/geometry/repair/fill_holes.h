@@ -8,7 +8,7 @@
 #include "palmar/geometry/mesh/boundary_loops.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 struct FillHolesOptions {
   double longest_perimeter = 30.0;  ///< mm; longer holes stay open
@@ -55,4 +55,4 @@ struct FillHolesResult {
 /// 2003, "Filling holes in meshes", sections 3 to 5.
 FillHolesResult fill_holes(const TriangleMesh& mesh, const FillHolesOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -17,7 +17,7 @@
 #include "palmar/geometry/repair/hole_patch.h"
 #include "palmar/geometry/repair/self_intersection.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using testing::HasSubstr;
@@ -190,4 +190,4 @@ TEST(HolePatch, OfAStarHasTheStarsArea) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

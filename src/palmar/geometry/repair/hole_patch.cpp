@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr int kMostExactCorners = 200;
@@ -246,4 +246,4 @@ TriangleMesh fair_patch(const TriangleMesh& patch, const std::vector<std::vector
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Whether the corners i and j of a rim are joined by an edge of the mesh outside of the hole.
 using IsJoined = std::function<bool(int i, int j)>;
@@ -30,4 +30,4 @@ TriangleMesh refine_patch(const TriangleMesh& patch, int ring_size, const IsJoin
 /// meets its ring as it likes.
 TriangleMesh fair_patch(const TriangleMesh& patch, const std::vector<std::vector<Vec3>>& beyond);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

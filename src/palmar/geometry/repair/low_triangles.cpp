@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr int kMaxRounds = 20;
@@ -99,4 +99,4 @@ LowTrianglesResult repair_low_triangles(const TriangleMesh& mesh, double height)
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 struct LowTrianglesResult {
   TriangleMesh mesh;         ///< same vertices
@@ -24,4 +24,4 @@ LowTrianglesResult repair_low_triangles(const TriangleMesh& mesh, double height)
 /// Least height of a triangle [mm]; 0 if it has no area.
 double least_height(const Vec3& a, const Vec3& b, const Vec3& c);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr int kMaxSamples = 200;  // triangles of a patch that send rays; more don't change a vote
@@ -193,4 +193,4 @@ OrientResult orient_outwards(const TriangleMesh& mesh) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// A mesh whose triangles are counter-clockwise seen from outside, and what that took.
 struct OrientResult {
@@ -33,4 +33,4 @@ struct OrientResult {
 /// not finite.
 OrientResult orient_outwards(const TriangleMesh& mesh);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -12,7 +12,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/triangle_partition.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
@@ -292,4 +292,4 @@ CrossingDepth crossing_depth(const TriangleMesh& mesh) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Whether two triangles cross: an edge of one goes through the inside of the other, or both share
 /// more than touching. Corners that are equal as points count as one shared corner; triangles that
@@ -37,4 +37,4 @@ struct CrossingDepth {
 /// are only looked at if any triangles cross. Requires a closed, oriented mesh (else InputError).
 CrossingDepth crossing_depth(const TriangleMesh& mesh);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -12,7 +12,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using ::testing::ElementsAre;
@@ -185,4 +185,4 @@ TEST(CrossingDepth, RefusesOpenMeshesAndCoordinatesThatAreNoNumbers) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

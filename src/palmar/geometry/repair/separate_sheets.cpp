@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr double kSameAngle = 1e-4;  // rad: sheets that lie on each other have no wedge between
@@ -152,4 +152,4 @@ SeparatedSheets separate_touching_sheets(const TriangleMesh& mesh, double gap) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

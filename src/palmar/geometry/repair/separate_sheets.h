@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 struct SeparatedSheets {
   TriangleMesh mesh;          ///< same triangles in the same order; new vertices at the end
@@ -27,4 +27,4 @@ struct SeparatedSheets {
 /// a corner outside the list.
 SeparatedSheets separate_touching_sheets(const TriangleMesh& mesh, double gap);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

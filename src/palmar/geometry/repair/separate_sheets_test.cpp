@@ -10,7 +10,7 @@
 #include "palmar/geometry/repair/low_triangles.h"
 #include "palmar/geometry/repair/weld.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// Two cubes of edge 10, the second shifted, with common corners welded.
@@ -97,4 +97,4 @@ TEST(LowTriangles, LeastHeightIsTwiceTheAreaOverTheLongestEdge) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

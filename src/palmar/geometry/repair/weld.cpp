@@ -12,7 +12,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 // Cells of a grid; vertices within the tolerance lie in the same or in neighbouring cells.
@@ -199,4 +199,4 @@ WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 struct WeldOptions {
   double tolerance = 0.0;             ///< mm; vertices this near become one; 0: only equal ones
@@ -36,4 +36,4 @@ struct WeldResult {
 /// another number of triangles.
 WeldResult weld(const TriangleMesh& mesh, const WeldOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

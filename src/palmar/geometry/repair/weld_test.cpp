@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 using ::testing::ElementsAre;
@@ -139,4 +139,4 @@ TEST(Weld, RefusesWhatItCannotPlace) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

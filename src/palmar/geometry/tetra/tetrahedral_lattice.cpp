@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// A place in units of half the smallest cube's edge.
@@ -158,8 +158,8 @@ class LatticeBuilder {
     const bool is_right = tetrahedron_volume(x[a], x[b], x[c], x[d]) > 0.0;
     mesh_.tetrahedra.push_back(is_right ? Tetrahedron{a, b, c, d} : Tetrahedron{a, b, d, c});
   }
-  // vertex() makes vertices, and compilers differ in the order in which they evaluate arguments: it is
-  // said here, so that all number them alike.
+  // vertex() makes vertices, and compilers differ in the order in which they evaluate arguments: it
+  // is said here, so that all number them alike.
   void add_corners(const LatticePlace& p, const LatticePlace& q, const LatticePlace& r, int apex) {
     const int c = vertex(r), b = vertex(q), a = vertex(p);
     add(a, b, c, apex);
@@ -241,4 +241,4 @@ TetrahedralMesh make_tetrahedral_lattice(const Box3& box, const LatticeOptions& 
   return LatticeBuilder(tree, options).run();
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/tetra/tetrahedral_mesh.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// A cube of the lattice.
 struct LatticeCube {
@@ -32,4 +32,4 @@ struct LatticeOptions {
 /// wanted cube on both sides have no tetrahedra.
 TetrahedralMesh make_tetrahedral_lattice(const Box3& box, const LatticeOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 /// The faces opposite the corners, each counter-clockwise seen from outside.
@@ -293,4 +293,4 @@ ClippedMesh clip_tetrahedra(const TetrahedralMesh& mesh, const ClipSurface& surf
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::geometry

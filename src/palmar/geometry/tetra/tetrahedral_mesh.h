@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::geometry {
 
 /// Corner indices of a tetrahedron (a, b, c, d), (b - a) x (c - a) . (d - a) > 0.
 using Tetrahedron = std::array<int, 4>;
@@ -56,4 +56,4 @@ struct ClippedMesh {
 ClippedMesh clip_tetrahedra(const TetrahedralMesh& mesh, const ClipSurface& surface, double snap,
                             const std::vector<char>& is_held = {});
 
-}  // namespace palmar
+}  // namespace palmar::geometry

@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/tetra/tetrahedral_lattice.h"
 
-namespace palmar {
+namespace palmar::geometry {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -101,4 +101,4 @@ TEST(ClipTetrahedra, ShellBetweenTwoSpheresHasItsVolumeAndNoGaps) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::geometry

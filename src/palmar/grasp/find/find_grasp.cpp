@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/grasp/find/grasp_place.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 bool GraspOptions::is_placed() const {
   const auto says = [](const PlacementRequest& placement) {
@@ -41,13 +41,13 @@ void GraspOptions::check() const {
   asked.check();
 }
 
-Grasp find_grasp(const Hand& hand, const Product& product, const GraspOptions& options,
-                 const Progress& progress) {
+Grasp find_grasp(const hand::Hand& hand, const product::Product& product,
+                 const GraspOptions& options, const Progress& progress) {
   return GraspPlace(hand, product, options, progress).reference_grasp();
 }
 
-Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGraspOptions& options,
-                        const Progress& progress) {
+Grasp close_power_grasp(const hand::Hand& hand, const product::Product& product,
+                        const PowerGraspOptions& options, const Progress& progress) {
   options.check();
   GraspOptions asked;
   asked.grip = options.grip;
@@ -56,4 +56,4 @@ Grasp close_power_grasp(const Hand& hand, const Product& product, const PowerGra
   return find_grasp(hand, product, asked, progress);
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

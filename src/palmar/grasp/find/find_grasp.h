@@ -11,7 +11,7 @@
 #include "palmar/grasp/holds/hold.h"
 #include "palmar/grasp/precision/precision_grip.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// How a product is to be taken: by a hold, or where coordinates say (a placement of `power`, or
 /// targets or a placement of `precision`).
@@ -19,7 +19,7 @@ struct GraspOptions {
   std::optional<Grip> grip;  ///< unset: as people would choose for the product's shape
   std::optional<Hold> hold;  ///< this one; unset: one of rank_holds()
   /// Of the product, for `hold`, where they are known; null: found when needed.
-  std::shared_ptr<const ProductParts> parts = nullptr;
+  std::shared_ptr<const product::ProductParts> parts = nullptr;
   HoldOptions holds;  ///< which holds to choose from; its grip is replaced by `grip`
   int hold_rank = 1;  ///< the best is 1
   /// N that it is to be gripped with, whatever the grip: of ranked holds the one that suits it
@@ -35,12 +35,12 @@ struct GraspOptions {
 
 /// Holds the product as asked for. Not being able to is a status, never an exception. Throws
 /// UsageError (also if there are fewer holds than `hold_rank`), Cancelled.
-Grasp find_grasp(const Hand& hand, const Product& product, const GraspOptions& options = {},
-                 const Progress& progress = {});
+Grasp find_grasp(const hand::Hand& hand, const product::Product& product,
+                 const GraspOptions& options = {}, const Progress& progress = {});
 
 /// Power grasp (docs/method/grasp.md; Xie 2014, 5.5.1). Deterministic. Not being able to hold the
 /// product is a status, never an exception. Throws UsageError on bad options, Cancelled.
-Grasp close_power_grasp(const Hand& hand, const Product& product,
+Grasp close_power_grasp(const hand::Hand& hand, const product::Product& product,
                         const PowerGraspOptions& options = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -17,7 +17,7 @@
 #include "palmar/grasp/precision/laid_hand.h"
 #include "palmar/grasp/precision/precision_grip.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr std::size_t kNextTried = 3;  // other holds that a hand tries which can't take the one
@@ -27,13 +27,13 @@ bool is_held(const Grasp& grasp) { return grasp.status == GraspStatus::kHeld; }
 }  // namespace
 
 struct GraspingHand::Impl {
-  explicit Impl(std::shared_ptr<const Hand> shared)
+  explicit Impl(std::shared_ptr<const hand::Hand> shared)
       : hand(std::move(shared)), coarse(*hand, kSearchSpacing), fine(*hand, 0.0) {}
-  std::shared_ptr<const Hand> hand;
+  std::shared_ptr<const hand::Hand> hand;
   HandCloser coarse, fine;
 };
 
-GraspingHand::GraspingHand(std::shared_ptr<const Hand> hand) {
+GraspingHand::GraspingHand(std::shared_ptr<const hand::Hand> hand) {
   if (!hand) throw UsageError("grasping hand: no hand was given");
   impl_ = std::make_unique<Impl>(std::move(hand));
 }
@@ -42,11 +42,11 @@ GraspingHand::~GraspingHand() = default;
 GraspingHand::GraspingHand(GraspingHand&&) noexcept = default;
 GraspingHand& GraspingHand::operator=(GraspingHand&&) noexcept = default;
 
-const Hand& GraspingHand::hand() const { return *impl_->hand; }
+const hand::Hand& GraspingHand::hand() const { return *impl_->hand; }
 
 struct GraspPlace::Impl {
-  const Hand* reference;
-  const Product* product;
+  const hand::Hand* reference;
+  const product::Product* product;
   GraspOptions options;
   PowerGraspOptions power;          ///< of `options`, with the grip
   std::optional<PowerPlace> place;  ///< of a power grip
@@ -56,10 +56,10 @@ struct GraspPlace::Impl {
 
   void place_by_coordinates(const Progress& progress);
   void place_by_hold(const Progress& progress);
-  Grasp take_precisely(const Hold& taken, const Hand& hand, const Progress& progress) const;
+  Grasp take_precisely(const Hold& taken, const hand::Hand& hand, const Progress& progress) const;
   Grasp hold_power(const GraspingHand& hand, const Progress& progress) const;
-  Grasp hold_precisely(const Hand& hand, const Progress& progress) const;
-  Grasp place_non_prehensile(const Hand& hand) const;
+  Grasp hold_precisely(const hand::Hand& hand, const Progress& progress) const;
+  Grasp place_non_prehensile(const hand::Hand& hand) const;
   std::string other_hold_of(const GraspingHand& hand, Grasp& failed,
                             const Progress& progress) const;
 };
@@ -86,12 +86,12 @@ void GraspPlace::Impl::place_by_coordinates(const Progress& progress) {
 
 // A hand that rests or pushes where coordinates say. A laid hand has its middle knuckle there;
 // its fingers point along `axis`, else along the coordinate axis that is most nearly level there.
-Grasp GraspPlace::Impl::place_non_prehensile(const Hand& hand) const {
+Grasp GraspPlace::Impl::place_non_prehensile(const hand::Hand& hand) const {
   const PrecisionGripOptions& asked = options.precision;
   Vec3 point = asked.placement.at.value_or(product->distance->bounding_box().center());
   if (!asked.targets.empty()) point = asked.targets.front().point;
   if (*options.grip == Grip::kFingerPush) return close_finger_push(hand, *product, point);
-  const DistanceSample at = product->distance->at(point);
+  const geometry::DistanceSample at = product->distance->at(point);
   LaidSite site;
   site.knuckle = at.closest;
   site.up = options.holds.up ? options.holds.up->normalized() : at.normal;
@@ -105,7 +105,7 @@ Grasp GraspPlace::Impl::place_non_prehensile(const Hand& hand) const {
 void GraspPlace::Impl::place_by_hold(const Progress& progress) {
   power = options.power;
   if (options.hold) {
-    ranked.parts = options.parts ? *options.parts : find_parts(*product);
+    ranked.parts = options.parts ? *options.parts : product::find_parts(*product);
     hold = options.hold;
   } else {
     HoldOptions asked = options.holds;
@@ -171,21 +171,22 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
       [](const GraspRunnerUp& a, const GraspRunnerUp& b) { return a.score > b.score; });
 }
 
-Grasp GraspPlace::Impl::take_precisely(const Hold& taken, const Hand& hand,
+Grasp GraspPlace::Impl::take_precisely(const Hold& taken, const hand::Hand& hand,
                                        const Progress& progress) const {
-  const ProductPart& part = part_of(taken, ranked.parts);
+  const product::ProductPart& part = part_of(taken, ranked.parts);
   if (is_laid(taken.grip)) {
     return close_laid_hand(hand, *product, taken.grip, laid_site_of(taken, ranked.parts, *product));
   }
   if (taken.grip == Grip::kFingerPush) {
-    return close_finger_push(hand, *product, point_at(part, taken.fingertips.front().place));
+    return close_finger_push(hand, *product,
+                             product::point_at(part, taken.fingertips.front().place));
   }
   PrecisionGripOptions precision = options.precision;
   precision.grip = taken.grip;
   precision.placement = {};
   precision.targets.clear();
   for (const HoldFingertip& tip : taken.fingertips) {
-    const Vec3 near = point_at(part, tip.place);
+    const Vec3 near = product::point_at(part, tip.place);
     precision.targets.push_back({tip.finger, product->distance->at(near).closest});
   }
   return close_precision_grip(hand, *product, precision, progress);
@@ -201,7 +202,7 @@ Grasp GraspPlace::Impl::hold_power(const GraspingHand& hand, const Progress& pro
   return close_at(carried, coarse, fine, *product, power, progress);
 }
 
-Grasp GraspPlace::Impl::hold_precisely(const Hand& hand, const Progress& progress) const {
+Grasp GraspPlace::Impl::hold_precisely(const hand::Hand& hand, const Progress& progress) const {
   if (hold) return take_precisely(*hold, hand, progress);
   if (is_non_prehensile(*options.grip)) return place_non_prehensile(hand);
   PrecisionGripOptions same = options.precision;
@@ -234,8 +235,8 @@ std::string GraspPlace::Impl::other_hold_of(const GraspingHand& hand, Grasp& fai
   return {};
 }
 
-GraspPlace::GraspPlace(const Hand& reference, const Product& product, const GraspOptions& options,
-                       const Progress& progress) {
+GraspPlace::GraspPlace(const hand::Hand& reference, const product::Product& product,
+                       const GraspOptions& options, const Progress& progress) {
   options.check();
   auto impl = std::make_unique<Impl>();
   impl->reference = &reference;
@@ -280,4 +281,4 @@ Grasp GraspPlace::hold(const GraspingHand& hand, const Progress& progress) const
   return grasp;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

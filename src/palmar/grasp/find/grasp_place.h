@@ -7,18 +7,18 @@
 #include "palmar/core/progress.h"
 #include "palmar/grasp/find/find_grasp.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A hand made ready for closing round one product after the other. Immutable, shareable between
 /// threads.
 class GraspingHand {
  public:
-  explicit GraspingHand(std::shared_ptr<const Hand> hand);
+  explicit GraspingHand(std::shared_ptr<const hand::Hand> hand);
   ~GraspingHand();
   GraspingHand(GraspingHand&&) noexcept;
   GraspingHand& operator=(GraspingHand&&) noexcept;
 
-  const Hand& hand() const;
+  const hand::Hand& hand() const;
 
   struct Impl;
   const Impl& impl() const { return *impl_; }
@@ -36,8 +36,8 @@ class GraspingHand {
 class GraspPlace {
  public:
   /// find_grasp() of the reference hand. Throws UsageError, Cancelled.
-  GraspPlace(const Hand& reference, const Product& product, const GraspOptions& options = {},
-             const Progress& progress = {});
+  GraspPlace(const hand::Hand& reference, const product::Product& product,
+             const GraspOptions& options = {}, const Progress& progress = {});
   ~GraspPlace();
   GraspPlace(GraspPlace&&) noexcept;
   GraspPlace& operator=(GraspPlace&&) noexcept;
@@ -60,4 +60,4 @@ class GraspPlace {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

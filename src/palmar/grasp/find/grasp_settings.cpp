@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 GraspOptions options_of(const GraspSettings& settings) {
@@ -153,4 +153,4 @@ GraspOptions GraspSettings::options() const {
   return options_of(*this);
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

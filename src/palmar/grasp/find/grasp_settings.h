@@ -8,7 +8,7 @@
 
 #include "palmar/grasp/find/find_grasp.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// How a product is to be held, said without coordinates; unset fields are found from its shape.
 struct HoldRequest {
@@ -46,4 +46,4 @@ struct GraspSettings {
   GraspOptions options() const;  ///< throws UsageError as check()
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -11,7 +11,7 @@
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/task_force.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kAdvisedShare = 0.5;  // EN 1005-3:2002+A1:2008, 4.2.3
@@ -46,4 +46,4 @@ FirmHold firm_hold(const std::vector<RankedHold>& holds, double force) {
   return taken;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

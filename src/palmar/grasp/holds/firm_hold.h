@@ -7,7 +7,7 @@
 
 #include "palmar/grasp/holds/hold.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// What a grip force that was stated says of a grip: how many people can grip so firmly in it
 /// without using more of their strength than is advised,
@@ -30,4 +30,4 @@ struct FirmHold {
 /// isn't empty.
 FirmHold firm_hold(const std::vector<RankedHold>& holds, double force);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -8,7 +8,7 @@
 
 #include "palmar/grasp/joint_strength.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 RankedHold hold(Grip grip, double score, const std::string& words) {
@@ -64,4 +64,4 @@ TEST(FirmHold, KeepsTheFirstOfTwoThatAreAsGood) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -13,7 +13,7 @@
 #include "palmar/product/parts/product_parts.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A hold with what speaks for and against it.
 struct RankedHold {
@@ -49,7 +49,7 @@ struct HoldOptions {
 /// holds whose scores are within 0.2 of the best, which the last digits decide, the one leads that
 /// comes first among the candidates.
 struct RankedHolds {
-  ProductParts parts;
+  product::ProductParts parts;
   std::vector<RankedHold> holds;
   int considered = 0;  ///< holds that were scored by the product's shape
   int closed = 0;      ///< of these, on how many the hand was closed
@@ -63,10 +63,10 @@ struct RankedHolds {
 /// closes the hand on the most promising and ranks them. `hand`: a median hand of those who use the
 /// product. docs/method/holds.md has the terms and their sources. Deterministic. Throws UsageError
 /// (also for a part that the product doesn't have: the message lists its parts), Cancelled.
-RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptions& options = {},
-                       const Progress& progress = {});
+RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
+                       const HoldOptions& options = {}, const Progress& progress = {});
 
 /// For people: "medium wrap of the handle, 40 % along it, thumb towards the body".
-std::string words_of(const Hold& hold, const ProductParts& parts);
+std::string words_of(const Hold& hold, const product::ProductParts& parts);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

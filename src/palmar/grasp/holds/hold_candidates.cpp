@@ -11,14 +11,15 @@
 #include "palmar/grasp/holds/hold_limits.h"
 #include "palmar/grasp/power/grip_choice.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 // Eighths of a turn; what mirrored products have mirrored stands together.
 constexpr std::array<int, 8> kPalmSides = {0, 4, 1, -1, 3, -3, 2, -2};
-constexpr double kTowardLimit = 60.0 * kDegree;  // the thumb's side may be off what was asked by
-constexpr double kEndMargin = 4.0;               // mm of a handle that stick out of the fist
-constexpr double kShortPart = 1.25;              // breadths of the fingers; shorter: one place
+constexpr double kTowardLimit =
+    60.0 * geometry::kDegree;        // the thumb's side may be off what was asked by
+constexpr double kEndMargin = 4.0;   // mm of a handle that stick out of the fist
+constexpr double kShortPart = 1.25;  // breadths of the fingers; shorter: one place
 constexpr double kSamePlace = 0.25;  // breadths of the fingers; nearer places are the same; choice
 constexpr double kIndexBeyond = 0.25;    // one of four fingers lies beyond a short handle's end
 constexpr double kBelowTrigger = 0.25;   // of the fingers' breadth: one finger; choice
@@ -29,12 +30,12 @@ struct CandidatePlace {
 };
 
 // Where a loop's line leaves the opening at the thumb's end.
-double end_of_opening(const ProductPart& part, int toward) {
+double end_of_opening(const product::ProductPart& part, int toward) {
   const Vec3 chord = part.line.back().centre - part.line.front().centre;
   Vec3 along = part.opening->wide * (part.opening->wide.dot(chord) < 0.0 ? -1.0 : 1.0);
   along *= toward;
   double best = 0.5, least = 1e300;
-  for (const PartStation& station : part.line) {
+  for (const product::PartStation& station : part.line) {
     if (std::abs(station.axis.dot(along)) < 0.5) continue;  // it runs across there
     const double beyond = along.dot(station.centre - part.opening->centre);
     const double gap = std::abs(beyond - 0.5 * part.opening->width);
@@ -46,7 +47,8 @@ double end_of_opening(const ProductPart& part, int toward) {
 }
 
 // Where on a part hands could be, the thumb's side to `toward`.
-std::vector<CandidatePlace> places_on(const HoldScene& scene, const ProductPart& part, int toward) {
+std::vector<CandidatePlace> places_on(const HoldScene& scene, const product::ProductPart& part,
+                                      int toward) {
   const double breadth = fingers_breadth(*scene.hand);
   const double thumb_end = toward > 0 ? 1.0 : 0.0;
   std::vector<CandidatePlace> places;
@@ -54,7 +56,7 @@ std::vector<CandidatePlace> places_on(const HoldScene& scene, const ProductPart&
     for (const double along : {0.0, 0.25, 0.5, 0.75}) places.push_back({along, 0.0});
     return places;
   }
-  const PartTrigger* trigger = trigger_of(scene, part);
+  const product::PartTrigger* trigger = trigger_of(scene, part);
   if (trigger != nullptr && trigger->end == (toward > 0 ? 1U : 0U)) {
     // The index finger on the trigger, which may stand before what the handle carries.
     // At its middle; or a finger lower, from where the index finger reaches up to it: what the
@@ -75,7 +77,7 @@ std::vector<CandidatePlace> places_on(const HoldScene& scene, const ProductPart&
   if (part.length < kShortPart * breadth) {
     // The index finger finds room beyond the end at what the handle carries: on its trigger.
     const std::size_t end = toward > 0 ? 1 : 0;
-    if (part.kind == PartKind::kBar && part.ends[end].joined) {
+    if (part.kind == product::PartKind::kBar && part.ends[end].joined) {
       places.push_back({thumb_end, 0.5 - kIndexBeyond});
     }
     return places;
@@ -93,8 +95,8 @@ std::vector<CandidatePlace> places_on(const HoldScene& scene, const ProductPart&
         });
     if (is_new) places.push_back({kept, 0.0});
   };
-  add_middle(place_of(part, scene.gravity_centre).along);
-  for (const PartWaist& waist : part.waists) add_middle(waist.along);
+  add_middle(product::place_of(part, scene.gravity_centre).along);
+  for (const product::PartWaist& waist : part.waists) add_middle(waist.along);
   return places;
 }
 
@@ -103,16 +105,16 @@ bool is_toward(const HoldOptions& options, const HoldSite& at) {
   return at.site.axis.dot(options.toward->normalized()) > std::cos(kTowardLimit);
 }
 
-Grip grip_for(const ProductPart& part, const HoldSite& at, bool is_over_end,
+Grip grip_for(const product::ProductPart& part, const HoldSite& at, bool is_over_end,
               const HoldOptions& options, double hand_length) {
   if (options.grip) return *options.grip;
-  if (part.kind == PartKind::kBall || is_over_end) return Grip::kPowerSphere;
+  if (part.kind == product::PartKind::kBall || is_over_end) return Grip::kPowerSphere;
   return wrap_for(at.site.girth, hand_length);
 }
 
 }  // namespace
 
-bool is_part_asked(const ProductPart& part, const HoldOptions& options) {
+bool is_part_asked(const product::ProductPart& part, const HoldOptions& options) {
   if (options.part && *options.part != part.number) return false;
   return options.part_name.empty() || options.part_name == part.name ||
          options.part_name == name_of(part.kind);
@@ -122,7 +124,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
   std::vector<HoldCandidate> found;
   const double length = scene.hand->dimensions.hand_length;
   std::size_t place_number = 0;
-  const auto add = [&](Hold hold, const ProductPart& part) {
+  const auto add = [&](Hold hold, const product::ProductPart& part) {
     HoldCandidate candidate;
     candidate.at = site_of(hold, *scene.parts, *scene.product, *scene.hand);
     if (!is_toward(options, candidate.at)) return;
@@ -137,7 +139,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
         static_cast<std::size_t>(std::abs(std::lround(4.0 * hold.turn / std::numbers::pi)));
     found.push_back(std::move(candidate));
   };
-  for (const ProductPart& part : scene.parts->parts) {
+  for (const product::ProductPart& part : scene.parts->parts) {
     if (!is_part_asked(part, options) || part.line.size() < 2) continue;
     Hold hold;
     hold.part = part.number;
@@ -152,9 +154,9 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
         ++place_number;
         for (const int side : kPalmSides) {
           hold.turn = 0.25 * std::numbers::pi * side;
-          if (part.kind == PartKind::kLoop) hold.turn = std::numbers::pi;
+          if (part.kind == product::PartKind::kLoop) hold.turn = std::numbers::pi;
           add(hold, part);
-          if (part.kind != PartKind::kLoop) continue;
+          if (part.kind != product::PartKind::kLoop) continue;
           if (!options.grip) {
             hold.grip = Grip::kFixedHook;
             add(hold, part);
@@ -165,8 +167,10 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
       }
     }
     // A knob or lid is taken from its free end; a whole ball from any side, so from these, too.
-    const bool is_stub = part.kind == PartKind::kBar && part.length < kStubShare * part.diameter();
-    const bool is_capped = part.kind == PartKind::kBall || part.kind == PartKind::kBody || is_stub;
+    const bool is_stub =
+        part.kind == product::PartKind::kBar && part.length < kStubShare * part.diameter();
+    const bool is_capped =
+        part.kind == product::PartKind::kBall || part.kind == product::PartKind::kBody || is_stub;
     if (!is_capped || part.is_ring || options.along) continue;
     hold.is_over_end = true;
     hold.edge = 0.0;
@@ -187,4 +191,4 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
   return found;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -7,7 +7,7 @@
 
 #include "palmar/grasp/holds/hold_terms.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A hold that is looked at, with what its shape says of it.
 struct HoldCandidate {
@@ -25,6 +25,6 @@ struct HoldCandidate {
 std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOptions& options);
 
 /// Whether a part is meant by the options: by number, by name, or because none is asked for.
-bool is_part_asked(const ProductPart& part, const HoldOptions& options);
+bool is_part_asked(const product::ProductPart& part, const HoldOptions& options);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Length over diameter of a bar: shorter ones are knobs. Choice.
 inline constexpr double kStubShare = 1.8;
@@ -12,4 +12,4 @@ inline constexpr double kHandSpan = 0.55;
 /// Such a difference of two holds' scores doesn't change their order. Choice.
 inline constexpr double kNearTie = 0.2;
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -10,19 +10,21 @@
 #include "palmar/grasp/power/grasp_verdict.h"
 #include "palmar/grasp/power/site_distance.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 // How far the knuckles are bent round a handle that fingers reach through, rad; plain sense: the
 // thumb comes to lie on top of it. Choice.
-constexpr double kLoopMcp = 50.0 * kDegree;
+constexpr double kLoopMcp = 50.0 * geometry::kDegree;
 
 }  // namespace
 
-GraspedSurface grasped_surface_near(const Hold& hold, const ProductParts& parts,
-                                    const Product& product, const HoldSite& at, const Hand& hand) {
+GraspedSurface grasped_surface_near(const Hold& hold, const product::ProductParts& parts,
+                                    const product::Product& product, const HoldSite& at,
+                                    const hand::Hand& hand) {
   GraspedSurface surface;
-  const std::shared_ptr<const DistanceField> exact = grasped_surface(hold, parts, product);
+  const std::shared_ptr<const geometry::DistanceField> exact =
+      grasped_surface(hold, parts, product);
   GripSite site = at.site;
   site.wide = at.palm;  // which of a round bar's directions is the wide one is chance
   site.wall = wall_at(product.mesh, *exact, site, hand.dimensions.hand_width);
@@ -37,10 +39,11 @@ PowerPlace place_of_hold(const HoldSite& at, Grip grip, const GraspedSurface& su
                          const Progress& progress) {
   PowerPlace result;
   Grasp& grasp = result.grasp;
-  const Hand& hand = coarse.hand();
+  const hand::Hand& hand = coarse.hand();
   grasp.grip = grip;
-  grasp.posture = reference_posture(hand.skeleton);
-  for (int s = 0; s < kSegmentCount; ++s) grasp.stops[s].segment = static_cast<Segment>(s);
+  grasp.posture = hand::reference_posture(hand.skeleton);
+  for (int s = 0; s < hand::kSegmentCount; ++s)
+    grasp.stops[s].segment = static_cast<hand::Segment>(s);
   result.site = at.site;
   result.site.wall = surface.wall;
   result.quick = surface.quick;
@@ -95,4 +98,4 @@ PowerPlace place_of_hold(const HoldSite& at, Grip grip, const GraspedSurface& su
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

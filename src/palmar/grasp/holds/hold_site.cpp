@@ -11,13 +11,13 @@
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/grasp/holds/twin_handles.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 // Triangles of one part, with the vertices that they use.
-TriangleMesh mesh_of_part(const TriangleMesh& mesh, const std::vector<int>& part_of_triangle,
-                          int part) {
-  TriangleMesh result;
+geometry::TriangleMesh mesh_of_part(const geometry::TriangleMesh& mesh,
+                                    const std::vector<int>& part_of_triangle, int part) {
+  geometry::TriangleMesh result;
   std::vector<int> index(mesh.vertices.size(), -1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (part_of_triangle[t] != part) continue;
@@ -40,14 +40,14 @@ struct MeanSection {
   Vec3 wide = Vec3::UnitY();
 };
 
-MeanSection mean_section(const ProductPart& part, double middle, double reach) {
+MeanSection mean_section(const product::ProductPart& part, double middle, double reach) {
   MeanSection mean;
   if (part.sections.empty()) return {part.girth, part.width, part.thickness, part.line[0].zero};
   const double spacing = 1.0 / static_cast<double>(part.sections.size());
   const double clamped = part.is_ring ? middle - std::floor(middle) : std::clamp(middle, 0.0, 1.0);
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   double sum = 0.0;
-  for (const PartSection& section : part.sections) {
+  for (const product::PartSection& section : part.sections) {
     double away = std::abs(section.along - clamped);
     if (part.is_ring) away = std::min(away, 1.0 - away);
     const double weight = 1.0 - away / (reach + 2.0 * spacing);
@@ -68,26 +68,26 @@ MeanSection mean_section(const ProductPart& part, double middle, double reach) {
 constexpr double kPalmAway = 0.7;  // cosine between the palm and the way out of the other handle
 
 // Extent of a mesh from a point along a direction, mm.
-double extent_ahead(const TriangleMesh& mesh, const Vec3& point, const Vec3& direction) {
+double extent_ahead(const geometry::TriangleMesh& mesh, const Vec3& point, const Vec3& direction) {
   double farthest = 0.0;
   for (const Vec3& v : mesh.vertices) farthest = std::max(farthest, direction.dot(v - point));
   return farthest;
 }
 
 // A palm on the outside of one of two handles: the fingers go round both.
-void take_both(const ProductPart& part, const ProductPart& twin, HoldSite& at) {
+void take_both(const product::ProductPart& part, const product::ProductPart& twin, HoldSite& at) {
   GripSite& site = at.site;
-  const PartPlace beside = place_of(twin, site.point);
+  const product::PartPlace beside = product::place_of(twin, site.point);
   const double along = std::clamp(beside.along, 0.0, 1.0);
-  Vec3 apart = site.point - part_frame(twin, along, 0.0).translation;
+  Vec3 apart = site.point - product::part_frame(twin, along, 0.0).translation;
   apart -= site.axis * site.axis.dot(apart);
   const double away = apart.norm();
   if (away < 1.0 || apart.dot(at.palm) < kPalmAway * away) return;
   apart /= away;
   at.palm = apart;
-  const auto extent = [&](const ProductPart& bar) {
-    const PartSection* nearest = &bar.sections.front();
-    for (const PartSection& section : bar.sections) {
+  const auto extent = [&](const product::ProductPart& bar) {
+    const product::PartSection* nearest = &bar.sections.front();
+    for (const product::PartSection& section : bar.sections) {
       if ((section.centre - site.point).norm() < (nearest->centre - site.point).norm()) {
         nearest = &section;
       }
@@ -109,25 +109,25 @@ void take_both(const ProductPart& part, const ProductPart& twin, HoldSite& at) {
 
 }  // namespace
 
-double fingers_breadth(const Hand& hand) { return hand.dimensions.hand_width; }
+double fingers_breadth(const hand::Hand& hand) { return hand.dimensions.hand_width; }
 
-const ProductPart& part_of(const Hold& hold, const ProductParts& parts) {
+const product::ProductPart& part_of(const Hold& hold, const product::ProductParts& parts) {
   if (hold.part >= 1 && hold.part <= static_cast<int>(parts.parts.size())) {
     return parts.parts[hold.part - 1];
   }
   std::string list;
-  for (const ProductPart& part : parts.parts) {
+  for (const product::ProductPart& part : parts.parts) {
     list += (list.empty() ? "" : ", ") + std::to_string(part.number) + " (" + part.name + ")";
   }
   throw UsageError("part " + std::to_string(hold.part) + " is held, but the product has " +
                    (list.empty() ? "no parts" : "the parts " + list));
 }
 
-HoldSite site_of(const Hold& hold, const ProductParts& parts, const Product& product,
-                 const Hand& hand) {
-  const ProductPart& part = part_of(hold, parts);
+HoldSite site_of(const Hold& hold, const product::ProductParts& parts,
+                 const product::Product& product, const hand::Hand& hand) {
+  const product::ProductPart& part = part_of(hold, parts);
   HoldSite result;
-  result.is_loop = part.kind == PartKind::kLoop;
+  result.is_loop = part.kind == product::PartKind::kLoop;
   GripSite& site = result.site;
   const double breadth = fingers_breadth(hand);
   MeanSection section;
@@ -136,7 +136,8 @@ HoldSite site_of(const Hold& hold, const ProductParts& parts, const Product& pro
     section = mean_section(part, 0.5, 0.5);
     // As deep below the end as the part is thick, but not beyond its middle.
     const double deep = std::min(0.5, 0.5 * section.width / part.length);
-    const Rigid3 frame = part_frame(part, is_far_end ? 1.0 - deep : deep, hold.turn);
+    const geometry::Rigid3 frame =
+        product::part_frame(part, is_far_end ? 1.0 - deep : deep, hold.turn);
     site.point = frame.translation;
     site.axis = frame.rotation * Vec3::UnitZ();
     result.palm = (is_far_end ? 1.0 : -1.0) * (frame.rotation * Vec3::UnitX());
@@ -147,10 +148,11 @@ HoldSite site_of(const Hold& hold, const ProductParts& parts, const Product& pro
     const double reach = 0.5 * breadth / part.length;
     const double low = part.is_ring ? middle - reach : std::clamp(middle - reach, 0.0, 1.0);
     const double high = part.is_ring ? middle + reach : std::clamp(middle + reach, 0.0, 1.0);
-    const Rigid3 here = part_frame(part, middle, hold.turn);
+    const geometry::Rigid3 here = product::part_frame(part, middle, hold.turn);
     section = mean_section(part, middle, reach);
     // Along a curved handle fingers lie as its chord does.
-    Vec3 chord = part_frame(part, high, 0.0).translation - part_frame(part, low, 0.0).translation;
+    Vec3 chord = product::part_frame(part, high, 0.0).translation -
+                 product::part_frame(part, low, 0.0).translation;
     const Vec3 along_line = here.rotation * Vec3::UnitX();
     if (part.opening && !part.is_ring) {
       // Fingers lie across the opening, whichever way the loop bends there.
@@ -169,23 +171,25 @@ HoldSite site_of(const Hold& hold, const ProductParts& parts, const Product& pro
   site.girth = section.girth;
   site.width = section.width;
   site.thickness = section.thickness;
-  if (const ProductPart* twin = twin_of(part, parts); twin != nullptr && !hold.is_over_end) {
+  if (const product::ProductPart* twin = twin_of(part, parts);
+      twin != nullptr && !hold.is_over_end) {
     take_both(part, *twin, result);
   }
   site.ahead = extent_ahead(product.mesh, site.point, site.axis);
   site.score = 1.0;
   const double turn =
       std::atan2(site.axis.dot(site.wide.cross(result.palm)), site.wide.dot(result.palm));
-  result.turn = hand.side == Side::kRight ? turn : -turn;
+  result.turn = hand.side == hand::Side::kRight ? turn : -turn;
   return result;
 }
 
-std::shared_ptr<const DistanceField> grasped_surface(const Hold& hold, const ProductParts& parts,
-                                                     const Product& product) {
-  const ProductPart& part = part_of(hold, parts);
-  if (part.kind != PartKind::kLoop || parts.parts.size() < 2) return product.distance;
-  return std::make_shared<MeshDistance>(
+std::shared_ptr<const geometry::DistanceField> grasped_surface(const Hold& hold,
+                                                               const product::ProductParts& parts,
+                                                               const product::Product& product) {
+  const product::ProductPart& part = part_of(hold, parts);
+  if (part.kind != product::PartKind::kLoop || parts.parts.size() < 2) return product.distance;
+  return std::make_shared<geometry::MeshDistance>(
       mesh_of_part(product.mesh, parts.part_of_triangle, hold.part - 1));
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

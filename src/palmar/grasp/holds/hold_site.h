@@ -8,7 +8,7 @@
 #include "palmar/grasp/holds/hold.h"
 #include "palmar/grasp/power/grip_axis.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A power grip's hold seen by one hand.
 struct HoldSite {
@@ -21,19 +21,20 @@ struct HoldSite {
 
 /// Where a hand takes a hold. `hand` gives size and side. The site's measures are means over what
 /// the four fingers cover. Throws UsageError if the product has no such part.
-HoldSite site_of(const Hold& hold, const ProductParts& parts, const Product& product,
-                 const Hand& hand);
+HoldSite site_of(const Hold& hold, const product::ProductParts& parts,
+                 const product::Product& product, const hand::Hand& hand);
 
 /// The part with that number. Throws UsageError that lists the parts.
-const ProductPart& part_of(const Hold& hold, const ProductParts& parts);
+const product::ProductPart& part_of(const Hold& hold, const product::ProductParts& parts);
 
 /// What fingers close on: the product, of a loop the loop alone, so that fingers that reach through
 /// its opening don't stop at what is behind it.
-std::shared_ptr<const DistanceField> grasped_surface(const Hold& hold, const ProductParts& parts,
-                                                     const Product& product);
+std::shared_ptr<const geometry::DistanceField> grasped_surface(const Hold& hold,
+                                                               const product::ProductParts& parts,
+                                                               const product::Product& product);
 
 /// Breadth of the four fingers side by side, mm. Metacarpal breadth is measured across the heads,
 /// which is where they lie in a fist.
-double fingers_breadth(const Hand& hand);
+double fingers_breadth(const hand::Hand& hand);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

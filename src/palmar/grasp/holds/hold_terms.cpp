@@ -15,7 +15,7 @@
 #include "palmar/grasp/holds/twin_handles.h"
 #include "palmar/product/mass.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kThinLoopSpread = 0.9;  // fingers through a loop hook it, however thin; choice
@@ -36,10 +36,10 @@ constexpr double kFewestFingers = 0.45;     // of the fingers' breadth through a
 constexpr double kFingerThickness = 0.085;  // hand lengths: 16 mm of 188 (Greiner 1991, index DIP)
 constexpr double kMoment =
     400.0;  // N mm of weight about the grip that people begin to avoid; choice
-constexpr double kTooWide = 8.0;               // per share beyond; choice
-constexpr double kNoseAngle = 40.0 * kDegree;  // choice
-constexpr double kLoopAngle = 45.0 * kDegree;  // choice
-constexpr double kFlatLoss = 3.0;              // an edge of a sheet in the palm; choice
+constexpr double kTooWide = 8.0;                         // per share beyond; choice
+constexpr double kNoseAngle = 40.0 * geometry::kDegree;  // choice
+constexpr double kLoopAngle = 45.0 * geometry::kDegree;  // choice
+constexpr double kFlatLoss = 3.0;                        // an edge of a sheet in the palm; choice
 constexpr double kThumbSide = 1.5;   // per share of the product on the little finger's side; choice
 constexpr double kUpsideDown = 2.5;  // thumb down where up was given; choice
 constexpr double kMaybeUpsideDown = 1.2;  // where up was guessed from the shape; choice
@@ -59,10 +59,11 @@ double log_normal(double value, double best, double thin, double thick) {
   return -0.5 * z * z;
 }
 
-HoldTerm girth_term(const HoldScene& scene, const ProductPart& part, const GripSite& site) {
+HoldTerm girth_term(const HoldScene& scene, const product::ProductPart& part,
+                    const GripSite& site) {
   const double diameter = site.girth / std::numbers::pi;
   const double length = scene.hand->dimensions.hand_length;
-  const double thin = part.kind == PartKind::kLoop ? kThinLoopSpread : kThinSpread;
+  const double thin = part.kind == product::PartKind::kLoop ? kThinLoopSpread : kThinSpread;
   return {"girth", diameter, "mm",
           log_normal(std::max(diameter, 1.0), kBestDiameter * length, thin, kThickSpread),
           fmt::format("{:.0f} mm thick by its girth, {:.0f} % of hand length", diameter,
@@ -103,7 +104,7 @@ HoldTerm handle_term(const HoldScene& scene, const Hold& hold) {
                                  : "no handle is passed over"};
 }
 
-HoldTerm coverage_term(const HoldScene& scene, const ProductPart& part, const Hold& hold) {
+HoldTerm coverage_term(const HoldScene& scene, const product::ProductPart& part, const Hold& hold) {
   const double breadth = fingers_breadth(*scene.hand);
   double covered = breadth;
   if (part.opening) {
@@ -111,7 +112,8 @@ HoldTerm coverage_term(const HoldScene& scene, const ProductPart& part, const Ho
   } else if (!part.is_ring) {
     const double middle = hold.along * part.length - hold.toward * hold.edge * breadth;
     double low = 0.0, high = part.length;
-    if (const PartTrigger* trigger = trigger_of(scene, part)) {  // a finger has its place on that
+    if (const product::PartTrigger* trigger =
+            trigger_of(scene, part)) {  // a finger has its place on that
       low = std::min(low, trigger->along * part.length - 0.5 * trigger->length);
       high = std::max(high, trigger->along * part.length + 0.5 * trigger->length);
     }
@@ -124,7 +126,7 @@ HoldTerm coverage_term(const HoldScene& scene, const ProductPart& part, const Ho
           fmt::format("{:.0f} mm of it under the fingers", covered)};
 }
 
-HoldTerm opening_term(const HoldScene& scene, const ProductPart& part) {
+HoldTerm opening_term(const HoldScene& scene, const product::ProductPart& part) {
   const double finger = kFingerThickness * scene.hand->dimensions.hand_length;
   const double room = part.opening->height;
   const double share = std::clamp((room / finger - 0.9) / 0.6, 0.0, 1.0);
@@ -142,14 +144,15 @@ HoldTerm moment_term(const HoldScene& scene, const GripSite& site) {
 }
 
 // The index finger, a quarter of the breadth of the four on the thumb's side, lies on the trigger.
-HoldTerm trigger_term(const HoldScene& scene, const PartTrigger& trigger, const HoldSite& at) {
+HoldTerm trigger_term(const HoldScene& scene, const product::PartTrigger& trigger,
+                      const HoldSite& at) {
   const double breadth = fingers_breadth(*scene.hand);
   const Vec3 index = at.site.point + kIndexPlace * breadth * at.site.axis;
   const double off = at.site.axis.dot(trigger.point - index);
-  const ProductPart& part = scene.parts->parts[trigger.part - 1];
+  const product::ProductPart& part = scene.parts->parts[trigger.part - 1];
   const Vec3 outwards =
       (trigger.end == 1 ? 1.0 : -1.0) *
-      (part_frame(part, static_cast<double>(trigger.end), 0.0).rotation * Vec3::UnitX());
+      (product::part_frame(part, static_cast<double>(trigger.end), 0.0).rotation * Vec3::UnitX());
   if (at.site.axis.dot(outwards) < 0.0) {
     return {"trigger", std::abs(off), "mm", std::log(kOffTrigger),
             "the little finger is next to the trigger"};
@@ -173,12 +176,12 @@ struct Beyond {
 
 Beyond beyond_hand(const HoldScene& scene, const GripSite& site) {
   Beyond beyond;
-  const TriangleMesh& mesh = scene.product->mesh;
+  const geometry::TriangleMesh& mesh = scene.product->mesh;
   const double edge = 0.5 * fingers_breadth(*scene.hand);
   double whole = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const double area = triangle_area(a, b, c);
+    const double area = geometry::triangle_area(a, b, c);
     const double along = site.axis.dot((a + b + c) / 3.0 - site.point);
     whole += area;
     if (along > edge) beyond.thumb_area += area;
@@ -197,19 +200,20 @@ Beyond beyond_hand(const HoldScene& scene, const GripSite& site) {
 }
 
 // Tools point to the thumb's side; vessels have their mouth there.
-HoldTerm thumb_side_term(const HoldScene& scene, const ProductPart& part, int toward,
+HoldTerm thumb_side_term(const HoldScene& scene, const product::ProductPart& part, int toward,
                          const GripSite& site) {
-  const bool is_vessel = part.kind == PartKind::kBody || part.kind == PartKind::kLoop;
+  const bool is_vessel =
+      part.kind == product::PartKind::kBody || part.kind == product::PartKind::kLoop;
   if (scene.up && (is_vessel || scene.is_up_given)) {
     const double up = site.axis.dot(*scene.up);
     const double most = scene.is_up_known ? kUpsideDown : kMaybeUpsideDown;
-    return {"thumb's side", std::acos(std::clamp(up, -1.0, 1.0)) / kDegree, "deg",
+    return {"thumb's side", std::acos(std::clamp(up, -1.0, 1.0)) / geometry::kDegree, "deg",
             -most * std::max(0.0, -up),
             up > 0.5    ? "thumb's side up"
             : up < -0.5 ? "thumb's side down"
                         : "thumb's side neither up nor down"};
   }
-  if (part.kind == PartKind::kBar && !part.is_ring &&
+  if (part.kind == product::PartKind::kBar && !part.is_ring &&
       part.ends[0].joined.has_value() != part.ends[1].joined.has_value()) {
     const bool is_to_work = part.ends[toward > 0 ? 1 : 0].joined.has_value();
     return {"thumb's side", is_to_work ? 1.0 : 0.0, "", is_to_work ? 0.0 : -kWrongEnd,
@@ -225,13 +229,13 @@ HoldTerm thumb_side_term(const HoldScene& scene, const ProductPart& part, int to
                       : "the longer end is on the thumb's side"};
 }
 
-HoldTerm palm_term(const HoldScene& scene, const ProductPart& part, const Hold& hold,
+HoldTerm palm_term(const HoldScene& scene, const product::ProductPart& part, const Hold& hold,
                    const HoldSite& at) {
   const GripSite& site = at.site;
-  if (part.kind == PartKind::kLoop) {
+  if (part.kind == product::PartKind::kLoop) {
     const double turn = std::remainder(hold.turn - std::numbers::pi, 2.0 * std::numbers::pi);
     const double z = turn / kLoopAngle;
-    return {"palm's side", std::abs(turn) / kDegree, "deg", -0.5 * z * z,
+    return {"palm's side", std::abs(turn) / geometry::kDegree, "deg", -0.5 * z * z,
             std::abs(turn) < kLoopAngle ? "palm outside the loop, fingers through it"
                                         : "palm beside the loop"};
   }
@@ -241,28 +245,28 @@ HoldTerm palm_term(const HoldScene& scene, const ProductPart& part, const Hold& 
   if (twin_of(part, *scene.parts) != nullptr) {
     return {"palm's side", 180.0, "deg", std::log(kOneOfTwo), "only one of its two handles"};
   }
-  if (part.kind == PartKind::kBar) {
+  if (part.kind == product::PartKind::kBar) {
     if (const auto nose = nose_of(scene, site)) {
       const double angle = std::acos(std::clamp(-nose->dot(at.palm), -1.0, 1.0));
       const double z = angle / kNoseAngle;
-      return {"palm's side", angle / kDegree, "deg", -0.5 * z * z / (1.0 + 0.1 * z * z),
+      return {"palm's side", angle / geometry::kDegree, "deg", -0.5 * z * z / (1.0 + 0.1 * z * z),
               fmt::format("what it works with is {:.0f} degrees off the direction of the forearm",
-                          angle / kDegree)};
+                          angle / geometry::kDegree)};
     }
   }
   const double thin = 1.0 - std::min(1.0, site.thickness / std::max(site.width, 1e-9));
   const double edge = site.wide.dot(at.palm);
   const double score = -kFlatLoss * thin * edge * edge;
-  return {"palm's side", std::acos(std::min(1.0, std::abs(edge))) / kDegree, "deg", score,
+  return {"palm's side", std::acos(std::min(1.0, std::abs(edge))) / geometry::kDegree, "deg", score,
           score < -0.5 ? "an edge in the palm" : "its flat side in the palm"};
 }
 
 // Where on a part people take hold: near the centre of gravity if that lies in the part, of a tool
 // with a heavy head far from the head.
-HoldTerm place_term(const HoldScene& scene, const ProductPart& part, const HoldSite& at) {
+HoldTerm place_term(const HoldScene& scene, const product::ProductPart& part, const HoldSite& at) {
   const double length = std::max(part.length, 1e-9);
-  const Vec3 start = part_frame(part, 0.0, 0.0).translation;
-  const Vec3 end = part_frame(part, 1.0, 0.0).translation;
+  const Vec3 start = product::part_frame(part, 0.0, 0.0).translation;
+  const Vec3 end = product::part_frame(part, 1.0, 0.0).translation;
   const Vec3 line = end - start;
   const double span = line.norm();
   const double breadth = fingers_breadth(*scene.hand);
@@ -283,7 +287,7 @@ HoldTerm place_term(const HoldScene& scene, const ProductPart& part, const HoldS
   if (scene.is_handle[part.number - 1] == 0) {
     const double z = (scene.gravity_centre - at.site.point).norm() / breadth;
     // What it stands on, or works with, is nothing to hold it by.
-    const double per = part.kind == PartKind::kPlate ? 1.0 : 0.5;
+    const double per = part.kind == product::PartKind::kPlate ? 1.0 : 0.5;
     return {"place along it", z * breadth, "mm", -per * std::min(z * z, 4.0),
             fmt::format("{:.0f} mm from the middle of its weight", z * breadth)};
   }
@@ -294,11 +298,11 @@ HoldTerm place_term(const HoldScene& scene, const ProductPart& part, const HoldS
 
 // Whether palm and fingers would have room: middles of a palm's and four fingers' skin round the
 // section, each to be clear of the product.
-HoldTerm room_term(const HoldScene& scene, const ProductPart& part, const HoldSite& at) {
+HoldTerm room_term(const HoldScene& scene, const product::ProductPart& part, const HoldSite& at) {
   const GripSite& site = at.site;
   const double breadth = fingers_breadth(*scene.hand);
   const double length = scene.hand->dimensions.hand_length;
-  const double side = scene.hand->side == Side::kRight ? 1.0 : -1.0;
+  const double side = scene.hand->side == hand::Side::kRight ? 1.0 : -1.0;
   const Vec3 distal = side * site.axis.cross(at.palm);  // fingers reach over there first
   const Vec3 wide = site.wide, thin = site.axis.cross(site.wide);
   const auto radius = [&](const Vec3& direction) {
@@ -315,15 +319,16 @@ HoldTerm room_term(const HoldScene& scene, const ProductPart& part, const HoldSi
     }
   }
   const std::size_t palm_points = points.size();
-  const bool is_loop = part.kind == PartKind::kLoop;
+  const bool is_loop = part.kind == product::PartKind::kLoop;
   for (const double x : is_loop ? std::vector<double>{-0.125, 0.125}
                                 : std::vector<double>{-0.375, -0.125, 0.125, 0.375}) {
     for (double angle = 60.0; angle <= 210.0; angle += 30.0) {
-      const Vec3 out = std::cos(angle * kDegree) * at.palm + std::sin(angle * kDegree) * distal;
+      const Vec3 out = std::cos(angle * geometry::kDegree) * at.palm +
+                       std::sin(angle * geometry::kDegree) * distal;
       points.push_back(site.point + x * breadth * site.axis + (radius(out) + 9.0) * out);
     }
   }
-  std::vector<DistanceSample> samples(points.size());
+  std::vector<geometry::DistanceSample> samples(points.size());
   scene.product->distance->sample(points, 2.0 * kSkinRoom, samples);
   double palm = 0.0, fingers = 0.0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -337,14 +342,14 @@ HoldTerm room_term(const HoldScene& scene, const ProductPart& part, const HoldSi
           share < 0.1 ? "room for palm and fingers" : "something is in the hand's way"};
 }
 
-double diagonal_of(const ProductPart& part) { return std::max(part.length, part.width); }
+double diagonal_of(const product::ProductPart& part) { return std::max(part.length, part.width); }
 
 // The neck of a bottle goes on where its body ends; the body is what hands take.
-bool is_neck(const ProductPart& part, const ProductParts& parts) {
+bool is_neck(const product::ProductPart& part, const product::ProductParts& parts) {
   const Vec3 line = part.line.back().centre - part.line.front().centre;
   for (const int number : part.joined) {
-    const ProductPart& body = parts.parts[number - 1];
-    if (body.kind != PartKind::kBody || body.line.size() < 2) continue;
+    const product::ProductPart& body = parts.parts[number - 1];
+    if (body.kind != product::PartKind::kBody || body.line.size() < 2) continue;
     const Vec3 axis = body.line.back().centre - body.line.front().centre;
     const bool is_in_line = std::abs(line.normalized().dot(axis.normalized())) > kInLine;
     if (is_in_line && body.length > part.length && body.length > kShortestHandle) return true;
@@ -353,29 +358,31 @@ bool is_neck(const ProductPart& part, const ProductParts& parts) {
 }
 
 // A knob on something larger, which fingertips or the whole hand go round.
-bool is_knob(const ProductPart& part, const ProductParts& parts) {
+bool is_knob(const product::ProductPart& part, const product::ProductParts& parts) {
   const bool has_free_end = !part.ends[0].joined || !part.ends[1].joined;
   if (part.joined.empty() || !has_free_end || diagonal_of(part) > kLargestKnob) return false;
-  const ProductPart& base = parts.parts[part.joined.front() - 1];
-  return base.kind == PartKind::kPlate || diagonal_of(base) > 2.0 * diagonal_of(part);
+  const product::ProductPart& base = parts.parts[part.joined.front() - 1];
+  return base.kind == product::PartKind::kPlate || diagonal_of(base) > 2.0 * diagonal_of(part);
 }
 
 // The bent free end of a stick or an umbrella.
-bool is_crook(const ProductPart& part) {
-  return part.kind == PartKind::kBar && !part.joined.empty() &&
+bool is_crook(const product::ProductPart& part) {
+  return part.kind == product::PartKind::kBar && !part.joined.empty() &&
          (!part.ends[0].joined || !part.ends[1].joined) && part.straightness < kBent &&
          part.diameter() >= kThinnestHandle && part.length >= kShortestHandle;
 }
 
-bool is_handle(const ProductPart& part, const ProductParts& parts, bool is_beside_loop) {
-  if (part.kind == PartKind::kLoop) return parts.parts.size() > 1;
-  const bool is_stub = part.kind == PartKind::kBar && part.length < kStubShare * part.diameter() &&
+bool is_handle(const product::ProductPart& part, const product::ProductParts& parts,
+               bool is_beside_loop) {
+  if (part.kind == product::PartKind::kLoop) return parts.parts.size() > 1;
+  const bool is_stub = part.kind == product::PartKind::kBar &&
+                       part.length < kStubShare * part.diameter() &&
                        (!part.ends[0].joined || !part.ends[1].joined);
-  if (part.kind == PartKind::kBall || part.kind == PartKind::kBody || is_stub) {
+  if (part.kind == product::PartKind::kBall || part.kind == product::PartKind::kBody || is_stub) {
     return is_knob(part, parts);
   }
   // Beside a loop that is there for the hand a bar is a spout.
-  return part.kind == PartKind::kBar && !is_beside_loop && !part.joined.empty() &&
+  return part.kind == product::PartKind::kBar && !is_beside_loop && !part.joined.empty() &&
          part.diameter() >= kThinnestHandle && part.length >= kShortestHandle &&
          !is_neck(part, parts);
 }
@@ -386,21 +393,22 @@ struct Upright {
   bool is_vessel = false;  ///< with a hollow
 };
 
-Upright upright(const ProductParts& parts, const TriangleMesh& mesh, const Vec3& gravity) {
-  if (parts.parts.empty() || parts.parts.front().kind != PartKind::kBody) return {};
-  const ProductPart& body = parts.parts.front();
+Upright upright(const product::ProductParts& parts, const geometry::TriangleMesh& mesh,
+                const Vec3& gravity) {
+  if (parts.parts.empty() || parts.parts.front().kind != product::PartKind::kBody) return {};
+  const product::ProductPart& body = parts.parts.front();
   const Vec3 start = body.line.front().centre;
   const Vec3 axis = (body.line.back().centre - start).normalized();
   double filled = 0.0, filled_moment = 0.0;  // of the body with its hollow, about `start`
-  for (const PartSection& section : body.sections) {
+  for (const product::PartSection& section : body.sections) {
     filled += section.area;
     filled_moment += section.area * axis.dot(section.centre - start);
   }
   if (filled <= 0.0) return {};
   const double filled_centre = filled_moment / filled;
   const double filled_volume = filled * body.length / static_cast<double>(body.sections.size());
-  double volume = signed_volume(mesh);
-  for (const ProductPart& other : parts.parts) {
+  double volume = geometry::signed_volume(mesh);
+  for (const product::ProductPart& other : parts.parts) {
     if (other.number != body.number) volume -= other.volume;
   }
   if (volume > 0.0 && volume < kHollow * filled_volume) {
@@ -422,35 +430,36 @@ Upright upright(const ProductParts& parts, const TriangleMesh& mesh, const Vec3&
 
 }  // namespace
 
-HoldScene hold_scene(const Hand& hand, const Product& product, const ProductParts& parts,
-                     const HoldOptions& options) {
+HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
+                     const product::ProductParts& parts, const HoldOptions& options) {
   HoldScene scene;
   scene.hand = &hand;
   scene.product = &product;
   scene.parts = &parts;
   scene.purpose = options.purpose;
-  scene.gravity_centre = centre_of_volume(product.mesh);
+  scene.gravity_centre = geometry::centre_of_volume(product.mesh);
   constexpr double kWater = 1.0;  // g/cm^3
-  scene.weight = options.mass ? *options.mass * kStandardGravity
-                              : weight_of(std::abs(signed_volume(product.mesh)), kWater);
+  scene.weight = options.mass
+                     ? *options.mass * product::kStandardGravity
+                     : product::weight_of(std::abs(geometry::signed_volume(product.mesh)), kWater);
   scene.is_up_given = options.up.has_value();
   const Upright guess = upright(parts, product.mesh, scene.gravity_centre);
   scene.up = options.up ? std::optional<Vec3>(options.up->normalized()) : guess.up;
   scene.is_up_known = options.up || guess.is_vessel;
   scene.part_of_gravity = parts.parts.empty() ? -1 : parts.nearest(product, scene.gravity_centre);
   const bool has_loop_on_body =
-      std::any_of(parts.parts.begin(), parts.parts.end(), [&](const ProductPart& part) {
-        return part.kind == PartKind::kLoop && part.opening &&
+      std::any_of(parts.parts.begin(), parts.parts.end(), [&](const product::ProductPart& part) {
+        return part.kind == product::PartKind::kLoop && part.opening &&
                part.opening->width > kFewestFingers * fingers_breadth(hand) &&
-               parts.parts.front().kind == PartKind::kBody;
+               parts.parts.front().kind == product::PartKind::kBody;
       });
   const bool has_crook = std::any_of(parts.parts.begin(), parts.parts.end(), is_crook);
-  for (const ProductPart& part : parts.parts) {
+  for (const product::ProductPart& part : parts.parts) {
     const bool is_on_body =
         std::find(part.joined.begin(), part.joined.end(), 1) != part.joined.end();
     bool is_one = is_handle(part, parts, has_loop_on_body && is_on_body);
     // A stick is held by its crook, and what has a trigger by what is behind it.
-    if (has_crook && part.kind == PartKind::kBar) is_one = is_crook(part);
+    if (has_crook && part.kind == product::PartKind::kBar) is_one = is_crook(part);
     is_one = is_one || twin_of(part, parts) != nullptr;
     if (!parts.triggers.empty()) is_one = trigger_of(scene, part) != nullptr;
     scene.is_handle.push_back(is_one ? 1 : 0);
@@ -459,15 +468,15 @@ HoldScene hold_scene(const Hand& hand, const Product& product, const ProductPart
   return scene;
 }
 
-const PartTrigger* trigger_of(const HoldScene& scene, const ProductPart& part) {
-  for (const PartTrigger& trigger : scene.parts->triggers) {
+const product::PartTrigger* trigger_of(const HoldScene& scene, const product::ProductPart& part) {
+  for (const product::PartTrigger& trigger : scene.parts->triggers) {
     if (trigger.part == part.number) return &trigger;
   }
   return nullptr;
 }
 
 std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site) {
-  const TriangleMesh& mesh = scene.product->mesh;
+  const geometry::TriangleMesh& mesh = scene.product->mesh;
   const double edge = 0.4 * fingers_breadth(*scene.hand);
   Vec3 moment = Vec3::Zero();
   double area = 0.0;
@@ -475,7 +484,7 @@ std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     const Vec3 r = (a + b + c) / 3.0 - site.point;
     if (site.axis.dot(r) < edge) continue;
-    const double weight = triangle_area(a, b, c);
+    const double weight = geometry::triangle_area(a, b, c);
     moment += weight * (r - site.axis * site.axis.dot(r));
     area += weight;
   }
@@ -485,7 +494,7 @@ std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site) {
 }
 
 std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, const HoldSite& at) {
-  const ProductPart& part = part_of(hold, *scene.parts);
+  const product::ProductPart& part = part_of(hold, *scene.parts);
   std::vector<HoldTerm> terms;
   terms.push_back(handle_term(scene, hold));
   terms.push_back(girth_term(scene, part, at.site));
@@ -496,7 +505,7 @@ std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, cons
     terms.push_back(room_term(scene, part, at));
     return terms;
   }
-  const PartTrigger* trigger = trigger_of(scene, part);
+  const product::PartTrigger* trigger = trigger_of(scene, part);
   // From a neck with a trigger the hand goes on over the body below.
   if (trigger == nullptr || !is_neck(part, *scene.parts)) {
     terms.push_back(coverage_term(scene, part, hold));
@@ -508,7 +517,7 @@ std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, cons
   terms.push_back(place_term(scene, part, at));
   if (trigger == nullptr) terms.push_back(thumb_side_term(scene, part, hold.toward, at.site));
   terms.push_back(palm_term(scene, part, hold, at));
-  if (part.kind != PartKind::kBar) terms.push_back(moment_term(scene, at.site));
+  if (part.kind != product::PartKind::kBar) terms.push_back(moment_term(scene, at.site));
   terms.push_back(room_term(scene, part, at));
   return terms;
 }
@@ -519,4 +528,4 @@ double sum_of(const std::vector<HoldTerm>& terms) {
   return sum;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -8,13 +8,13 @@
 #include "palmar/grasp/holds/hold.h"
 #include "palmar/grasp/holds/hold_site.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// What the choice of a hold asks of a product, once for all its holds.
 struct HoldScene {
-  const Hand* hand = nullptr;
-  const Product* product = nullptr;
-  const ProductParts* parts = nullptr;
+  const hand::Hand* hand = nullptr;
+  const product::Product* product = nullptr;
+  const product::ProductParts* parts = nullptr;
   HoldPurpose purpose = HoldPurpose::kUse;
   Vec3 gravity_centre = Vec3::Zero();  ///< of the product's volume, product frame, mm
   int part_of_gravity = -1;            ///< index of the part that it lies in or is nearest to
@@ -28,8 +28,8 @@ struct HoldScene {
   std::vector<char> is_handle;
   bool has_handle = false;
 };
-HoldScene hold_scene(const Hand& hand, const Product& product, const ProductParts& parts,
-                     const HoldOptions& options);
+HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
+                     const product::ProductParts& parts, const HoldOptions& options);
 
 /// Reasons for and against a hold by the product's shape alone; docs/method/holds.md. `site` as
 /// site_of() has it (of a precision grip: where its fingertips are, with `palm` any).
@@ -40,8 +40,8 @@ std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, cons
 std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site);
 
 /// The trigger before a part; null if there is none.
-const PartTrigger* trigger_of(const HoldScene& scene, const ProductPart& part);
+const product::PartTrigger* trigger_of(const HoldScene& scene, const product::ProductPart& part);
 
 double sum_of(const std::vector<HoldTerm>& terms);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -18,11 +18,11 @@
 #include "palmar/grasp/power/grip_choice.h"
 #include "palmar/product/parts/part_spread.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
-const double kLevelFace = std::cos(10.0 * kDegree);  // of a face that counts as level
-constexpr double kLowestLayer = 1.0;                 // mm; what a thing stands on
+const double kLevelFace = std::cos(10.0 * geometry::kDegree);  // of a face that counts as level
+constexpr double kLowestLayer = 1.0;                           // mm; what a thing stands on
 constexpr double kStandsOn = 0.6;      // of its outline from above that stands on it; choice
 constexpr double kMostLevelTop = 0.5;  // of the outline: more is no vault; choice
 constexpr double kHighPart = 0.93;     // of the height: where it is highest
@@ -45,7 +45,7 @@ struct Vault {
   Vec3 highest = Vec3::Zero();
 };
 
-double extent_of(const TriangleMesh& mesh, const Vec3& direction) {
+double extent_of(const geometry::TriangleMesh& mesh, const Vec3& direction) {
   double low = 1e300, high = -1e300;
   for (const Vec3& v : mesh.vertices) {
     low = std::min(low, direction.dot(v));
@@ -55,7 +55,7 @@ double extent_of(const TriangleMesh& mesh, const Vec3& direction) {
 }
 
 // The direction across `up` in which the surface spreads most.
-Vec3 longer_way(const TriangleMesh& mesh, const Vec3& up) {
+Vec3 longer_way(const geometry::TriangleMesh& mesh, const Vec3& up) {
   const Vec3 u = up.unitOrthogonal(), v = up.cross(u);
   Vec3 middle = Vec3::Zero();
   double whole = 0.0;
@@ -63,7 +63,7 @@ Vec3 longer_way(const TriangleMesh& mesh, const Vec3& up) {
   for (const bool is_second : {false, true}) {
     for (const Triangle& t : mesh.triangles) {
       const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-      const double area = triangle_area(a, b, c);
+      const double area = geometry::triangle_area(a, b, c);
       if (!is_second) {
         middle += area * (a + b + c) / 3.0;
         whole += area;
@@ -80,7 +80,7 @@ Vec3 longer_way(const TriangleMesh& mesh, const Vec3& up) {
   return (most.x() * u + most.y() * v).normalized();
 }
 
-std::optional<Vault> vault_over(const TriangleMesh& mesh, const Vec3& up) {
+std::optional<Vault> vault_over(const geometry::TriangleMesh& mesh, const Vec3& up) {
   double level = 1e300, top = -1e300;
   for (const Vec3& v : mesh.vertices) {
     level = std::min(level, up.dot(v));
@@ -115,7 +115,7 @@ std::optional<Vault> vault_over(const TriangleMesh& mesh, const Vec3& up) {
 }
 
 // A direction about upwards, made perpendicular to what faces down near the bottom.
-Vec3 levelled(const TriangleMesh& mesh, Vec3 up) {
+Vec3 levelled(const geometry::TriangleMesh& mesh, Vec3 up) {
   constexpr int kRounds = 4;  // what counts as facing down goes with it
   for (int round = 0; round < kRounds; ++round) {
     const double height = extent_of(mesh, up);
@@ -135,8 +135,8 @@ Vec3 levelled(const TriangleMesh& mesh, Vec3 up) {
 
 // A thing that stands on a flat base and is vaulted above, low enough to lie under a hand.
 std::optional<Vault> vault_of(const HoldScene& scene) {
-  const TriangleMesh& mesh = scene.product->mesh;
-  const Eigen::Matrix3d axes = face_axes_of(mesh).axes;
+  const geometry::TriangleMesh& mesh = scene.product->mesh;
+  const Eigen::Matrix3d axes = product::face_axes_of(mesh).axes;
   std::optional<Vault> found;
   if (scene.is_up_given) return vault_over(mesh, levelled(mesh, *scene.up));
   for (int k = 0; k < 3 && !found; ++k) {
@@ -154,11 +154,11 @@ bool lies_under_hand(const Vault& vault, double hand_length) {
          width < kHandSpan && height > kLeastHigh && height < kMostHigh;
 }
 
-Vec3 surface_below(const Product& product, const Vec3& from, const Vec3& direction) {
+Vec3 surface_below(const product::Product& product, const Vec3& from, const Vec3& direction) {
   const double longest = 2.0 * product.distance->bounding_box().diagonal().norm() + 1.0;
   double way = 0.0;
   for (int step = 0; step < 500 && way < longest; ++step) {
-    const DistanceSample sample = product.distance->at(from + way * direction);
+    const geometry::DistanceSample sample = product.distance->at(from + way * direction);
     if (sample.distance < 0.05) return sample.closest;
     way += std::max(sample.distance, 0.05);
   }
@@ -166,18 +166,18 @@ Vec3 surface_below(const Product& product, const Vec3& from, const Vec3& directi
 }
 
 // The hold of a hand that lies so, in the part's coordinates.
-Hold hold_of(Grip grip, const ProductPart& part, const LaidSite& site) {
+Hold hold_of(Grip grip, const product::ProductPart& part, const LaidSite& site) {
   Hold hold;
   hold.grip = grip;
   hold.part = part.number;
   hold.part_name = part.name;
   const auto turn_to = [&](double along, const Vec3& direction) {
-    const Rigid3 frame = part_frame(part, along, 0.0);
+    const geometry::Rigid3 frame = product::part_frame(part, along, 0.0);
     const Vec3 z = frame.rotation * Vec3::UnitZ(), axis = frame.rotation * Vec3::UnitX();
     return std::atan2(axis.cross(z).dot(direction), z.dot(direction));
   };
-  hold.along = std::clamp(place_of(part, site.knuckle).along, 0.0, 1.0);
-  const Vec3 axis = part_frame(part, hold.along, 0.0).rotation * Vec3::UnitX();
+  hold.along = std::clamp(product::place_of(part, site.knuckle).along, 0.0, 1.0);
+  const Vec3 axis = product::part_frame(part, hold.along, 0.0).rotation * Vec3::UnitX();
   if (std::abs(axis.dot(site.up)) > kAlongAxis) {
     hold.is_over_end = true;
     hold.along = axis.dot(site.up) > 0.0 ? 1.0 : 0.0;
@@ -190,11 +190,12 @@ Hold hold_of(Grip grip, const ProductPart& part, const LaidSite& site) {
 }
 
 int touching_of(const Grasp& grasp) {
-  int touching = grasp.stops[index_of(Segment::kPalm)].penetration > 0.0 ? 1 : 0;
-  for (int f = 0; f < kFingerCount; ++f) {
+  int touching = grasp.stops[index_of(hand::Segment::kPalm)].penetration > 0.0 ? 1 : 0;
+  for (int f = 0; f < hand::kFingerCount; ++f) {
     const bool touches =
         std::any_of(grasp.stops.begin(), grasp.stops.end(), [&](const SegmentStop& stop) {
-          return finger_of(stop.segment) == static_cast<Finger>(f) && stop.penetration > 0.0;
+          return hand::finger_of(stop.segment) == static_cast<hand::Finger>(f) &&
+                 stop.penetration > 0.0;
         });
     touching += touches ? 1 : 0;
   }
@@ -214,11 +215,11 @@ class LaidHolds {
 
   std::vector<RankedHold> find(const Progress& progress) {
     const double length = scene_.hand->dimensions.hand_length;
-    const ProductParts& parts = *scene_.parts;
+    const product::ProductParts& parts = *scene_.parts;
     const bool is_asked = options_.grip && is_laid(*options_.grip);
     const bool suits =
         !options_.grip && parts.parts.size() == 1 && vault_ && lies_under_hand(*vault_, length);
-    for (const ProductPart& part : parts.parts) {
+    for (const product::ProductPart& part : parts.parts) {
       if (!(is_asked || suits) || !is_part_asked(part, options_) || part.line.size() < 2) continue;
       progress.throw_if_cancelled();
       lay_on(part, options_.grip.value_or(Grip::kRestingHand));
@@ -231,7 +232,7 @@ class LaidHolds {
 
  private:
   // The directions that may be up: the one that is known, else both sides of the flattest way.
-  std::vector<Vec3> ups(const ProductPart& part) const {
+  std::vector<Vec3> ups(const product::ProductPart& part) const {
     if (scene_.is_up_given) return {*scene_.up};
     if (vault_) return {vault_->up};
     if (part.face_normal) return {*part.face_normal, -*part.face_normal};
@@ -242,14 +243,15 @@ class LaidHolds {
     return {shape.axes.col(least), -shape.axes.col(least)};
   }
 
-  void lay_on(const ProductPart& part, Grip grip) {
+  void lay_on(const product::ProductPart& part, Grip grip) {
     for (const Vec3& up : ups(part)) {
-      Vec3 along = vault_ ? vault_->along : part_frame(part, 0.5, 0.0).rotation * Vec3::UnitX();
+      Vec3 along =
+          vault_ ? vault_->along : product::part_frame(part, 0.5, 0.0).rotation * Vec3::UnitX();
       if (std::abs(along.dot(up)) > kAlongAxis) {
-        along = part_frame(part, 0.5, 0.0).rotation * Vec3::UnitZ();
+        along = product::part_frame(part, 0.5, 0.0).rotation * Vec3::UnitZ();
       }
       along = (along - up * up.dot(along)).normalized();
-      const Vec3 middle = part_frame(part, 0.5, 0.0).translation;
+      const Vec3 middle = product::part_frame(part, 0.5, 0.0).translation;
       for (const double sign : {1.0, -1.0}) {
         LaidSite site;
         site.up = up;
@@ -260,8 +262,8 @@ class LaidHolds {
         const Vec3 above = middle + at * site.fingers + 300.0 * up;
         site.knuckle = surface_below(*scene_.product, above, -up);
         const Vec3 thumb =
-            (scene_.hand->side == Side::kRight ? 1.0 : -1.0) * up.cross(site.fingers);
-        const double limit = std::cos(60.0 * kDegree);
+            (scene_.hand->side == hand::Side::kRight ? 1.0 : -1.0) * up.cross(site.fingers);
+        const double limit = std::cos(60.0 * geometry::kDegree);
         if (options_.toward && thumb.dot(options_.toward->normalized()) < limit) continue;
         add_laid(hold_of(grip, part, site), site);
       }
@@ -281,8 +283,8 @@ class LaidHolds {
       ranked.terms.push_back({"fingers' side", share, "", -kPerHump * std::max(0.0, 0.5 - share),
                               share < 0.45 ? "the palm on the lower end, the fingers on the hump"
                                            : "the fingers on the lower end"});
-      const Vec3 knuckle =
-          ranked.grasp.product_from_hand * scene_.hand->skeleton.joint(JointId::kMiddleMcp).centre;
+      const Vec3 knuckle = ranked.grasp.product_from_hand *
+                           scene_.hand->skeleton.joint(hand::JointId::kMiddleMcp).centre;
       const double off = std::abs(wanted.fingers.dot(vault_->highest - knuckle));
       const double z = off / kHumpSpread;
       ranked.terms.push_back(
@@ -292,7 +294,7 @@ class LaidHolds {
     const int touching = touching_of(ranked.grasp);
     ranked.terms.push_back(
         {"closing", static_cast<double>(touching), "",
-         closing_score(ranked.grasp) - kPerMissing * (kFingerCount + 1 - touching),
+         closing_score(ranked.grasp) - kPerMissing * (hand::kFingerCount + 1 - touching),
          ranked.grasp.message});
     ranked.hold = std::move(hold);
     found_.push_back(std::move(ranked));
@@ -307,32 +309,33 @@ class LaidHolds {
   }
 
   void push(const Progress& progress) {
-    const ProductParts& parts = *scene_.parts;
+    const product::ProductParts& parts = *scene_.parts;
     std::vector<std::pair<int, Vec3>> places;  // part, point
-    for (const PartButton& button : parts.buttons) {
+    for (const product::PartButton& button : parts.buttons) {
       if (places.size() < kMostButtons && is_part_asked(parts.parts[button.part - 1], options_)) {
         places.emplace_back(button.part, button.point);
       }
     }
     if (places.empty() && options_.grip && !parts.parts.empty()) {
       // No button: the middle of its top.
-      for (const ProductPart& part : parts.parts) {
+      for (const product::ProductPart& part : parts.parts) {
         if (!is_part_asked(part, options_) || part.line.size() < 2) continue;
         const Vec3 up = ups(part).front();
-        const Vec3 middle = part_frame(part, options_.along.value_or(0.5), 0.0).translation;
+        const Vec3 middle =
+            product::part_frame(part, options_.along.value_or(0.5), 0.0).translation;
         places.emplace_back(part.number, surface_below(*scene_.product, middle + 300.0 * up, -up));
         break;
       }
     }
     for (const auto& [number, point] : places) {
       progress.throw_if_cancelled();
-      const ProductPart& part = parts.parts[number - 1];
+      const product::ProductPart& part = parts.parts[number - 1];
       RankedHold ranked;
       ranked.grasp = close_finger_push(*scene_.hand, *scene_.product, point);
       ranked.hold.grip = Grip::kFingerPush;
       ranked.hold.part = number;
       ranked.hold.part_name = part.name;
-      ranked.hold.fingertips = {{Finger::kIndex, place_of(part, point)}};
+      ranked.hold.fingertips = {{hand::Finger::kIndex, product::place_of(part, point)}};
       ranked.hold.along = std::clamp(ranked.hold.fingertips.front().place.along, 0.0, 1.0);
       ranked.terms.push_back({"grip", 0.0, "", options_.grip ? 0.0 : kPushPrior,
                               parts.buttons.empty() ? "as asked for" : "a button is pressed"});
@@ -350,9 +353,10 @@ class LaidHolds {
 
 }  // namespace
 
-LaidSite laid_site_of(const Hold& hold, const ProductParts& parts, const Product& product) {
-  const ProductPart& part = part_of(hold, parts);
-  const Rigid3 frame = part_frame(part, hold.along, hold.turn);
+LaidSite laid_site_of(const Hold& hold, const product::ProductParts& parts,
+                      const product::Product& product) {
+  const product::ProductPart& part = part_of(hold, parts);
+  const geometry::Rigid3 frame = product::part_frame(part, hold.along, hold.turn);
   LaidSite site;
   if (hold.is_over_end) {
     site.up = (hold.along >= 0.5 ? 1.0 : -1.0) * (frame.rotation * Vec3::UnitX());
@@ -374,4 +378,4 @@ std::vector<RankedHold> laid_holds(const HoldScene& scene, const HoldOptions& op
   return LaidHolds(scene, options).find(progress);
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -17,7 +17,7 @@
 #include "palmar/grasp/power/grip_choice.h"
 #include "palmar/grasp/power/site_distance.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kFarPoint = 40.0;  // mm off the product; no hollow of a handle is wider
@@ -35,7 +35,7 @@ constexpr double kGridError = 1.0;       // mm; the quick distance is never that
 constexpr double kTouched = 0.5;  // mm; farther skin can't touch by the exact distance either
 
 // Turn of `facing` from the site's wide direction, for a turn asked for in the product's own frame.
-double turn_in_pose(const Hand& hand, const GripSite& site, double asked) {
+double turn_in_pose(const hand::Hand& hand, const GripSite& site, double asked) {
   // Zero: the coordinate axis that is most nearly perpendicular to the grip axis, made
   // perpendicular to it.
   int least = 0;
@@ -47,23 +47,23 @@ double turn_in_pose(const Hand& hand, const GripSite& site, double asked) {
   const Vec3 facing = Eigen::AngleAxisd(asked, site.axis) * zero;
   const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
   const double turn = std::atan2(site.axis.dot(wide.cross(facing)), wide.dot(facing));
-  return hand.side == Side::kRight ? turn : -turn;
+  return hand.side == hand::Side::kRight ? turn : -turn;
 }
 
 // The quick distance is right to a few hundredths of a millimetre: what went too deep by the exact
 // one is opened again at its own joint. How deep the palm stays, mm.
 double trim(const HandCloser& closer, const HeldProduct& product, const DepthLimits& limits,
-            Posture& posture) {
+            hand::Posture& posture) {
   auto depth = closer.depths(product, posture);
   for (int round = 0; round < kTrimRounds; ++round) {
     bool is_changed = false;
-    for (int s = 1; s < kSegmentCount; ++s) {
-      const auto segment = static_cast<Segment>(s);
+    for (int s = 1; s < hand::kSegmentCount; ++s) {
+      const auto segment = static_cast<hand::Segment>(s);
       const double excess = depth[s] - limits.finger;
       if (excess <= kTrimTolerance) continue;
-      const Joint& joint = closer.hand().skeleton.joint(joint_of(segment));
-      for (const JointDof& dof : joint.dofs) {
-        if (dof.dof == abduction_of(*finger_of(segment))) continue;
+      const hand::Joint& joint = closer.hand().skeleton.joint(hand::joint_of(segment));
+      for (const hand::JointDof& dof : joint.dofs) {
+        if (dof.dof == abduction_of(*hand::finger_of(segment))) continue;
         posture[dof.dof] = std::max(dof.lower, posture[dof.dof] - (excess + 0.01) / kTrimArm);
         is_changed = true;
       }
@@ -81,7 +81,7 @@ struct Sites {
 };
 
 // Middle of the surface that lies in a box, mm; nothing if none does.
-std::optional<Vec3> middle_of(const TriangleMesh& mesh, const Box3& region) {
+std::optional<Vec3> middle_of(const geometry::TriangleMesh& mesh, const Box3& region) {
   Vec3 moment = Vec3::Zero();
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
@@ -98,7 +98,8 @@ std::optional<Vec3> middle_of(const TriangleMesh& mesh, const Box3& region) {
   return Vec3(moment / area);
 }
 
-Sites find_sites(const Hand& hand, const Product& product, const PowerGraspOptions& options) {
+Sites find_sites(const hand::Hand& hand, const product::Product& product,
+                 const PowerGraspOptions& options) {
   Sites found;
   const PlacementRequest& asked = options.placement;
   GripSearchOptions search;
@@ -134,14 +135,15 @@ Sites find_sites(const Hand& hand, const Product& product, const PowerGraspOptio
 }
 
 // A wrap is called by its size unless it was asked for by name.
-Grip grip_of(Grip grip, const PowerGraspOptions& options, const GripSite& site, const Hand& hand) {
+Grip grip_of(Grip grip, const PowerGraspOptions& options, const GripSite& site,
+             const hand::Hand& hand) {
   if (options.grip || grip == Grip::kPowerSphere) return grip;
   return wrap_for(site.girth, hand.dimensions.hand_length);
 }
 
 struct Distances {
-  const DistanceField* quick;
-  const DistanceField* exact;
+  const geometry::DistanceField* quick;
+  const geometry::DistanceField* exact;
 };
 
 // Closes the hand on all of its skin and by the exact distance. The product gives way where closing
@@ -157,13 +159,13 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
   const double deep = std::min(kTouched, kGridError - std::min(limits.palm, limits.finger));
   const auto exact_deep = exact_where_touched(*distances.quick, *distances.exact, deep);
   const auto exact = exact_where_touched(*distances.quick, *distances.exact, kTouched);
-  const auto seen_by = [](HeldProduct seen, const DistanceField& field) {
+  const auto seen_by = [](HeldProduct seen, const geometry::DistanceField& field) {
     seen.distance = &field;
     return seen;
   };
-  Posture start = fine.start_posture(hold.style);
-  for (int f = 1; f < kFingerCount && may_give_way; ++f) {
-    const Dof dof = abduction_of(static_cast<Finger>(f));
+  hand::Posture start = fine.start_posture(hold.style);
+  for (int f = 1; f < hand::kFingerCount && may_give_way; ++f) {
+    const hand::Dof dof = abduction_of(static_cast<hand::Finger>(f));
     start[dof] = hold.posture[dof];
   }
   ThumbPose thumb_pose;
@@ -197,7 +199,7 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
 }
 
 /// Nobody holds it: the hand is shown beside the product, touching nothing.
-void place_beside(const Hand& hand, const Product& product, Grasp& grasp) {
+void place_beside(const hand::Hand& hand, const product::Product& product, Grasp& grasp) {
   const Box3 box = product.distance->bounding_box();
   const double beside = 0.5 * box.diagonal().norm() + 1.5 * hand.dimensions.hand_length;
   grasp.product_from_hand.translation = box.center() + Vec3(0.0, 0.0, -beside);
@@ -205,10 +207,11 @@ void place_beside(const Hand& hand, const Product& product, Grasp& grasp) {
 
 }  // namespace
 
-Grasp no_place(const Hand& hand, const Product& product) {
+Grasp no_place(const hand::Hand& hand, const product::Product& product) {
   Grasp grasp;
-  for (int s = 0; s < kSegmentCount; ++s) grasp.stops[s].segment = static_cast<Segment>(s);
-  grasp.posture = reference_posture(hand.skeleton);
+  for (int s = 0; s < hand::kSegmentCount; ++s)
+    grasp.stops[s].segment = static_cast<hand::Segment>(s);
+  grasp.posture = hand::reference_posture(hand.skeleton);
   grasp.status = GraspStatus::kNotGraspable;
   grasp.message = "no part of the product offers a hand a hold";
   place_beside(hand, product, grasp);
@@ -227,19 +230,19 @@ std::vector<ClosingStyle> styles_for(Grip grip, double diameter, double hand_len
   return {ClosingStyle{}};
 }
 
-PowerPlace find_power_place(const Hand& hand, const Product& product,
+PowerPlace find_power_place(const hand::Hand& hand, const product::Product& product,
                             const PowerGraspOptions& options, const Progress& progress) {
   PowerPlace result;
   Grasp& grasp = result.grasp;
-  for (int s = 0; s < kSegmentCount; ++s) {
-    grasp.stops[s].segment = static_cast<Segment>(s);
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    grasp.stops[s].segment = static_cast<hand::Segment>(s);
   }
-  grasp.posture = reference_posture(hand.skeleton);
+  grasp.posture = hand::reference_posture(hand.skeleton);
   progress.update(0.0, "finding a place to hold " + product.name);
   if (options.placement.at) {
     // A point of the grip's axis lies in the product, or in the hollow of a thin-walled one.
     const std::vector<Vec3> point = {*options.placement.at};
-    std::vector<DistanceSample> sample(1);
+    std::vector<geometry::DistanceSample> sample(1);
     product.distance->sample(point, 1e6, sample);
     if (sample.front().distance > kFarPoint) {
       grasp.status = GraspStatus::kNotGraspable;
@@ -279,8 +282,8 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
   progress.update(0.2, "trying ways to hold " + product.name);
   const DepthLimits asked{options.palm_limit_depth, options.finger_limit_depth};
   const HandCloser coarse(hand, kSearchSpacing);
-  std::vector<std::shared_ptr<const DistanceField>> near;
-  std::vector<const DistanceField*> distances;
+  std::vector<std::shared_ptr<const geometry::DistanceField>> near;
+  std::vector<const geometry::DistanceField*> distances;
   for (GripSite& candidate : sites) {
     if (near.size() == kTriedSites || candidate.score < kRival * sites.front().score) break;
     candidate.wall =
@@ -324,14 +327,15 @@ PowerPlace find_power_place(const Hand& hand, const Product& product,
 }
 
 Grasp close_at(const PowerPlace& place_found, const HandCloser& coarse, const HandCloser& fine,
-               const Product& product, const PowerGraspOptions& options, const Progress& progress) {
+               const product::Product& product, const PowerGraspOptions& options,
+               const Progress& progress) {
   progress.update(0.6, "closing the hand round " + product.name);
   const GripSite& site = place_found.site;
   const ClosedPose& hold = place_found.pose;
   Grasp grasp = place_found.grasp;
   const DepthLimits limits =
       limits_for({options.palm_limit_depth, options.finger_limit_depth}, site);
-  const DistanceField& quick = *place_found.quick;
+  const geometry::DistanceField& quick = *place_found.quick;
   Placement placement = hold.placement;
   if (!place_found.is_fixed) {
     placement = place(fine, quick, limits, hold.style, site, hold.placement.pose);
@@ -354,7 +358,7 @@ Grasp close_at(const PowerPlace& place_found, const HandCloser& coarse, const Ha
   return grasp;
 }
 
-PowerPlace carried_over(const PowerPlace& place_found, const Hand& reference,
+PowerPlace carried_over(const PowerPlace& place_found, const hand::Hand& reference,
                         const HandCloser& coarse, const HoldSite* at,
                         const PowerGraspOptions& options, const Progress& progress) {
   PowerPlace result = place_found;
@@ -377,4 +381,4 @@ PowerPlace carried_over(const PowerPlace& place_found, const Hand& reference,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

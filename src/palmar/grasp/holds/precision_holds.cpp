@@ -18,7 +18,7 @@
 #include "palmar/grasp/precision/ring_targets.h"
 #include "palmar/product/parts/part_spread.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 // How much rarer a precision grip is than the best for such a thing: choices, in the order in which
@@ -42,23 +42,23 @@ constexpr int kOutlineSides = 16;
 
 // Largest first, mm. Of a single part its own: principal axes of a cube are chance.
 Vec3 sorted_extents(const HoldScene& scene) {
-  const std::vector<ProductPart>& parts = scene.parts->parts;
-  const ProductPart& only = parts.front();
+  const std::vector<product::ProductPart>& parts = scene.parts->parts;
+  const product::ProductPart& only = parts.front();
   Vec3 extents = parts.size() > 1 ? body_shape(scene.product->mesh).extent
                                   : Vec3(only.length, only.width, only.thickness);
   std::sort(extents.begin(), extents.end(), std::greater<>());
   return extents;
 }
 
-std::vector<GripPrior> priors(const HoldScene& scene, const ProductPart& part,
+std::vector<GripPrior> priors(const HoldScene& scene, const product::ProductPart& part,
                               const Vec3& extents) {
   const double length = scene.hand->dimensions.hand_length;
   using enum Grip;
-  if (part.kind == PartKind::kPen) return {{kTripod, 0.0}, {kPalmarPinch, -1.5}};
+  if (part.kind == product::PartKind::kPen) return {{kTripod, 0.0}, {kPalmarPinch, -1.5}};
   if (extents[0] < kSmallThing * length) {
     if (extents[0] < kTinyThing * length) return {{kTipPinch, -0.3}, {kPalmarPinch, -0.5}};
     const bool is_box =
-        scene.parts->parts.size() == 1 && face_axes_of(scene.product->mesh).is_box();
+        scene.parts->parts.size() == 1 && product::face_axes_of(scene.product->mesh).is_box();
     // Fingertips spread round what is round; on a box they press on two faces.
     if (is_box && extents[2] >= kFlatThing * extents[1]) {
       return {{kTripod, -0.4}, {kPalmarPinch, -0.8}, {kPrecisionSphere, -1.0}};
@@ -66,7 +66,7 @@ std::vector<GripPrior> priors(const HoldScene& scene, const ProductPart& part,
     if (extents[2] < kFlatThing * extents[1]) return {{kLateral, -0.2}, {kPalmarPinch, -0.6}};
     return {{kPrecisionSphere, -0.4}, {kTripod, -0.6}, {kPalmarPinch, -1.2}};
   }
-  if (part.kind == PartKind::kPlate && part.thickness < kThinPlate) {
+  if (part.kind == product::PartKind::kPlate && part.thickness < kThinPlate) {
     // Who can span it takes it into the palm.
     const double spanned = part.width < kHandSpan * length ? 1.0 : 0.0;
     return {{kPalmarPinch, -1.5 - spanned}, {kLateral, -1.7 - spanned}};
@@ -76,7 +76,7 @@ std::vector<GripPrior> priors(const HoldScene& scene, const ProductPart& part,
 
 // How far in from the edge of a plate a point is (of its convex outline), mm.
 // Directions are counted from the plate's axis, so that they turn and mirror with it.
-double depth_from_edge(const TriangleMesh& mesh, const Vec3& normal, const Vec3& axis,
+double depth_from_edge(const geometry::TriangleMesh& mesh, const Vec3& normal, const Vec3& axis,
                        const Vec3& point) {
   const Vec3 u = (axis - normal * normal.dot(axis)).normalized(), v = normal.cross(u);
   double least = 1e300;
@@ -99,11 +99,11 @@ RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
   for (const FingertipContact& tip : grasp.fingertips) middle += tip.target;
   middle /= static_cast<double>(grasp.fingertips.size());
   hold.part = scene.parts->nearest(*scene.product, middle) + 1;
-  const ProductPart& part = scene.parts->parts[hold.part - 1];
+  const product::ProductPart& part = scene.parts->parts[hold.part - 1];
   hold.part_name = part.name;
-  hold.along = std::clamp(place_of(part, middle).along, 0.0, 1.0);
+  hold.along = std::clamp(product::place_of(part, middle).along, 0.0, 1.0);
   for (const FingertipContact& tip : grasp.fingertips) {
-    hold.fingertips.push_back({tip.finger, place_of(part, tip.target)});
+    hold.fingertips.push_back({tip.finger, product::place_of(part, tip.target)});
   }
   ranked.terms.push_back({"grip", 0.0, "", prior,
                           prior < -0.5 ? "seldom taken by the fingertips" : "taken by fingertips"});
@@ -118,7 +118,7 @@ RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
   ranked.terms.push_back({"moment of the weight", scene.weight * lever, "N mm",
                           -0.5 * std::log1p(ratio * ratio),
                           fmt::format("its weight is {:.0f} mm beside the grip", lever)});
-  if (part.kind == PartKind::kPlate && part.face_normal) {
+  if (part.kind == product::PartKind::kPlate && part.face_normal) {
     const double depth =
         depth_from_edge(scene.product->mesh, *part.face_normal, part.line.front().axis, middle);
     const double usual = kInFromEdge * scene.hand->dimensions.hand_length;
@@ -171,15 +171,15 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
       }
     }
   };
-  const ProductPart& largest = scene.parts->parts.front();
-  const bool is_wide_plate = !options.grip && largest.kind == PartKind::kPlate &&
+  const product::ProductPart& largest = scene.parts->parts.front();
+  const bool is_wide_plate = !options.grip && largest.kind == product::PartKind::kPlate &&
                              largest.thickness < kThinPlate &&
                              largest.width >= kHandSpan * scene.hand->dimensions.hand_length;
   if (is_wide_plate) {
     // What the hand doesn't span is taken by an edge: at either end of its longer axis.
     const double in = kInFromEdge * scene.hand->dimensions.hand_length / largest.length;
     for (const double along : {in, 1.0 - in}) {
-      try_grips(grips, part_frame(largest, along, 0.0).translation);
+      try_grips(grips, product::part_frame(largest, along, 0.0).translation);
     }
   } else {
     try_grips(grips, {});
@@ -187,14 +187,14 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
   if (options.grip || scene.parts->parts.size() < 2) return found;
   // A small knob on something larger; the stem of what has no handle.
   const double length = scene.hand->dimensions.hand_length;
-  for (const ProductPart& part : scene.parts->parts) {
+  for (const product::ProductPart& part : scene.parts->parts) {
     const bool is_small = std::max(part.length, part.width) < kSmallKnob * length;
-    const Vec3 middle = part_frame(part, 0.5, 0.0).translation;
-    if (part.kind == PartKind::kBar && !scene.has_handle && part.diameter() < kStem) {
+    const Vec3 middle = product::part_frame(part, 0.5, 0.0).translation;
+    if (part.kind == product::PartKind::kBar && !scene.has_handle && part.diameter() < kStem) {
       try_grips({{Grip::kTripod, -0.5}, {Grip::kPalmarPinch, -0.8}}, middle);
     }
-    if (!is_small || part.kind == PartKind::kPlate || part.kind == PartKind::kLoop ||
-        scene.is_handle[part.number - 1] == 0) {
+    if (!is_small || part.kind == product::PartKind::kPlate ||
+        part.kind == product::PartKind::kLoop || scene.is_handle[part.number - 1] == 0) {
       continue;
     }
     try_grips({{Grip::kPrecisionSphere, -0.3}, {Grip::kTripod, -0.3}}, middle);
@@ -202,4 +202,4 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
   return found;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -7,11 +7,11 @@
 #include "palmar/core/progress.h"
 #include "palmar/grasp/holds/hold_terms.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Precision and lateral holds that a product's shape suggests, or the one that is asked for, with
 /// the fingertips set down by close_precision_grip(). Scores aren't summed up yet.
 std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOptions& options,
                                         const Progress& progress);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -18,7 +18,7 @@
 #include "palmar/grasp/holds/precision_holds.h"
 #include "palmar/grasp/holds/twin_handles.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr std::size_t kClosed = 16;                 // holds that the hand is closed on
@@ -41,13 +41,13 @@ struct ClosedHold {
 
 // Fingers that a grip needs on the product, thumb included.
 int fingers_wanted(const HoldScene& scene, const Hold& hold) {
-  const ProductPart& part = part_of(hold, *scene.parts);
+  const product::ProductPart& part = part_of(hold, *scene.parts);
   const double finger = 0.25 * fingers_breadth(*scene.hand);
   int fingers = 4;
   if (part.opening) {
     fingers = std::clamp(static_cast<int>(part.opening->width / finger + 0.3), 1, 4);
   }
-  const bool has_thumb = hold.grip != Grip::kFixedHook || part.kind == PartKind::kLoop;
+  const bool has_thumb = hold.grip != Grip::kFixedHook || part.kind == product::PartKind::kLoop;
   return fingers + (has_thumb ? 1 : 0);
 }
 
@@ -108,16 +108,17 @@ std::string against(const std::vector<HoldTerm>& terms) {
 
 // Whether the whole product is round about a part's axis: then it is all one on which side of it
 // the palm is.
-bool is_round_about(const ProductPart& axis_of, const ProductParts& parts) {
+bool is_round_about(const product::ProductPart& axis_of, const product::ProductParts& parts) {
   constexpr double kRound = 0.08;  // width over thickness, less 1
   constexpr double kOff = 2.0;     // mm beside the axis; or a share of the width
-  const Rigid3 frame = part_frame(axis_of, 0.5, 0.0);
+  const geometry::Rigid3 frame = product::part_frame(axis_of, 0.5, 0.0);
   const Vec3 axis = frame.rotation * Vec3::UnitX();
-  for (const ProductPart& part : parts.parts) {
-    if (part.kind == PartKind::kLoop || part.is_ring || part.sections.empty()) return false;
+  for (const product::ProductPart& part : parts.parts) {
+    if (part.kind == product::PartKind::kLoop || part.is_ring || part.sections.empty())
+      return false;
     const double width = std::max(part.width, 1.0);
     if (part.width > (1.0 + kRound) * part.thickness) return false;
-    for (const PartStation& station : part.line) {
+    for (const product::PartStation& station : part.line) {
       const Vec3 r = station.centre - frame.translation;
       if ((r - axis * axis.dot(r)).norm() > std::max(kOff, 0.05 * width)) return false;
     }
@@ -125,26 +126,26 @@ bool is_round_about(const ProductPart& axis_of, const ProductParts& parts) {
   return true;
 }
 
-bool is_unlike(const Hand& hand, const ProductParts& parts, const RankedHold& a,
+bool is_unlike(const hand::Hand& hand, const product::ProductParts& parts, const RankedHold& a,
                const RankedHold& b) {
   if (a.hold.part != b.hold.part || is_power(a.hold.grip) != is_power(b.hold.grip)) return true;
   if (!is_power(a.hold.grip) && a.hold.grip != b.hold.grip) return true;
-  const ProductPart& part = part_of(a.hold, parts);
+  const product::ProductPart& part = part_of(a.hold, parts);
   if (is_power(a.hold.grip) && is_round_about(part, parts)) {
     constexpr double kElsewhere = 20.0;  // mm along it
     if (a.hold.is_over_end != b.hold.is_over_end) return true;
     if (a.hold.is_over_end) return a.hold.along != b.hold.along;
-    const Vec3 axis = part_frame(part, 0.5, 0.0).rotation * Vec3::UnitX();
+    const Vec3 axis = product::part_frame(part, 0.5, 0.0).rotation * Vec3::UnitX();
     const double apart = axis.dot(a.grasp.grip_point - b.grasp.grip_point);
     return a.hold.toward != b.hold.toward || std::abs(apart) > kElsewhere;
   }
   return differ(hand, a.grasp.product_from_hand, b.grasp.product_from_hand);
 }
 
-void check_part(const ProductParts& parts, const HoldOptions& options) {
+void check_part(const product::ProductParts& parts, const HoldOptions& options) {
   if (!options.part && options.part_name.empty()) return;
   std::string list;
-  for (const ProductPart& part : parts.parts) {
+  for (const product::ProductPart& part : parts.parts) {
     if (is_part_asked(part, options)) return;
     list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", part.number, part.name);
   }
@@ -181,12 +182,12 @@ void HoldOptions::check() const {
   depths.check();
 }
 
-RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptions& options,
-                       const Progress& progress) {
+RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
+                       const HoldOptions& options, const Progress& progress) {
   options.check();
   progress.update(0.0, "taking " + product.name + " apart");
   RankedHolds result;
-  result.parts = find_parts(product);
+  result.parts = product::find_parts(product);
   check_part(result.parts, options);
   const HoldScene scene = hold_scene(hand, product, result.parts, options);
   std::vector<ClosedHold> closed;
@@ -264,7 +265,8 @@ RankedHolds rank_holds(const Hand& hand, const Product& product, const HoldOptio
 
 namespace {
 
-std::string place_words(const Hold& hold, const ProductPart& part, const ProductParts& parts) {
+std::string place_words(const Hold& hold, const product::ProductPart& part,
+                        const product::ProductParts& parts) {
   if (std::abs(hold.edge) < 0.1 || part.is_ring) {
     return fmt::format(", {:.0f} % along it", 100.0 * std::clamp(hold.along, 0.0, 1.0));
   }
@@ -278,8 +280,8 @@ std::string place_words(const Hold& hold, const ProductPart& part, const Product
 
 }  // namespace
 
-std::string words_of(const Hold& hold, const ProductParts& parts) {
-  const ProductPart& part = part_of(hold, parts);
+std::string words_of(const Hold& hold, const product::ProductParts& parts) {
+  const product::ProductPart& part = part_of(hold, parts);
   std::string grip(name_of(hold.grip));
   std::replace(grip.begin(), grip.end(), '_', ' ');
   std::string words = fmt::format("{} of the {}", grip, part.name);
@@ -289,7 +291,7 @@ std::string words_of(const Hold& hold, const ProductParts& parts) {
   }
   if (!is_power(hold.grip)) return words;
   if (hold.is_over_end) return words + ", palm over its end";
-  if (part.kind == PartKind::kLoop) words += ", fingers through it";
+  if (part.kind == product::PartKind::kLoop) words += ", fingers through it";
   if (twin_of(part, parts) != nullptr) words += " and its twin";
   words += place_words(hold, part, parts);
   const std::size_t end = hold.toward > 0 ? 1 : 0;
@@ -301,4 +303,4 @@ std::string words_of(const Hold& hold, const ProductParts& parts) {
   return words;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

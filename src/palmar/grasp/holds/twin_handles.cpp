@@ -7,28 +7,29 @@
 
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kTwinLength = 1.5;                           // times
 constexpr double kNearestTwin = 10.0, kFarthestTwin = 100.0;  // mm
-const double kTwinAngle = std::cos(35.0 * kDegree);
+const double kTwinAngle = std::cos(35.0 * geometry::kDegree);
 
-bool is_arm(const ProductPart& part) {
-  return part.kind == PartKind::kBar && !part.joined.empty() && part.line.size() > 1 &&
+bool is_arm(const product::ProductPart& part) {
+  return part.kind == product::PartKind::kBar && !part.joined.empty() && part.line.size() > 1 &&
          (!part.ends[0].joined || !part.ends[1].joined);
 }
 
-Vec3 chord_of(const ProductPart& part) {
+Vec3 chord_of(const product::ProductPart& part) {
   return (part.line.back().centre - part.line.front().centre).normalized();
 }
 
 }  // namespace
 
-const ProductPart* twin_of(const ProductPart& part, const ProductParts& parts) {
+const product::ProductPart* twin_of(const product::ProductPart& part,
+                                    const product::ProductParts& parts) {
   // What stands before a handle and is as long is its trigger.
   if (!is_arm(part) || !parts.triggers.empty()) return nullptr;
-  for (const ProductPart& other : parts.parts) {
+  for (const product::ProductPart& other : parts.parts) {
     if (other.number == part.number || !is_arm(other)) continue;
     const bool meet = std::any_of(part.joined.begin(), part.joined.end(), [&](int number) {
       return number == other.number ||
@@ -51,4 +52,4 @@ const ProductPart* twin_of(const ProductPart& part, const ProductParts& parts) {
   return nullptr;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

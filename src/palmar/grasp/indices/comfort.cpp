@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr const char* kProbeSource =
@@ -89,15 +89,15 @@ std::string_view name_of(OnsetLevel level) {
   return "below";
 }
 
-ComfortResult assess_comfort(const Hand& hand, const ContactResult& contact) {
+ComfortResult assess_comfort(const hand::Hand& hand, const contact::ContactResult& contact) {
   if (!contact.force.empty() && (contact.force.size() != hand.region.size() ||
                                  contact.pressure.size() != hand.region.size())) {
     throw UsageError("comfort: contact of " + std::to_string(contact.force.size()) +
                      " vertices for a hand of " + std::to_string(hand.region.size()));
   }
   ComfortResult result;
-  std::array<int, kRegionCount> place{};
-  for (const RegionContact& region : contact.regions) {
+  std::array<int, hand::kRegionCount> place{};
+  for (const contact::RegionContact& region : contact.regions) {
     RegionComfort one;
     one.region = region.region;
     one.peak_pressure = region.peak_pressure_cells;
@@ -143,7 +143,7 @@ GraspIndices to_indices(const ComfortResult& result) {
            result.discomfort ? result.discomfort->above : 0,
            "number of regions whose peak pressure on a sensor cell is above that onset",
            kProbeSource)
-      .highest = kRegionCount;
+      .highest = hand::kRegionCount;
   rows.add("skin_above_50_kpa_mm2", "minutes: skin without blood flow", "mm2",
            result.sustained_area,
            "area of skin under more than 50 kPa, at which its blood flow stops; counts for grips "
@@ -163,4 +163,4 @@ GraspIndices to_indices(const ComfortResult& result) {
   return rows.rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -9,11 +9,11 @@
 #include "palmar/grasp/indices/grasp_index.h"
 #include "palmar/grasp/pressure_thresholds.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// One region's pressure and the onsets that it is compared with. MPa.
 struct RegionComfort {
-  Region region{};
+  hand::Region region{};
   double peak_pressure = 0.0;           ///< on a sensor cell of 24 mm^2
   double pain = 0.0, discomfort = 0.0;  ///< onsets under a probe
   double film_pain = 0.0;               ///< onset as a film's peak, for experts
@@ -23,7 +23,7 @@ struct RegionComfort {
 
 /// A region's pressure over its onset, for the region where that is largest.
 struct WorstRegion {
-  Region region{};
+  hand::Region region{};
   double pressure = 0.0;  ///< MPa, on a sensor cell
   double onset = 0.0;     ///< MPa
   int above = 0;          ///< regions whose pressure is above their onset
@@ -55,9 +55,9 @@ struct ComfortResult {
 };
 
 /// Throws UsageError if the contact is that of another hand.
-ComfortResult assess_comfort(const Hand& hand, const ContactResult& contact);
+ComfortResult assess_comfort(const hand::Hand& hand, const contact::ContactResult& contact);
 
 /// Rows of the group "comfort".
 GraspIndices to_indices(const ComfortResult& result);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

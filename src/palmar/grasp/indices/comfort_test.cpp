@@ -7,22 +7,22 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 using ::testing::HasSubstr;
 
 /// Vertices of 10 mm^2 each.
 struct Skin {
-  Hand hand;
-  ContactResult contact;
-  void add(Region region, double pressure) {
+  hand::Hand hand;
+  contact::ContactResult contact;
+  void add(hand::Region region, double pressure) {
     hand.region.push_back(region);
     contact.pressure.push_back(pressure);
     contact.force.push_back(10.0 * pressure);
   }
-  void add_region(Region region, double peak_cells, double mean) {
-    RegionContact one;
+  void add_region(hand::Region region, double peak_cells, double mean) {
+    contact::RegionContact one;
     one.region = region;
     one.peak_pressure = 2.0 * peak_cells;
     one.peak_pressure_cells = peak_cells;
@@ -41,15 +41,15 @@ double value(const GraspIndices& rows, const std::string& key) {
 
 TEST(PressureThresholds, AreThoseOfTheirSources) {
   // ISO/TS 15066:2016, Table A.2: 300, 260, 200 N/cm^2. Johansson et al. 1999.
-  EXPECT_EQ(pain_onset_film(Region::kIndexDistal), 3.0);
-  EXPECT_EQ(pain_onset_film(Region::kCentralPalm), 2.6);
-  EXPECT_EQ(pain_onset_film(Region::kThenar), 2.0);
-  EXPECT_EQ(pain_onset_film(Region::kDorsum), 2.0);
+  EXPECT_EQ(pain_onset_film(hand::Region::kIndexDistal), 3.0);
+  EXPECT_EQ(pain_onset_film(hand::Region::kCentralPalm), 2.6);
+  EXPECT_EQ(pain_onset_film(hand::Region::kThenar), 2.0);
+  EXPECT_EQ(pain_onset_film(hand::Region::kDorsum), 2.0);
   EXPECT_EQ(name_of(PressureFamily::kFilm), "film_peak");
   // The abstract of Johansson et al. 1999: discomfort at 38, 40 and 22 % of the onset of pain.
   for (const auto& [region, share] :
-       {std::pair{Region::kThumbDistal, 0.38}, std::pair{Region::kHypothenar, 0.40},
-        std::pair{Region::kThenar, 0.22}}) {
+       {std::pair{hand::Region::kThumbDistal, 0.38}, std::pair{hand::Region::kHypothenar, 0.40},
+        std::pair{hand::Region::kThenar, 0.22}}) {
     EXPECT_NEAR(discomfort_onset_probe(region) / pain_onset_probe(region), share, 0.006)
         << name_of(region);
   }
@@ -57,24 +57,24 @@ TEST(PressureThresholds, AreThoseOfTheirSources) {
 
 TEST(Comfort, EachQuestionHasItsScale) {
   Skin skin;
-  skin.add(Region::kIndexDistal, 0.04);  // blood flows
-  skin.add(Region::kIndexDistal, 0.06);  // it doesn't
-  skin.add(Region::kThenar, 0.45);
-  skin.add(Region::kThenar, 0.30);
-  skin.add(Region::kThenar, 0.0);                      // not in contact
-  skin.add_region(Region::kIndexDistal, 0.248, 0.05);  // half the onset of pain, 0.496
-  skin.add_region(Region::kThenar, 0.15, 0.1);         // 1.5 times the onset of discomfort, 0.100
+  skin.add(hand::Region::kIndexDistal, 0.04);  // blood flows
+  skin.add(hand::Region::kIndexDistal, 0.06);  // it doesn't
+  skin.add(hand::Region::kThenar, 0.45);
+  skin.add(hand::Region::kThenar, 0.30);
+  skin.add(hand::Region::kThenar, 0.0);                      // not in contact
+  skin.add_region(hand::Region::kIndexDistal, 0.248, 0.05);  // half the onset of pain, 0.496
+  skin.add_region(hand::Region::kThenar, 0.15, 0.1);  // 1.5 times the onset of discomfort, 0.100
   const ComfortResult found = assess_comfort(skin.hand, skin.contact);
   EXPECT_NEAR(found.area, 40.0, 1e-12);
   EXPECT_NEAR(found.sustained_area, 30.0, 1e-12);
   EXPECT_NEAR(found.sustained_share, 0.75, 1e-12);
   ASSERT_TRUE(found.pain && found.discomfort && found.film);
-  EXPECT_EQ(found.pain->region, Region::kIndexDistal);
+  EXPECT_EQ(found.pain->region, hand::Region::kIndexDistal);
   EXPECT_NEAR(found.pain->share(), 0.5, 1e-12);
   EXPECT_EQ(level_of(*found.pain), OnsetLevel::kNear);
   EXPECT_EQ(found.pain->above, 0);
   // Nearest to pain and most uncomfortable are different places: the thenar is the more sensitive.
-  EXPECT_EQ(found.discomfort->region, Region::kThenar);
+  EXPECT_EQ(found.discomfort->region, hand::Region::kThenar);
   EXPECT_NEAR(found.discomfort->share(), 1.5, 1e-12);
   EXPECT_EQ(level_of(*found.discomfort), OnsetLevel::kAbove);
   EXPECT_EQ(found.discomfort->above, 2);  // 0.248 > 0.188, too
@@ -88,8 +88,8 @@ TEST(Comfort, EachQuestionHasItsScale) {
 
 TEST(Comfort, WhatHurtsIsUncomfortable) {
   // One scale: nothing is said to hurt that isn't said to be uncomfortable, at any pressure.
-  for (int r = 0; r < kRegionCount; ++r) {
-    const auto region = static_cast<Region>(r);
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    const auto region = static_cast<hand::Region>(r);
     for (double pressure = 0.02; pressure < 1.0; pressure += 0.02) {
       Skin skin;
       skin.add(region, pressure);
@@ -104,8 +104,8 @@ TEST(Comfort, WhatHurtsIsUncomfortable) {
 
 TEST(Comfort, EveryRowSaysItsQuestionAndSource) {
   Skin skin;
-  skin.add(Region::kThenar, 0.2);
-  skin.add_region(Region::kThenar, 0.2, 0.1);
+  skin.add(hand::Region::kThenar, 0.2);
+  skin.add_region(hand::Region::kThenar, 0.2, 0.1);
   for (const GraspIndex& row : to_indices(assess_comfort(skin.hand, skin.contact))) {
     EXPECT_EQ(row.group, "comfort");
     EXPECT_EQ(row.better, Better::kDown);
@@ -124,9 +124,9 @@ TEST(Comfort, MorePressureIsNeverMoreComfortable) {
   double last = 0.0;
   for (const double p : {0.01, 0.05, 0.2, 0.5, 1.0, 3.0}) {
     Skin skin;
-    skin.add(Region::kThenar, p);
-    skin.add(Region::kThenar, 0.5 * p);
-    skin.add_region(Region::kThenar, p, 0.75 * p);
+    skin.add(hand::Region::kThenar, p);
+    skin.add(hand::Region::kThenar, 0.5 * p);
+    skin.add_region(hand::Region::kThenar, p, 0.75 * p);
     const ComfortResult found = assess_comfort(skin.hand, skin.contact);
     const double sum = found.sustained_share + found.pain->share() + found.discomfort->share();
     EXPECT_GT(sum, last);
@@ -135,7 +135,7 @@ TEST(Comfort, MorePressureIsNeverMoreComfortable) {
 }
 
 TEST(Comfort, NothingTouchedHasNoValues) {
-  const ComfortResult found = assess_comfort(Hand{}, ContactResult{});
+  const ComfortResult found = assess_comfort(hand::Hand{}, contact::ContactResult{});
   EXPECT_FALSE(found.pain.has_value());
   for (const GraspIndex& row : to_indices(found)) {
     EXPECT_FALSE(row.value.has_value());
@@ -145,9 +145,9 @@ TEST(Comfort, NothingTouchedHasNoValues) {
 
 TEST(Comfort, ContactOfAnotherHandIsRefused) {
   Skin skin;
-  skin.add(Region::kThenar, 0.2);
-  EXPECT_THROW(assess_comfort(Hand{}, skin.contact), UsageError);
+  skin.add(hand::Region::kThenar, 0.2);
+  EXPECT_THROW(assess_comfort(hand::Hand{}, skin.contact), UsageError);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 /// Vertices with less than this share of the largest vertex force hold nothing worth reporting.
@@ -24,10 +24,10 @@ struct LoadedVertex {
   double force = 0.0;           ///< N
 };
 
-std::array<std::vector<LoadedVertex>, kRegionCount> loaded_by_region(const Hand& hand,
-                                                                     const ContactResult& contact) {
+std::array<std::vector<LoadedVertex>, hand::kRegionCount> loaded_by_region(
+    const hand::Hand& hand, const contact::ContactResult& contact) {
   constexpr double kClear = 0.05;  // mm; a direction over less than this is unsure
-  std::array<std::vector<LoadedVertex>, kRegionCount> loaded;
+  std::array<std::vector<LoadedVertex>, hand::kRegionCount> loaded;
   if (contact.force.empty()) return loaded;
   const double least = kLeastForce * *std::max_element(contact.force.begin(), contact.force.end());
   std::vector<Vec3> skin_normal;
@@ -39,7 +39,7 @@ std::array<std::vector<LoadedVertex>, kRegionCount> loaded_by_region(const Hand&
       one.normal = -way.normalized();
     } else {
       if (skin_normal.empty()) {
-        skin_normal = area_weighted_normals(contact.deformed, hand.skin.triangles);
+        skin_normal = geometry::area_weighted_normals(contact.deformed, hand.skin.triangles);
       }
       one.normal = skin_normal[v];
     }
@@ -102,11 +102,11 @@ std::vector<int> grouped(const std::vector<LoadedVertex>& loaded, int count) {
 
 /// How many contacts each region gets: one each as long as there are any, then a second to those
 /// with the largest force, and so on.
-std::array<int, kRegionCount> shares(const std::array<double, kRegionCount>& force,
-                                     const std::array<std::size_t, kRegionCount>& vertices,
-                                     const ReductionOptions& options) {
-  std::array<int, kRegionCount> order{}, count{};
-  for (int r = 0; r < kRegionCount; ++r) order[r] = r;
+std::array<int, hand::kRegionCount> shares(
+    const std::array<double, hand::kRegionCount>& force,
+    const std::array<std::size_t, hand::kRegionCount>& vertices, const ReductionOptions& options) {
+  std::array<int, hand::kRegionCount> order{}, count{};
+  for (int r = 0; r < hand::kRegionCount; ++r) order[r] = r;
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return force[a] > force[b]; });
   int left = options.max_contacts;
   for (int pass = 0; pass < options.per_region; ++pass) {
@@ -119,7 +119,7 @@ std::array<int, kRegionCount> shares(const std::array<double, kRegionCount>& for
   return count;
 }
 
-void add_contacts(const std::vector<LoadedVertex>& loaded, int count, Region region,
+void add_contacts(const std::vector<LoadedVertex>& loaded, int count, hand::Region region,
                   const ReductionOptions& options, std::vector<GraspContact>& contacts) {
   const std::vector<int> group = grouped(loaded, count);
   for (int k = 0; k < count; ++k) {
@@ -163,7 +163,8 @@ void ReductionOptions::check() const {
           "friction coefficient is " + std::to_string(friction) + "; 0 to 5 is allowed");
 }
 
-std::vector<GraspContact> reduce_contact(const Hand& hand, const ContactResult& contact,
+std::vector<GraspContact> reduce_contact(const hand::Hand& hand,
+                                         const contact::ContactResult& contact,
                                          const ReductionOptions& options) {
   options.check();
   if (!contact.force.empty() && contact.force.size() != hand.region.size()) {
@@ -171,20 +172,20 @@ std::vector<GraspContact> reduce_contact(const Hand& hand, const ContactResult& 
                      " vertices for a hand of " + std::to_string(hand.region.size()));
   }
   const auto loaded = loaded_by_region(hand, contact);
-  std::array<double, kRegionCount> force{};
-  std::array<std::size_t, kRegionCount> vertices{};
+  std::array<double, hand::kRegionCount> force{};
+  std::array<std::size_t, hand::kRegionCount> vertices{};
   for (std::size_t r = 0; r < loaded.size(); ++r) {
     vertices[r] = loaded[r].size();
     for (const LoadedVertex& one : loaded[r]) force[r] += one.force;
   }
-  const std::array<int, kRegionCount> count = shares(force, vertices, options);
+  const std::array<int, hand::kRegionCount> count = shares(force, vertices, options);
   std::vector<GraspContact> contacts;
   for (std::size_t r = 0; r < loaded.size(); ++r) {
     if (count[r] > 0) {
-      add_contacts(loaded[r], count[r], static_cast<Region>(r), options, contacts);
+      add_contacts(loaded[r], count[r], static_cast<hand::Region>(r), options, contacts);
     }
   }
   return contacts;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

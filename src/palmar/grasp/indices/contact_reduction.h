@@ -7,7 +7,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/grasp/indices/wrench_space.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 struct ReductionOptions {
   int per_region = 2;      ///< contacts at most per region of the hand, 1 to 16
@@ -33,7 +33,8 @@ struct ReductionOptions {
 ///
 /// The normal of a vertex is the way on which it was moved onto the product; where that is shorter
 /// than 0.05 mm, the deformed skin's own.
-std::vector<GraspContact> reduce_contact(const Hand& hand, const ContactResult& contact,
+std::vector<GraspContact> reduce_contact(const hand::Hand& hand,
+                                         const contact::ContactResult& contact,
                                          const ReductionOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -16,7 +16,7 @@
 #include "palmar/core/error.h"
 #include "palmar/grasp/rest/cone_projection.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kRankTolerance = 1e-6;  // of the largest singular value
@@ -590,4 +590,4 @@ template double support<6>(const PointGroups<6>&, const Eigen::Matrix<double, 6,
 template BodyMeasures<3> measure<3>(const PointGroups<3>&, const BodyOptions&);
 template BodyMeasures<6> measure<6>(const PointGroups<6>&, const BodyOptions&);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A convex body in D dimensions: sum over groups g of s_g x_g with x_g in the convex hull of the
 /// group's points and 0 <= s_g <= 1 (each group on its own), or with sum_g s_g <= 1 (all groups
@@ -69,4 +69,4 @@ extern template double support<6>(const PointGroups<6>&, const Eigen::Matrix<dou
 extern template BodyMeasures<3> measure<3>(const PointGroups<3>&, const BodyOptions&);
 extern template BodyMeasures<6> measure<6>(const PointGroups<6>&, const BodyOptions&);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

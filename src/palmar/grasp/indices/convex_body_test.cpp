@@ -12,7 +12,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 using Point6 = Eigen::Matrix<double, 6, 1>;
@@ -149,4 +149,4 @@ TEST(ConvexBody, RefusesPointsThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -9,10 +9,10 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
-constexpr double kLeastVariance = kDegree * kDegree;  // rad^2
+constexpr double kLeastVariance = geometry::kDegree * geometry::kDegree;  // rad^2
 
 /// One joint of the construction: angle = mean + spread (first z1 + second z2 + own z_own + what it
 /// shares with others), all z standard normal.
@@ -28,73 +28,73 @@ ConstructedJoint from_range(double lower, double upper, double first, double sec
   return {0.5 * (lower + upper), (upper - lower) / (2.0 * kQuantile95), first, second, own};
 }
 
-ConstructedJoint constructed(Dof dof) {
+ConstructedJoint constructed(hand::Dof dof) {
   // Squares of the two loadings leave 6 to 9 % of the variance for flexion of middle to little
   // finger, more for the index finger and most for the thumb.
   switch (dof) {
-    case Dof::kThumbCmcFlexion:
+    case hand::Dof::kThumbCmcFlexion:
       return {12.0, 12.0, 0.3, 0.1, 1.0};
-    case Dof::kThumbCmcAbduction:
+    case hand::Dof::kThumbCmcAbduction:
       return {42.0, 12.0, -0.3, 0.2, 1.0};
-    case Dof::kThumbMpFlexion:
+    case hand::Dof::kThumbMpFlexion:
       return {21.0, 12.0, 0.3, 0.2, 1.0};
-    case Dof::kThumbIpFlexion:
+    case hand::Dof::kThumbIpFlexion:
       return {18.0, 12.0, 0.3, 0.2, 1.0};
-    case Dof::kIndexMcpFlexion:
+    case hand::Dof::kIndexMcpFlexion:
       return from_range(19.0, 71.0, 0.76, -0.52, 1.0);
-    case Dof::kMiddleMcpFlexion:
-    case Dof::kRingMcpFlexion:
-    case Dof::kLittleMcpFlexion:
+    case hand::Dof::kMiddleMcpFlexion:
+    case hand::Dof::kRingMcpFlexion:
+    case hand::Dof::kLittleMcpFlexion:
       return from_range(19.0, 71.0, 0.82, -0.52, 0.5);
-    case Dof::kIndexPipFlexion:
+    case hand::Dof::kIndexPipFlexion:
       return from_range(23.0, 87.0, 0.72, 0.60, 0.7);
-    case Dof::kMiddlePipFlexion:
-    case Dof::kRingPipFlexion:
-    case Dof::kLittlePipFlexion:
+    case hand::Dof::kMiddlePipFlexion:
+    case hand::Dof::kRingPipFlexion:
+    case hand::Dof::kLittlePipFlexion:
       return from_range(23.0, 87.0, 0.76, 0.60, 0.5);
-    case Dof::kIndexDipFlexion:
+    case hand::Dof::kIndexDipFlexion:
       return from_range(10.0, 64.0, 0.70, 0.60, 0.5);
-    case Dof::kMiddleDipFlexion:
-    case Dof::kRingDipFlexion:
-    case Dof::kLittleDipFlexion:
+    case hand::Dof::kMiddleDipFlexion:
+    case hand::Dof::kRingDipFlexion:
+    case hand::Dof::kLittleDipFlexion:
       return from_range(10.0, 64.0, 0.74, 0.60, 0.4);
     // Fingers close up as they flex: the index deviates less to the thumb's side, ring and little
     // finger more. Means are departures from the reference posture.
-    case Dof::kIndexMcpAbduction:
+    case hand::Dof::kIndexMcpAbduction:
       return {0.0, 5.0, -0.5, 0.0, 1.0};
-    case Dof::kMiddleMcpAbduction:
+    case hand::Dof::kMiddleMcpAbduction:
       return {0.0, 3.0, 0.0, 0.0, 1.0};
-    case Dof::kRingMcpAbduction:
+    case hand::Dof::kRingMcpAbduction:
       return {0.0, 4.0, 0.4, 0.0, 1.0};
-    case Dof::kLittleMcpAbduction:
+    case hand::Dof::kLittleMcpAbduction:
       return {0.0, 5.0, 0.5, 0.0, 1.0};
     default:
       return {};
   }
 }
 
-bool is_finger_abduction(Dof dof) {
-  return dof == Dof::kIndexMcpAbduction || dof == Dof::kMiddleMcpAbduction ||
-         dof == Dof::kRingMcpAbduction || dof == Dof::kLittleMcpAbduction;
+bool is_finger_abduction(hand::Dof dof) {
+  return dof == hand::Dof::kIndexMcpAbduction || dof == hand::Dof::kMiddleMcpAbduction ||
+         dof == hand::Dof::kRingMcpAbduction || dof == hand::Dof::kLittleMcpAbduction;
 }
 
 /// Joints that share what the synergies leave over: MCP flexion of neighbours, and PIP with DIP of
 /// one finger.
-int shared_group(Dof dof) {
+int shared_group(hand::Dof dof) {
   switch (dof) {
-    case Dof::kMiddleMcpFlexion:
-    case Dof::kRingMcpFlexion:
-    case Dof::kLittleMcpFlexion:
+    case hand::Dof::kMiddleMcpFlexion:
+    case hand::Dof::kRingMcpFlexion:
+    case hand::Dof::kLittleMcpFlexion:
       return 1;
-    case Dof::kIndexPipFlexion:
-    case Dof::kIndexDipFlexion:
+    case hand::Dof::kIndexPipFlexion:
+    case hand::Dof::kIndexDipFlexion:
       return 2;
-    case Dof::kMiddlePipFlexion:
-    case Dof::kMiddleDipFlexion:
-    case Dof::kRingPipFlexion:
-    case Dof::kRingDipFlexion:
-    case Dof::kLittlePipFlexion:
-    case Dof::kLittleDipFlexion:
+    case hand::Dof::kMiddlePipFlexion:
+    case hand::Dof::kMiddleDipFlexion:
+    case hand::Dof::kRingPipFlexion:
+    case hand::Dof::kRingDipFlexion:
+    case hand::Dof::kLittlePipFlexion:
+    case hand::Dof::kLittleDipFlexion:
       return 3;
     default:
       return 0;
@@ -103,7 +103,7 @@ int shared_group(Dof dof) {
 
 }  // namespace
 
-DigitAngles digit_angles(const Posture& posture) {
+DigitAngles digit_angles(const hand::Posture& posture) {
   DigitAngles angles;
   for (int k = 0; k < kDigitDofCount; ++k) angles[k] = posture[digit_dof(k)];
   return angles;
@@ -137,7 +137,7 @@ CoordinationBasis coordination_basis(const DigitAngles& mean, const DigitMatrix&
   return basis;
 }
 
-CoordinationBasis coordination_basis(const std::vector<Posture>& postures,
+CoordinationBasis coordination_basis(const std::vector<hand::Posture>& postures,
                                      const std::string& source) {
   if (static_cast<int>(postures.size()) < kLeastPostures) {
     throw UsageError("ease: " + source + " has " + std::to_string(postures.size()) +
@@ -146,9 +146,9 @@ CoordinationBasis coordination_basis(const std::vector<Posture>& postures,
   }
   const auto count = static_cast<double>(postures.size());
   DigitAngles mean = DigitAngles::Zero();
-  for (const Posture& posture : postures) mean += digit_angles(posture) / count;
+  for (const hand::Posture& posture : postures) mean += digit_angles(posture) / count;
   DigitMatrix covariance = DigitMatrix::Zero();
-  for (const Posture& posture : postures) {
+  for (const hand::Posture& posture : postures) {
     const DigitAngles away = digit_angles(posture) - mean;
     covariance += away * away.transpose() / (count - 1.0);
   }
@@ -157,13 +157,14 @@ CoordinationBasis coordination_basis(const std::vector<Posture>& postures,
   return basis;
 }
 
-CoordinationBasis built_in_coordination(const Skeleton& skeleton) {
+CoordinationBasis built_in_coordination(const hand::Skeleton& skeleton) {
   DigitAngles mean;
   DigitMatrix covariance;
   for (int i = 0; i < kDigitDofCount; ++i) {
-    const Dof dof = digit_dof(i);
+    const hand::Dof dof = digit_dof(i);
     const ConstructedJoint a = constructed(dof);
-    mean[i] = kDegree * a.mean + (is_finger_abduction(dof) ? skeleton.dof(dof).reference : 0.0);
+    mean[i] =
+        geometry::kDegree * a.mean + (is_finger_abduction(dof) ? skeleton.dof(dof).reference : 0.0);
     for (int k = 0; k < kDigitDofCount; ++k) {
       const ConstructedJoint b = constructed(digit_dof(k));
       double correlation = a.first * b.first + a.second * b.second;
@@ -175,7 +176,7 @@ CoordinationBasis built_in_coordination(const Skeleton& skeleton) {
       } else if (group != 0 && group == shared_group(digit_dof(k))) {
         correlation += rest * std::sqrt((1.0 - a.own) * (1.0 - b.own));
       }
-      covariance(i, k) = kDegree * kDegree * a.spread * b.spread * correlation;
+      covariance(i, k) = geometry::kDegree * geometry::kDegree * a.spread * b.spread * correlation;
     }
   }
   return coordination_basis(
@@ -184,7 +185,7 @@ CoordinationBasis built_in_coordination(const Skeleton& skeleton) {
       "synergies after Santello et al. 1998, spread of thumb and abduction assumed");
 }
 
-CoordinationDistance distance_to(const CoordinationBasis& basis, const Posture& posture) {
+CoordinationDistance distance_to(const CoordinationBasis& basis, const hand::Posture& posture) {
   CoordinationDistance result;
   const DigitAngles z = basis.component.transpose() * (digit_angles(posture) - basis.mean);
   double inside = 0.0, outside = 0.0;
@@ -202,4 +203,4 @@ CoordinationDistance distance_to(const CoordinationBasis& basis, const Posture& 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

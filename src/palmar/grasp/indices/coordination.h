@@ -9,15 +9,17 @@
 
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// The degrees of freedom of the digits: all but the wrist's, in the order of Dof.
 inline constexpr int kDigitDofCount = 20;
-constexpr Dof digit_dof(int k) { return static_cast<Dof>(kDofCount - kDigitDofCount + k); }
+constexpr hand::Dof digit_dof(int k) {
+  return static_cast<hand::Dof>(hand::kDofCount - kDigitDofCount + k);
+}
 
 using DigitAngles = Eigen::Matrix<double, kDigitDofCount, 1>;
 using DigitMatrix = Eigen::Matrix<double, kDigitDofCount, kDigitDofCount>;
-DigitAngles digit_angles(const Posture& posture);  ///< rad
+DigitAngles digit_angles(const hand::Posture& posture);  ///< rad
 
 /// How the joints of the digits go together in natural grasps: mean and covariance of their angles
 /// and the principal components of that, largest first.
@@ -41,7 +43,7 @@ CoordinationBasis coordination_basis(const DigitAngles& mean, const DigitMatrix&
                                      const std::string& source);
 
 /// From measured postures, at least kLeastPostures. Throws UsageError for fewer.
-CoordinationBasis coordination_basis(const std::vector<Posture>& postures,
+CoordinationBasis coordination_basis(const std::vector<hand::Posture>& postures,
                                      const std::string& source);
 inline constexpr int kLeastPostures = 30;
 
@@ -58,7 +60,7 @@ inline constexpr int kLeastPostures = 30;
 ///   PIP joints flexing together with the fingers closing up, the second MCP extending while PIP
 ///   flex (Santello et al. 1998: 84 %); DIP with PIP (Rijkpema and Girard 1991); thumb and index
 ///   finger the most independent (Ingram et al. 2008). Loadings were chosen to agree with these.
-CoordinationBasis built_in_coordination(const Skeleton& skeleton);
+CoordinationBasis built_in_coordination(const hand::Skeleton& skeleton);
 
 /// Where a posture lies to a basis.
 struct CoordinationDistance {
@@ -69,6 +71,6 @@ struct CoordinationDistance {
   double outside = 0.0;  ///< root mean square of what the retained components leave over, rad
   DigitAngles score = DigitAngles::Zero();  ///< z_k / sqrt(variance_k) for every component
 };
-CoordinationDistance distance_to(const CoordinationBasis& basis, const Posture& posture);
+CoordinationDistance distance_to(const CoordinationBasis& basis, const hand::Posture& posture);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -12,30 +12,30 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/grasp/indices/ease.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 /// Joints with ranges alone; that is all that ease asks of a skeleton.
-Skeleton plain_skeleton() {
-  Skeleton skeleton;
-  for (int d = 0; d < kDofCount; ++d) {
-    JointDof dof;
-    dof.dof = static_cast<Dof>(d);
-    dof.lower = -10.0 * kDegree;
-    dof.upper = 90.0 * kDegree;
+hand::Skeleton plain_skeleton() {
+  hand::Skeleton skeleton;
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    hand::JointDof dof;
+    dof.dof = static_cast<hand::Dof>(d);
+    dof.lower = -10.0 * geometry::kDegree;
+    dof.upper = 90.0 * geometry::kDegree;
     skeleton.joints[0].dofs.push_back(dof);
   }
   return skeleton;
 }
 
-int place(Dof dof) { return static_cast<int>(dof) - (kDofCount - kDigitDofCount); }
+int place(hand::Dof dof) { return static_cast<int>(dof) - (hand::kDofCount - kDigitDofCount); }
 
 TEST(Coordination, WristDoesNotCount) {
-  EXPECT_EQ(digit_dof(0), Dof::kThumbCmcFlexion);
-  EXPECT_EQ(digit_dof(kDigitDofCount - 1), Dof::kLittleDipFlexion);
+  EXPECT_EQ(digit_dof(0), hand::Dof::kThumbCmcFlexion);
+  EXPECT_EQ(digit_dof(kDigitDofCount - 1), hand::Dof::kLittleDipFlexion);
   const CoordinationBasis basis = built_in_coordination(plain_skeleton());
-  Posture posture, turned;
-  turned[Dof::kWristFlexion] = 1.0;
+  hand::Posture posture, turned;
+  turned[hand::Dof::kWristFlexion] = 1.0;
   EXPECT_EQ(distance_to(basis, posture).distance, distance_to(basis, turned).distance);
 }
 
@@ -46,16 +46,17 @@ TEST(Coordination, BuiltInBasisHasWhatSantelloFound) {
   const double two = basis.variance[0] + basis.variance[1];
   EXPECT_GT(two / basis.variance.sum(), 0.8);
   EXPECT_LT(two / basis.variance.sum(), 0.9);
-  for (const Dof dof : {Dof::kIndexMcpFlexion, Dof::kMiddleMcpFlexion, Dof::kRingMcpFlexion,
-                        Dof::kLittleMcpFlexion, Dof::kIndexPipFlexion, Dof::kMiddlePipFlexion,
-                        Dof::kRingPipFlexion, Dof::kLittlePipFlexion}) {
+  for (const hand::Dof dof :
+       {hand::Dof::kIndexMcpFlexion, hand::Dof::kMiddleMcpFlexion, hand::Dof::kRingMcpFlexion,
+        hand::Dof::kLittleMcpFlexion, hand::Dof::kIndexPipFlexion, hand::Dof::kMiddlePipFlexion,
+        hand::Dof::kRingPipFlexion, hand::Dof::kLittlePipFlexion}) {
     EXPECT_GT(basis.component(place(dof), 0), 0.1) << name_of(dof);
   }
-  const double mcp = basis.component(place(Dof::kMiddleMcpFlexion), 1);
-  const double pip = basis.component(place(Dof::kMiddlePipFlexion), 1);
+  const double mcp = basis.component(place(hand::Dof::kMiddleMcpFlexion), 1);
+  const double pip = basis.component(place(hand::Dof::kMiddlePipFlexion), 1);
   EXPECT_LT(mcp * pip, 0.0);
   // DIP flexes with PIP (Rijkpema, Girard 1991).
-  const int p = place(Dof::kRingPipFlexion), d = place(Dof::kRingDipFlexion);
+  const int p = place(hand::Dof::kRingPipFlexion), d = place(hand::Dof::kRingDipFlexion);
   EXPECT_GT(basis.covariance(p, d) / std::sqrt(basis.covariance(p, p) * basis.covariance(d, d)),
             0.8);
   EXPECT_THAT(basis.source, testing::HasSubstr("construction, not a measurement"));
@@ -105,33 +106,35 @@ TEST(Coordination, MeasuredPosturesGiveTheirOwnDistribution) {
   std::normal_distribution<double> normal;
   DigitAngles a = DigitAngles::Zero(), b = DigitAngles::Zero();
   for (int k = 0; k < kDigitDofCount; ++k) (k % 2 == 0 ? a : b)[k] = 1.0 / std::sqrt(10.0);
-  std::vector<Posture> postures;
+  std::vector<hand::Posture> postures;
   for (int i = 0; i < 2000; ++i) {
-    const double x = 60.0 * kDegree * normal(random), y = 30.0 * kDegree * normal(random);
-    Posture posture;
+    const double x = 60.0 * geometry::kDegree * normal(random),
+                 y = 30.0 * geometry::kDegree * normal(random);
+    hand::Posture posture;
     for (int k = 0; k < kDigitDofCount; ++k) {
-      posture[digit_dof(k)] = 0.5 + x * a[k] + y * b[k] + 0.5 * kDegree * normal(random);
+      posture[digit_dof(k)] = 0.5 + x * a[k] + y * b[k] + 0.5 * geometry::kDegree * normal(random);
     }
     postures.push_back(posture);
   }
   const CoordinationBasis basis = coordination_basis(postures, "drawn");
   EXPECT_EQ(basis.postures, 2000);
   EXPECT_EQ(basis.retained, 2);
-  EXPECT_NEAR(std::sqrt(basis.variance[0]) / kDegree, 60.0, 3.0);  // 3 standard errors of 1.6 %
-  EXPECT_NEAR(std::sqrt(basis.variance[1]) / kDegree, 30.0, 1.5);
+  EXPECT_NEAR(std::sqrt(basis.variance[0]) / geometry::kDegree, 60.0,
+              3.0);  // 3 standard errors of 1.6 %
+  EXPECT_NEAR(std::sqrt(basis.variance[1]) / geometry::kDegree, 30.0, 1.5);
   EXPECT_NEAR(std::abs(basis.component.col(0).dot(a)), 1.0, 1e-3);
   // Regularised: noise of half a degree is taken as one degree.
-  EXPECT_NEAR(basis.variance[19], kDegree * kDegree, 1e-15);
+  EXPECT_NEAR(basis.variance[19], geometry::kDegree * geometry::kDegree, 1e-15);
 
   // Three deviations along the first synergy are three; the median is where half of them lie.
-  Posture far;
+  hand::Posture far;
   for (int k = 0; k < kDigitDofCount; ++k) {
     far[digit_dof(k)] = basis.mean[k] + 3.0 * std::sqrt(basis.variance[0]) * basis.component(k, 0);
   }
   EXPECT_NEAR(distance_to(basis, far).distance, 3.0, 1e-9);
   EXPECT_NEAR(distance_to(basis, far).outside, 0.0, 1e-9);
   int within = 0;
-  for (const Posture& posture : postures) {
+  for (const hand::Posture& posture : postures) {
     const CoordinationDistance d = distance_to(basis, posture);
     within += d.distance < d.median ? 1 : 0;
   }
@@ -140,7 +143,7 @@ TEST(Coordination, MeasuredPosturesGiveTheirOwnDistribution) {
 
 TEST(Coordination, TooFewPosturesAreRefused) {
   try {
-    coordination_basis(std::vector<Posture>(29), "mine.csv");
+    coordination_basis(std::vector<hand::Posture>(29), "mine.csv");
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("mine.csv has 29 postures; at least 30"));
@@ -148,25 +151,25 @@ TEST(Coordination, TooFewPosturesAreRefused) {
 }
 
 TEST(Ease, MiddleOfTheRangeIsZeroAndItsEndIsOne) {
-  const Skeleton skeleton = plain_skeleton();
+  const hand::Skeleton skeleton = plain_skeleton();
   const CoordinationBasis basis = built_in_coordination(skeleton);
-  Posture posture;
-  for (double& angle : posture.angle) angle = 40.0 * kDegree;
+  hand::Posture posture;
+  for (double& angle : posture.angle) angle = 40.0 * geometry::kDegree;
   const EaseResult middle = assess_ease(skeleton, posture, basis);
   EXPECT_NEAR(middle.from_middle_rms, 0.0, 1e-12);
   EXPECT_EQ(middle.at_limit, 0);
-  posture[Dof::kRingPipFlexion] = 90.0 * kDegree;
+  posture[hand::Dof::kRingPipFlexion] = 90.0 * geometry::kDegree;
   const EaseResult end = assess_ease(skeleton, posture, basis);
   EXPECT_NEAR(end.farthest_share, 1.0, 1e-12);
-  EXPECT_EQ(end.farthest, Dof::kRingPipFlexion);
+  EXPECT_EQ(end.farthest, hand::Dof::kRingPipFlexion);
   EXPECT_EQ(end.at_limit, 1);
   EXPECT_NEAR(end.from_middle_rms, std::sqrt(1.0 / 20.0), 1e-12);
 }
 
 TEST(Ease, RowsNameTheBasis) {
-  const Skeleton skeleton = plain_skeleton();
+  const hand::Skeleton skeleton = plain_skeleton();
   const GraspIndices rows =
-      to_indices(assess_ease(skeleton, Posture{}, built_in_coordination(skeleton)));
+      to_indices(assess_ease(skeleton, hand::Posture{}, built_in_coordination(skeleton)));
   ASSERT_EQ(rows.size(), 5u);
   EXPECT_EQ(rows[0].key, "coordination_distance");
   EXPECT_THAT(rows[0].source, testing::HasSubstr("construction"));
@@ -179,4 +182,4 @@ TEST(Ease, RowsNameTheBasis) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 std::string number(double value, const char* format) {
@@ -31,7 +31,7 @@ GraspIndex row(const std::string& key, const std::string& name, const std::strin
 
 }  // namespace
 
-EaseResult assess_ease(const Skeleton& skeleton, const Posture& posture,
+EaseResult assess_ease(const hand::Skeleton& skeleton, const hand::Posture& posture,
                        const CoordinationBasis& basis) {
   EaseResult result;
   result.basis = basis;
@@ -39,9 +39,9 @@ EaseResult assess_ease(const Skeleton& skeleton, const Posture& posture,
   double squares = 0.0;
   int counted = 0;
   for (int k = 0; k < kDigitDofCount; ++k) {
-    const JointDof& dof = skeleton.dof(digit_dof(k));
+    const hand::JointDof& dof = skeleton.dof(digit_dof(k));
     const double half = 0.5 * (dof.upper - dof.lower);
-    if (!(half > 0.5 * kDegree)) continue;
+    if (!(half > 0.5 * geometry::kDegree)) continue;
     const double angle = posture[dof.dof];
     const double share = std::abs(angle - 0.5 * (dof.lower + dof.upper)) / half;
     result.from_middle[k] = share;
@@ -51,7 +51,8 @@ EaseResult assess_ease(const Skeleton& skeleton, const Posture& posture,
       result.farthest_share = share;
       result.farthest = dof.dof;
     }
-    if (angle < dof.lower + kDegree || angle > dof.upper - kDegree) ++result.at_limit;
+    if (angle < dof.lower + geometry::kDegree || angle > dof.upper - geometry::kDegree)
+      ++result.at_limit;
   }
   if (counted > 0) result.from_middle_rms = std::sqrt(squares / counted);
   return result;
@@ -75,7 +76,7 @@ GraspIndices to_indices(const EaseResult& result) {
                     number(result.coordination.median, "%.2f");
   rows.push_back(distance);
   GraspIndex outside = row("coordination_residual_deg", "departure from natural coordination",
-                           "deg", result.coordination.outside / kDegree);
+                           "deg", result.coordination.outside / geometry::kDegree);
   outside.definition =
       "root mean square, over 20 joint angles, of what those principal components can't describe";
   outside.source = basis.source;
@@ -104,4 +105,4 @@ GraspIndices to_indices(const EaseResult& result) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

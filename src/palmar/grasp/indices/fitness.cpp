@@ -14,7 +14,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 struct NearVertex {
@@ -69,7 +69,7 @@ GraspIndex row(const std::string& key, const std::string& name, const std::strin
     index.value = value;
     std::snprintf(text, sizeof text,
                   "palmar skin within %g mm that faces the product within %.0f deg", result.reach,
-                  result.facing * kDegreesPerRadian);
+                  result.facing * geometry::kDegreesPerRadian);
   } else {
     std::snprintf(text, sizeof text, "no palmar skin within %g mm of the product", result.reach);
   }
@@ -90,8 +90,9 @@ void FitnessOptions::check() const {
   }
 }
 
-FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_skin,
-                             const Rigid3& product_from_hand, const DistanceField& product,
+FitnessResult assess_fitness(const hand::Hand& hand, const std::vector<Vec3>& posed_skin,
+                             const geometry::Rigid3& product_from_hand,
+                             const geometry::DistanceField& product,
                              const FitnessOptions& options) {
   options.check();
   if (posed_skin.size() != hand.skin.vertices.size()) {
@@ -104,17 +105,17 @@ FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_sk
   std::vector<Vec3> points;
   points.reserve(posed_skin.size());
   for (const Vec3& p : posed_skin) points.push_back(product_from_hand * p);
-  const std::vector<double> areas = vertex_areas(hand.skin);
-  const std::vector<Vec3> normals = vertex_normals(points, hand.skin.triangles);
-  std::vector<DistanceSample> samples(points.size());
+  const std::vector<double> areas = geometry::vertex_areas(hand.skin);
+  const std::vector<Vec3> normals = geometry::vertex_normals(points, hand.skin.triangles);
+  std::vector<geometry::DistanceSample> samples(points.size());
   product.sample(points, options.reach, samples);
 
-  std::array<std::vector<NearVertex>, kRegionCount> near;
-  std::array<double, kRegionCount> skin_area{};
+  std::array<std::vector<NearVertex>, hand::kRegionCount> near;
+  std::array<double, hand::kRegionCount> skin_area{};
   double palmar = 0.0, touching = 0.0;
   const double least = std::cos(options.facing);
   for (std::size_t v = 0; v < points.size(); ++v) {
-    if (hand.region[v] == Region::kDorsum) continue;
+    if (hand.region[v] == hand::Region::kDorsum) continue;
     const std::size_t r = index_of(hand.region[v]);
     skin_area[r] += areas[v];
     palmar += areas[v];
@@ -127,7 +128,7 @@ FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_sk
   std::vector<NearVertex> all;
   for (std::size_t r = 0; r < near.size(); ++r) {
     if (near[r].empty()) continue;
-    RegionFitness one{static_cast<Region>(r), statistics(near[r])};
+    RegionFitness one{static_cast<hand::Region>(r), statistics(near[r])};
     one.gap.skin_area = skin_area[r];
     result.regions.push_back(one);
     all.insert(all.end(), near[r].begin(), near[r].end());
@@ -181,7 +182,7 @@ GraspIndices to_indices(const FitnessResult& result) {
   rms.definition = "root mean square, by area, of that distance";
   rows.push_back(rms);
   GraspIndex angle = row("normal_angle_deg", "angle between skin and product", "deg", Better::kDown,
-                         result, gap.normal_angle * kDegreesPerRadian);
+                         result, gap.normal_angle * geometry::kDegreesPerRadian);
   angle.lowest = 0.0;
   angle.highest = result.facing * 180.0 / std::numbers::pi;
   angle.definition = "mean, by area, of the angle between the surfaces of skin and product";
@@ -202,4 +203,4 @@ GraspIndices to_indices(const FitnessResult& result) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

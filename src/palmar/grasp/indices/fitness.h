@@ -10,7 +10,7 @@
 #include "palmar/grasp/indices/grasp_index.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 struct FitnessOptions {
   /// Palmar skin within this distance of the product, on either side, and facing it takes part,
@@ -35,7 +35,7 @@ struct GapStatistics {
 };
 
 struct RegionFitness {
-  Region region{};
+  hand::Region region{};
   GapStatistics gap;
 };
 
@@ -57,11 +57,12 @@ struct FitnessResult {
 ///
 /// `posed_skin` in the hand frame, one point per skin vertex; areas are those of the reference
 /// posture. Throws UsageError.
-FitnessResult assess_fitness(const Hand& hand, const std::vector<Vec3>& posed_skin,
-                             const Rigid3& product_from_hand, const DistanceField& product,
+FitnessResult assess_fitness(const hand::Hand& hand, const std::vector<Vec3>& posed_skin,
+                             const geometry::Rigid3& product_from_hand,
+                             const geometry::DistanceField& product,
                              const FitnessOptions& options = {});
 
 /// Rows of the group "fitness".
 GraspIndices to_indices(const FitnessResult& result);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

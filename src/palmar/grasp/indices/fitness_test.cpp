@@ -12,28 +12,28 @@
 #include "palmar/geometry/distance/analytic_distance.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 /// A ball of palmar skin about the origin; its half z > 0 is the dorsum, the half x < 0 of the rest
 /// thenar, the other hypothenar.
-Hand ball_hand(double radius) {
-  Hand hand;
-  hand.skin = make_icosphere(radius, 5);
+hand::Hand ball_hand(double radius) {
+  hand::Hand hand;
+  hand.skin = geometry::make_icosphere(radius, 5);
   for (const Vec3& v : hand.skin.vertices) {
-    hand.region.push_back(v.z() > 0.0   ? Region::kDorsum
-                          : v.x() < 0.0 ? Region::kThenar
-                                        : Region::kHypothenar);
+    hand.region.push_back(v.z() > 0.0   ? hand::Region::kDorsum
+                          : v.x() < 0.0 ? hand::Region::kThenar
+                                        : hand::Region::kHypothenar);
   }
   return hand;
 }
 
 /// Solid outside of a ball: a bowl that the hand lies in.
-class Bowl : public DistanceField {
+class Bowl : public geometry::DistanceField {
  public:
   explicit Bowl(double radius) : radius_(radius) {}
   void sample(std::span<const Vec3> points, double /*range*/,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 u = points[i].normalized();
       samples[i] = {radius_ - points[i].norm(), radius_ * u, -u, -1};
@@ -46,11 +46,11 @@ class Bowl : public DistanceField {
 };
 
 /// Solid below z = height.
-class Floor : public DistanceField {
+class Floor : public geometry::DistanceField {
  public:
   explicit Floor(double height) : height_(height) {}
   void sample(std::span<const Vec3> points, double /*range*/,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double d = points[i].z() - height_;
       samples[i] = {d, points[i] - d * Vec3::UnitZ(), Vec3::UnitZ(), -1};
@@ -63,10 +63,10 @@ class Floor : public DistanceField {
 };
 
 TEST(Fitness, BowlOfTheSameShapeFitsPerfectly) {
-  const Hand hand = ball_hand(20.0);
+  const hand::Hand hand = ball_hand(20.0);
   for (const double gap : {1.5, 0.0, -2.0}) {
     const FitnessResult found =
-        assess_fitness(hand, hand.skin.vertices, Rigid3{}, Bowl(20.0 + gap));
+        assess_fitness(hand, hand.skin.vertices, geometry::Rigid3{}, Bowl(20.0 + gap));
     EXPECT_NEAR(found.total.mean, gap, 1e-9);
     EXPECT_NEAR(found.total.median, gap, 1e-9);
     EXPECT_NEAR(found.total.deviation, 0.0, 1e-9);
@@ -82,11 +82,11 @@ TEST(Fitness, BowlOfTheSameShapeFitsPerfectly) {
 TEST(Fitness, BallOnAFloorHasTheGapsOfACap) {
   // Gap of a ball of radius R that touches a plane: even between 0 and the reach by area
   // (Archimedes), so mean reach / 2 and deviation reach / sqrt(12).
-  const Hand hand = ball_hand(20.0);
+  const hand::Hand hand = ball_hand(20.0);
   FitnessOptions options;
   options.reach = 6.0;
   const FitnessResult found =
-      assess_fitness(hand, hand.skin.vertices, Rigid3{}, Floor(-20.0), options);
+      assess_fitness(hand, hand.skin.vertices, geometry::Rigid3{}, Floor(-20.0), options);
   EXPECT_NEAR(found.total.mean, 3.0, 0.05);
   EXPECT_NEAR(found.total.median, 3.0, 0.1);
   EXPECT_NEAR(found.total.deviation, 6.0 / std::sqrt(12.0), 0.03);
@@ -101,17 +101,19 @@ TEST(Fitness, BallOnAFloorHasTheGapsOfACap) {
 }
 
 TEST(Fitness, PlacementMovesTheHand) {
-  const Hand hand = ball_hand(20.0);
-  const Rigid3 lifted{Quat::Identity(), Vec3(5, -3, 2.0)};
+  const hand::Hand hand = ball_hand(20.0);
+  const geometry::Rigid3 lifted{Quat::Identity(), Vec3(5, -3, 2.0)};
   const FitnessResult a = assess_fitness(hand, hand.skin.vertices, lifted, Floor(-18.0));
-  const FitnessResult b = assess_fitness(hand, hand.skin.vertices, Rigid3{}, Floor(-20.0));
+  const FitnessResult b =
+      assess_fitness(hand, hand.skin.vertices, geometry::Rigid3{}, Floor(-20.0));
   EXPECT_NEAR(a.total.mean, b.total.mean, 1e-9);
   EXPECT_NEAR(a.total.deviation, b.total.deviation, 1e-9);
 }
 
 TEST(Fitness, NothingNearIsNamed) {
-  const Hand hand = ball_hand(20.0);
-  const FitnessResult found = assess_fitness(hand, hand.skin.vertices, Rigid3{}, Floor(-60.0));
+  const hand::Hand hand = ball_hand(20.0);
+  const FitnessResult found =
+      assess_fitness(hand, hand.skin.vertices, geometry::Rigid3{}, Floor(-60.0));
   EXPECT_EQ(found.total.area, 0.0);
   for (const GraspIndex& row : to_indices(found)) {
     if (row.key == "skin_near_product_percent") {
@@ -124,9 +126,9 @@ TEST(Fitness, NothingNearIsNamed) {
 }
 
 TEST(Fitness, RowsStayWithinTheirRange) {
-  const Hand hand = ball_hand(20.0);
+  const hand::Hand hand = ball_hand(20.0);
   for (const GraspIndex& row :
-       to_indices(assess_fitness(hand, hand.skin.vertices, Rigid3{}, Floor(-18.5)))) {
+       to_indices(assess_fitness(hand, hand.skin.vertices, geometry::Rigid3{}, Floor(-18.5)))) {
     EXPECT_EQ(row.group, "fitness");
     ASSERT_TRUE(row.value.has_value()) << row.key;
     EXPECT_GE(*row.value, *row.lowest) << row.key;
@@ -136,12 +138,13 @@ TEST(Fitness, RowsStayWithinTheirRange) {
 }
 
 TEST(Fitness, BadInputIsNamed) {
-  const Hand hand = ball_hand(20.0);
+  const hand::Hand hand = ball_hand(20.0);
   FitnessOptions options;
   options.reach = 0.0;
-  EXPECT_THROW(assess_fitness(hand, hand.skin.vertices, Rigid3{}, Floor(0.0), options), UsageError);
-  EXPECT_THROW(assess_fitness(hand, {}, Rigid3{}, Floor(0.0)), UsageError);
+  EXPECT_THROW(assess_fitness(hand, hand.skin.vertices, geometry::Rigid3{}, Floor(0.0), options),
+               UsageError);
+  EXPECT_THROW(assess_fitness(hand, {}, geometry::Rigid3{}, Floor(0.0)), UsageError);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/grasp/indices/grasp_index.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 std::string name_of(Better better) {
   switch (better) {
@@ -16,4 +16,4 @@ std::string name_of(Better better) {
   return "neither";
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Which way an index is better.
 enum class Better { kUp, kDown, kNeither };
@@ -36,4 +36,4 @@ struct GraspIndex {
 };
 using GraspIndices = std::vector<GraspIndex>;
 
-}  // namespace palmar
+}  // namespace palmar::grasp

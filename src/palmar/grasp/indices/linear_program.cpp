@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kTolerance = 1e-10;  // of reduced costs and pivots, data of order one
@@ -165,4 +165,4 @@ ProgramSolution solve_linear_program(const Eigen::VectorXd& c, const Eigen::Matr
   return solution;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

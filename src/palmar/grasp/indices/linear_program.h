@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace palmar {
+namespace palmar::grasp {
 
 enum class ProgramStatus { kOptimal, kInfeasible, kUnbounded, kNotConverged };
 
@@ -27,4 +27,4 @@ struct ProgramSolution {
 ProgramSolution solve_linear_program(const Eigen::VectorXd& c, const Eigen::MatrixXd& A,
                                      const Eigen::VectorXd& b);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 TEST(LinearProgram, TextbookProblemHasItsOptimum) {
@@ -100,4 +100,4 @@ TEST(LinearProgram, RefusesSizesThatDoNotFit) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -11,7 +11,7 @@
 #include "palmar/grasp/indices/linear_program.h"
 #include "palmar/grasp/rest/cone_projection.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 std::string direction(const Vec3& v) {
@@ -35,9 +35,9 @@ std::string motion_words(const Vec3& linear, const Vec3& angular) {
 }
 
 /// The motion whose fastest contact moves by 1 mm.
-SmallMotion escape_motion(const std::vector<GraspContact>& contacts, const Wrench6& along,
-                          double scale, const Vec3& reference) {
-  SmallMotion motion{along.head<3>(), along.tail<3>() / scale, reference};
+contact::SmallMotion escape_motion(const std::vector<GraspContact>& contacts, const Wrench6& along,
+                                   double scale, const Vec3& reference) {
+  contact::SmallMotion motion{along.head<3>(), along.tail<3>() / scale, reference};
   double fastest = motion.translation.norm();
   for (const GraspContact& one : contacts) {
     fastest = std::max(fastest, motion.at(one.position).norm());
@@ -143,7 +143,7 @@ void StabilityOptions::check() const {
   }
   reduction.check();
   wrench.check();
-  if (load) FrictionOptions{.coefficient = reduction.friction, .load = *load}.check();
+  if (load) contact::FrictionOptions{.coefficient = reduction.friction, .load = *load}.check();
 }
 
 std::string_view name_of(GripForceStatus status) {
@@ -162,7 +162,7 @@ std::string_view name_of(GripForceStatus status) {
   return "no_contact";
 }
 
-GripForce least_grip_force(const std::vector<GraspContact>& contacts, const Wrench& load,
+GripForce least_grip_force(const std::vector<GraspContact>& contacts, const contact::Wrench& load,
                            const Vec3& reference, const WrenchOptions& options) {
   GripForce result;
   const double scale = options.torque_scale.value_or(torque_scale_of(contacts, reference));
@@ -210,7 +210,7 @@ GripForce least_grip_force(const std::vector<GraspContact>& contacts, const Wren
   return result;
 }
 
-StabilityResult assess_stability(const Hand& hand, const ContactResult& contact,
+StabilityResult assess_stability(const hand::Hand& hand, const contact::ContactResult& contact,
                                  const Vec3& mass_centre, const StabilityOptions& options) {
   options.check();
   if (!mass_centre.allFinite()) throw UsageError("stability: the centre of mass is not finite");
@@ -236,11 +236,11 @@ StabilityResult assess_stability(const Hand& hand, const ContactResult& contact,
     result.linf = measure_wrench_space(result.contacts, mass_centre, WrenchNorm::kLinf, wrench);
   }
   if (options.load) {
-    result.grip = least_grip_force(result.contacts, wrench_of(*options.load, mass_centre),
+    result.grip = least_grip_force(result.contacts, contact::wrench_of(*options.load, mass_centre),
                                    mass_centre, options.wrench);
   }
   result.message = closure_message(result);
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

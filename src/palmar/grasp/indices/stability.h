@@ -12,7 +12,7 @@
 #include "palmar/grasp/indices/grasp_index.h"
 #include "palmar/grasp/indices/wrench_space.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 struct StabilityOptions {
   ReductionOptions reduction;
@@ -24,7 +24,7 @@ struct StabilityOptions {
   /// Contacts for the volume, 4 to 64: the hull of more has too many facets for 50 ms.
   int volume_contacts = 10;
   /// What is to be held; nothing: no grip force is asked for.
-  std::optional<ProductLoad> load;
+  std::optional<contact::ProductLoad> load;
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
@@ -48,7 +48,7 @@ struct GripForce {
   std::optional<double> factor;
   /// How the product begins to move though friction does what it can, where it isn't held; its
   /// fastest contact moves by 1 mm.
-  SmallMotion escape;
+  contact::SmallMotion escape;
   double balance_error = 0.0;  ///< |load + forces| over the load, recomputed
 };
 
@@ -61,7 +61,7 @@ struct GripForce {
 /// force can meet of the load (in force and moment over the torque scale) is a motion against which
 /// no contact pushes while the load does work: the escape.
 /// Source: Kerr, Roth 1986 (linear programs for grasp forces).
-GripForce least_grip_force(const std::vector<GraspContact>& contacts, const Wrench& load,
+GripForce least_grip_force(const std::vector<GraspContact>& contacts, const contact::Wrench& load,
                            const Vec3& reference, const WrenchOptions& options = {});
 
 /// How firmly the hand holds the product.
@@ -79,10 +79,10 @@ struct StabilityResult {
 
 /// Stability of a hand's contact, as if the contacts could press with any force (their friction
 /// cones count, not the pressures found). Nothing touched is a status. Throws UsageError.
-StabilityResult assess_stability(const Hand& hand, const ContactResult& contact,
+StabilityResult assess_stability(const hand::Hand& hand, const contact::ContactResult& contact,
                                  const Vec3& mass_centre, const StabilityOptions& options = {});
 
 /// Rows of the group "stability".
 GraspIndices to_indices(const StabilityResult& result);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -5,7 +5,7 @@
 #include "palmar/core/text.h"
 #include "palmar/grasp/indices/stability.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr const char* kGroup = "stability";
@@ -130,4 +130,4 @@ GraspIndices to_indices(const StabilityResult& result) {
   return rows;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

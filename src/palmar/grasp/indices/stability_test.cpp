@@ -11,7 +11,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 using ::testing::HasSubstr;
@@ -19,21 +19,21 @@ using ::testing::IsEmpty;
 
 /// A hand of loose skin vertices, each pressing on the product with a force along -`outward`.
 struct Patches {
-  Hand hand;
-  ContactResult contact;
+  hand::Hand hand;
+  contact::ContactResult contact;
 
-  void add(Region region, const Vec3& position, const Vec3& outward, double force) {
+  void add(hand::Region region, const Vec3& position, const Vec3& outward, double force) {
     hand.region.push_back(region);
     contact.deformed.push_back(position);
     contact.undeformed.push_back(position - outward);  // it was pushed out by 1 mm
     contact.force.push_back(force);
     contact.pressure.push_back(force);
-    contact.status = ContactStatus::kSolved;
+    contact.status = contact::ContactStatus::kSolved;
   }
 
   /// A disc of skin, `rings` deep, with the same force on every vertex.
-  void add_disc(Region region, const Vec3& centre, const Vec3& outward, double radius, double force,
-                int cells = 40) {
+  void add_disc(hand::Region region, const Vec3& centre, const Vec3& outward, double radius,
+                double force, int cells = 40) {
     const Vec3 a = outward.unitOrthogonal(), b = outward.cross(a);
     int count = 0;
     for (int pass = 0; pass < 2; ++pass) {
@@ -68,11 +68,11 @@ std::vector<GraspContact> pinch(double friction, double force_a, double force_b,
           finger({-20, 0, 0}, {1, 0, 0}, friction, force_b, torsion)};
 }
 
-Wrench weight(double newton) { return {Vec3(0, 0, -newton), Vec3::Zero()}; }
+contact::Wrench weight(double newton) { return {Vec3(0, 0, -newton), Vec3::Zero()}; }
 
 TEST(ReduceContact, DiscUnderEvenPressureTwistsLikeADisc) {
   Patches patches;
-  patches.add_disc(Region::kIndexDistal, {20, 3, 0}, Vec3::UnitX(), 6.0, 12.0);
+  patches.add_disc(hand::Region::kIndexDistal, {20, 3, 0}, Vec3::UnitX(), 6.0, 12.0);
   ReductionOptions options;
   options.per_region = 1;
   options.friction = 0.6;
@@ -81,14 +81,14 @@ TEST(ReduceContact, DiscUnderEvenPressureTwistsLikeADisc) {
   EXPECT_NEAR((contacts[0].position - Vec3(20, 3, 0)).norm(), 0.0, 1e-9);
   EXPECT_NEAR((contacts[0].normal + Vec3::UnitX()).norm(), 0.0, 1e-9);
   EXPECT_NEAR(contacts[0].normal_force, 12.0, 1e-9);
-  EXPECT_EQ(contacts[0].region, Region::kIndexDistal);
+  EXPECT_EQ(contacts[0].region, hand::Region::kIndexDistal);
   EXPECT_NEAR(contacts[0].torsion, 0.6 * 2.0 / 3.0 * 6.0, 0.02);  // 2/3 mu a; 1 % for the grid
 }
 
 TEST(ReduceContact, TwoPatchesOfOneRegionBecomeTwoContacts) {
   Patches patches;
-  patches.add_disc(Region::kThenar, {0, 0, 0}, Vec3::UnitZ(), 3.0, 2.0, 6);
-  patches.add_disc(Region::kThenar, {30, 0, 0}, Vec3::UnitZ(), 3.0, 5.0, 6);
+  patches.add_disc(hand::Region::kThenar, {0, 0, 0}, Vec3::UnitZ(), 3.0, 2.0, 6);
+  patches.add_disc(hand::Region::kThenar, {30, 0, 0}, Vec3::UnitZ(), 3.0, 5.0, 6);
   const auto contacts = reduce_contact(patches.hand, patches.contact);
   ASSERT_EQ(contacts.size(), 2u);
   EXPECT_NEAR(contacts[0].position.x() + contacts[1].position.x(), 30.0, 1e-9);
@@ -98,7 +98,7 @@ TEST(ReduceContact, TwoPatchesOfOneRegionBecomeTwoContacts) {
 TEST(ReduceContact, RegionsOfLeastForceGoWithout) {
   Patches patches;
   for (int r = 1; r <= 9; ++r) {
-    patches.add(static_cast<Region>(r), Vec3(10.0 * r, 0, 0), Vec3::UnitZ(), 1.0 + r);
+    patches.add(static_cast<hand::Region>(r), Vec3(10.0 * r, 0, 0), Vec3::UnitZ(), 1.0 + r);
   }
   ReductionOptions options;
   options.max_contacts = 4;
@@ -109,7 +109,7 @@ TEST(ReduceContact, RegionsOfLeastForceGoWithout) {
 
 TEST(ReduceContact, HardFingerHasNoTorsion) {
   Patches patches;
-  patches.add_disc(Region::kThenar, {0, 0, 0}, Vec3::UnitZ(), 3.0, 2.0, 6);
+  patches.add_disc(hand::Region::kThenar, {0, 0, 0}, Vec3::UnitZ(), 3.0, 2.0, 6);
   ReductionOptions options;
   options.soft_finger = false;
   for (const GraspContact& one : reduce_contact(patches.hand, patches.contact, options)) {
@@ -170,7 +170,8 @@ TEST(LeastGripForce, LoadThatNothingMeetsNamesTheWayOut) {
 }
 
 TEST(LeastGripForce, HardPinchLetsTheProductSpin) {
-  const Wrench twist{Vec3::Zero(), Vec3(50.0, 0, 0)};  // N mm about the line of the fingers
+  const contact::Wrench twist{Vec3::Zero(),
+                              Vec3(50.0, 0, 0)};  // N mm about the line of the fingers
   const GripForce hard = least_grip_force(pinch(0.5, 10, 10), twist, Vec3::Zero());
   ASSERT_EQ(hard.status, GripForceStatus::kNotHoldable);
   EXPECT_GT(hard.escape.rotation.x(), 0.0);
@@ -205,8 +206,8 @@ Patches round_grip() {
   for (int k = 0; k < 8; ++k) {
     const double angle = 0.8 * k;
     const Vec3 outward(std::cos(angle), std::sin(angle), 0.0);
-    patches.add_disc(static_cast<Region>(1 + k), 15.0 * outward + Vec3(0, 0, k % 2 ? 20.0 : -25.0),
-                     outward, 4.0, 5.0 + k, 8);
+    patches.add_disc(static_cast<hand::Region>(1 + k),
+                     15.0 * outward + Vec3(0, 0, k % 2 ? 20.0 : -25.0), outward, 4.0, 5.0 + k, 8);
   }
   return patches;
 }
@@ -220,7 +221,7 @@ TEST(AssessStability, TurnedWorldChangesNothing) {
   for (Vec3& p : there.contact.undeformed) p = turn * p + shift;
   StabilityOptions options;
   options.reduction.max_contacts = 8;
-  options.load = ProductLoad{.weight = 5.0, .gravity = Vec3(0, 1, -1)};
+  options.load = contact::ProductLoad{.weight = 5.0, .gravity = Vec3(0, 1, -1)};
   const StabilityResult a = assess_stability(here.hand, here.contact, Vec3(1, 2, 3), options);
   options.load->gravity = turn * options.load->gravity;
   const StabilityResult b =
@@ -248,7 +249,7 @@ TEST(AssessStability, TurnedWorldChangesNothing) {
 TEST(AssessStability, EveryRowExplainsItself) {
   const Patches patches = round_grip();
   StabilityOptions options;
-  options.load = ProductLoad{.weight = 5.0};
+  options.load = contact::ProductLoad{.weight = 5.0};
   const StabilityResult result =
       assess_stability(patches.hand, patches.contact, Vec3::Zero(), options);
   for (const GraspIndex& row : to_indices(result)) {
@@ -315,4 +316,4 @@ TEST(AssessStability, BadOptionsAreNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

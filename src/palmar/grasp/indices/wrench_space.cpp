@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 [[noreturn]] void fail(std::size_t contact, const std::string& what) {
@@ -191,4 +191,4 @@ WrenchSpace<3> measure_wrench_space(const std::vector<PlanarContact>& contacts,
   return measured(groups, norm, scale, options.body);
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -11,7 +11,7 @@
 #include "palmar/grasp/indices/convex_body.h"
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 using Vec2 = Eigen::Vector2d;
 using Wrench6 = Eigen::Matrix<double, 6, 1>;  ///< force and moment
@@ -24,7 +24,7 @@ struct GraspContact {
   /// Largest moment about the normal per normal force, of a soft finger, mm; 0: a hard one.
   double torsion = 0.0;
   double normal_force = 0.0;  ///< N, where it is known
-  Region region{};            ///< of the hand
+  hand::Region region{};      ///< of the hand
 };
 
 struct WrenchOptions {
@@ -100,4 +100,4 @@ WrenchSpace<3> measure_wrench_space(const std::vector<PlanarContact>& contacts,
                                     const Vec2& reference, WrenchNorm norm,
                                     const WrenchOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -14,7 +14,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 using ::testing::HasSubstr;
@@ -361,4 +361,4 @@ TEST(WrenchSpace, BadContactsAndOptionsAreNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

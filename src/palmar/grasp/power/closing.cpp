@@ -13,7 +13,7 @@
 #include "palmar/grasp/power/site_distance.h"
 #include "palmar/grasp/power/skin_sampling.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kFitSpacing = 3.0;     // mm between skin vertices that the thumb's fit looks at
@@ -24,24 +24,25 @@ constexpr double kPalmGive = 4.0;       // mm; finger on palm: the cones are coa
 constexpr double kSharedLimit = 0.6;    // of the finger limit may be used up by pushing in
 constexpr double kBallShare = 0.7;      // of the palm limit for the thumb's ball in pushing in
 constexpr double kHalfFinger = 8.0;     // mm; bone line to palmar skin
-constexpr double kWideOpen = -20.0 * kDegree;    // MCP when the hand reaches out
+constexpr double kWideOpen = -20.0 * geometry::kDegree;  // MCP when the hand reaches out
 constexpr double kPreshape = 0.8;                // of the bend that fits the handle, before closing
 constexpr double kDipPerPipFlexion = 2.0 / 3.0;  // DIP / PIP; Rijkpema & Girard 1991
-constexpr double kDipLag = 10.0 * kDegree;       // DIP behind that while PIP closes
-constexpr double kDipLeave = 25.0 * kDegree;     // DIP may be off that to lie on
-constexpr double kHookGive = 20.0 * kDegree;     // that a hook's MCP may flex
-constexpr double kReleaseMcp = 8.0 * kDegree;    // opened to move a finger aside
-constexpr double kReleasePip = 20.0 * kDegree;
+constexpr double kDipLag = 10.0 * geometry::kDegree;     // DIP behind that while PIP closes
+constexpr double kDipLeave = 25.0 * geometry::kDegree;   // DIP may be off that to lie on
+constexpr double kHookGive = 20.0 * geometry::kDegree;   // that a hook's MCP may flex
+constexpr double kReleaseMcp = 8.0 * geometry::kDegree;  // opened to move a finger aside
+constexpr double kReleasePip = 20.0 * geometry::kDegree;
 constexpr double kLeastShare = 0.35;  // of the limit depth: shallower skin doesn't stay in contact
 constexpr double kShareRange = 0.3;   // over which that fades
 constexpr double kIdleGap = 1.0;  // mm; a finger farther than that from the product does nothing
-constexpr double kIdleMore = 5.0 * kDegree;  // that it bends beyond its neighbour
-constexpr double kRoomStep = 3.0 * kDegree;  // by which a finger goes out of the way of a product
+constexpr double kIdleMore = 5.0 * geometry::kDegree;  // that it bends beyond its neighbour
+constexpr double kRoomStep =
+    3.0 * geometry::kDegree;  // by which a finger goes out of the way of a product
 constexpr int kRoomRounds = 20;
 
 }  // namespace
 
-HandCloser::HandCloser(const Hand& hand, double spacing) : hand_(&hand), cones_(hand) {
+HandCloser::HandCloser(const hand::Hand& hand, double spacing) : hand_(&hand), cones_(hand) {
   if (spacing > 0.0) care_ = {0.1, 3.0};
   const auto group_of = [&](const SkinSample& sample, auto&& belongs) {
     std::vector<int> vertices;
@@ -61,71 +62,73 @@ HandCloser::HandCloser(const Hand& hand, double spacing) : hand_(&hand), cones_(
   };
   const auto digits_of = [&](const SkinSample& sample) {
     DigitGroups groups;
-    for (int f = 0; f < kFingerCount; ++f) {
-      const auto finger = static_cast<Finger>(f);
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      const auto finger = static_cast<hand::Finger>(f);
       for (int level = 0; level < 3; ++level) {
-        groups[f][level] = group_of(sample, [&](Segment segment, Region region) {
+        groups[f][level] = group_of(sample, [&](hand::Segment segment, hand::Region region) {
           const int own = level_of(finger, segment);
           // The third group of the thumb is what its CMC joint moves.
-          const bool is_cmc = finger == Finger::kThumb && level == 2;
-          return is_cmc ? own >= 0 || region == Region::kThenar : own >= level;
+          const bool is_cmc = finger == hand::Finger::kThumb && level == 2;
+          return is_cmc ? own >= 0 || region == hand::Region::kThenar : own >= level;
         });
       }
     }
     return groups;
   };
   const SkinSample sample = sample_skin(hand, spacing);
-  all_ = group_of(sample, [](Segment, Region) { return true; });
-  palm_ = group_of(sample, [](Segment, Region region) { return is_palmar(region); });
+  all_ = group_of(sample, [](hand::Segment, hand::Region) { return true; });
+  palm_ = group_of(sample, [](hand::Segment, hand::Region region) { return is_palmar(region); });
   groups_ = digits_of(sample);
   sparse_ = spacing < kFitSpacing ? digits_of(sample_skin(hand, kFitSpacing)) : groups_;
   thumb_.emplace(hand, cones_, groups_, sparse_, care_);
-  const Skeleton& skeleton = hand.skeleton;
-  Posture& posture = open_posture_;
-  posture = reference_posture(skeleton);
-  for (const Finger finger : kFingers) {
+  const hand::Skeleton& skeleton = hand.skeleton;
+  hand::Posture& posture = open_posture_;
+  posture = hand::reference_posture(skeleton);
+  for (const hand::Finger finger : kFingers) {
     for (int level = 0; level < 3; ++level) {
-      const JointDof& dof = skeleton.dof(flexion_of(finger, level));
+      const hand::JointDof& dof = skeleton.dof(flexion_of(finger, level));
       posture[dof.dof] = std::clamp(0.0, dof.lower, dof.upper);
     }
   }
-  const auto at_share = [&](Dof d, double share) {
-    const JointDof& dof = skeleton.dof(d);
+  const auto at_share = [&](hand::Dof d, double share) {
+    const hand::JointDof& dof = skeleton.dof(d);
     posture[d] = dof.lower + share * (dof.upper - dof.lower);
   };
-  at_share(Dof::kThumbCmcFlexion, 0.05);
-  at_share(Dof::kThumbCmcAbduction, 0.35);
-  posture[Dof::kThumbMpFlexion] = std::clamp(0.0, lower_of(*hand_, Dof::kThumbMpFlexion),
-                                             upper_of(*hand_, Dof::kThumbMpFlexion));
-  posture[Dof::kThumbIpFlexion] = std::clamp(0.0, lower_of(*hand_, Dof::kThumbIpFlexion),
-                                             upper_of(*hand_, Dof::kThumbIpFlexion));
+  at_share(hand::Dof::kThumbCmcFlexion, 0.05);
+  at_share(hand::Dof::kThumbCmcAbduction, 0.35);
+  posture[hand::Dof::kThumbMpFlexion] =
+      std::clamp(0.0, lower_of(*hand_, hand::Dof::kThumbMpFlexion),
+                 upper_of(*hand_, hand::Dof::kThumbMpFlexion));
+  posture[hand::Dof::kThumbIpFlexion] =
+      std::clamp(0.0, lower_of(*hand_, hand::Dof::kThumbIpFlexion),
+                 upper_of(*hand_, hand::Dof::kThumbIpFlexion));
   palm_.skin.pose(posture, open_palm_);
 }
 
-Posture HandCloser::start_posture(const ClosingStyle& style) const {
-  Posture posture = open_posture_;
-  const auto fan = [&](Finger finger, double share) {
-    const JointDof& dof = hand_->skeleton.dof(abduction_of(finger));
+hand::Posture HandCloser::start_posture(const ClosingStyle& style) const {
+  hand::Posture posture = open_posture_;
+  const auto fan = [&](hand::Finger finger, double share) {
+    const hand::JointDof& dof = hand_->skeleton.dof(abduction_of(finger));
     const double end = share > 0.0 ? dof.upper : dof.lower;
     posture[dof.dof] += std::abs(share) * (end - posture[dof.dof]);
   };
   if (!style.uses_thumb()) {
-    const Posture rest = reference_posture(hand_->skeleton);
-    for (const Dof dof : {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction, Dof::kThumbMpFlexion,
-                          Dof::kThumbIpFlexion}) {
+    const hand::Posture rest = hand::reference_posture(hand_->skeleton);
+    for (const hand::Dof dof : {hand::Dof::kThumbCmcFlexion, hand::Dof::kThumbCmcAbduction,
+                                hand::Dof::kThumbMpFlexion, hand::Dof::kThumbIpFlexion}) {
       posture[dof] = rest[dof];
     }
   }
   if (style.hook) {
-    for (const Finger finger : kFingers) {
-      const JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
+    for (const hand::Finger finger : kFingers) {
+      const hand::JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
       posture[mcp.dof] = std::clamp(*style.hook, mcp.lower, mcp.upper);
     }
   }
   if (style.spread > 0.0) {
-    fan(Finger::kIndex, style.spread);
-    fan(Finger::kRing, -0.5 * style.spread);
-    fan(Finger::kLittle, -style.spread);
+    fan(hand::Finger::kIndex, style.spread);
+    fan(hand::Finger::kRing, -0.5 * style.spread);
+    fan(hand::Finger::kLittle, -style.spread);
   }
   return posture;
 }
@@ -139,7 +142,7 @@ double HandCloser::free_travel(const HeldProduct& product, const DepthLimits& li
   const double shared = style.hook ? 1.0 : kSharedLimit;
   const Vec3 step = product.product_from_hand.rotation * direction;
   std::vector<Vec3> points(posed.size());
-  std::vector<DistanceSample> samples(posed.size());
+  std::vector<geometry::DistanceSample> samples(posed.size());
   double travel = 0.0;
   for (int i = 0; i < kLongestAdvance && travel < longest; ++i) {
     // The product goes along +direction; seen from it, the hand goes along -direction.
@@ -151,9 +154,9 @@ double HandCloser::free_travel(const HeldProduct& product, const DepthLimits& li
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < posed.size(); ++k) {
       double limit = limits.palm;
-      if (palm_.segment[k] != Segment::kPalm) {
+      if (palm_.segment[k] != hand::Segment::kPalm) {
         limit = shared * limits.finger;
-      } else if (palm_.region[k] == Region::kThenar) {
+      } else if (palm_.region[k] == hand::Region::kThenar) {
         limit = kBallShare * limits.palm;
       }
       const double slack = samples[k].distance + limit;
@@ -170,23 +173,24 @@ double HandCloser::free_travel(const HeldProduct& product, const DepthLimits& li
   return std::min(travel, longest);
 }
 
-Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimits& limits, Finger finger,
-                              double diameter, double share, const Posture& start) const {
-  const Skeleton& skeleton = hand_->skeleton;
-  const auto segments = segments_of(finger);
+hand::Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimits& limits,
+                                    hand::Finger finger, double diameter, double share,
+                                    const hand::Posture& start) const {
+  const hand::Skeleton& skeleton = hand_->skeleton;
+  const auto segments = hand::segments_of(finger);
   std::array<double, 3> turn{};  // that each phalanx takes round the handle, half of it
   for (std::size_t level = 0; level < 3; ++level) {
-    const Vec3& a = skeleton.joint(joint_of(*segments[level])).centre;
+    const Vec3& a = skeleton.joint(hand::joint_of(*segments[level])).centre;
     const Vec3& b = level == 2 ? skeleton.fingertips[index_of(finger)]
-                               : skeleton.joint(joint_of(*segments[level + 1])).centre;
+                               : skeleton.joint(hand::joint_of(*segments[level + 1])).centre;
     turn[level] = std::atan((b - a).norm() / (diameter + 2.0 * kHalfFinger));
   }
-  Posture posture = start;
-  const Dof mcp = flexion_of(finger, 0);
+  hand::Posture posture = start;
+  const hand::Dof mcp = flexion_of(finger, 0);
   posture[mcp] = std::max(lower_of(*hand_, mcp), kWideOpen);
   for (; share > 0.05; share -= 0.25) {
-    const JointDof& pip = skeleton.dof(flexion_of(finger, 1));
-    const JointDof& dip = skeleton.dof(flexion_of(finger, 2));
+    const hand::JointDof& pip = skeleton.dof(flexion_of(finger, 1));
+    const hand::JointDof& dip = skeleton.dof(flexion_of(finger, 2));
     posture[pip.dof] = std::clamp(share * (turn[0] + turn[1]), pip.lower, pip.upper);
     posture[dip.dof] = std::clamp(
         std::min(share * (turn[1] + turn[2]), kDipPerPipFlexion * posture[pip.dof] + kDipLeave),
@@ -196,33 +200,35 @@ Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimits& lim
   return start;
 }
 
-bool HandCloser::is_free(const HeldProduct& product, const DepthLimits& limits, Finger finger,
-                         const Posture& posture) const {
+bool HandCloser::is_free(const HeldProduct& product, const DepthLimits& limits, hand::Finger finger,
+                         const hand::Posture& posture) const {
   const SkinGroup& group = groups_[index_of(finger)][0];
-  const std::vector<DistanceSample> samples = look_at_skin(group, product, posture).sample;
-  return std::all_of(samples.begin(), samples.end(), [&](const DistanceSample& sample) {
+  const std::vector<geometry::DistanceSample> samples =
+      look_at_skin(group, product, posture).sample;
+  return std::all_of(samples.begin(), samples.end(), [&](const geometry::DistanceSample& sample) {
     return sample.distance > -kSharedLimit * limits.finger;
   });
 }
 
-Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& limits,
-                                 const ClosingStyle& style, Finger finger, Posture posture,
-                                 std::array<SegmentStop, kSegmentCount>& stops) const {
+hand::Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& limits,
+                                       const ClosingStyle& style, hand::Finger finger,
+                                       hand::Posture posture,
+                                       std::array<SegmentStop, hand::kSegmentCount>& stops) const {
   std::vector<Obstacle> palm;
   for (const RoundCone& cone : cones_.posed(hand_->skeleton, posture)) {
     if (cone.level == 0) palm.push_back({cone, kPalmGive});
   }
-  const auto segments = segments_of(finger);
+  const auto segments = hand::segments_of(finger);
   const auto stop_of = [&](std::size_t level) -> SegmentStop& {
     return stops[index_of(*segments[level])];
   };
-  const JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
-  const JointDof& pip = hand_->skeleton.dof(flexion_of(finger, 1));
-  const JointDof& dip = hand_->skeleton.dof(flexion_of(finger, 2));
+  const hand::JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
+  const hand::JointDof& pip = hand_->skeleton.dof(flexion_of(finger, 1));
+  const hand::JointDof& dip = hand_->skeleton.dof(flexion_of(finger, 2));
   const auto coupled = [&](double off) {
     return std::clamp(kDipPerPipFlexion * posture[pip.dof] + off, dip.lower, dip.upper);
   };
-  const auto advance = [&](std::size_t level, const Posture& to) {
+  const auto advance = [&](std::size_t level, const hand::Posture& to) {
     const SkinGroup& group = groups_[index_of(finger)][level];
     // A proximal phalanx can't meet the palm.
     const Advance way = advance_skin(
@@ -233,7 +239,7 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
     return way;
   };
   for (SegmentStop* stop : {&stop_of(0), &stop_of(1), &stop_of(2)}) stop->penetration = -kSkinRange;
-  Posture to = posture;
+  hand::Posture to = posture;
   to[mcp.dof] = style.hook ? std::clamp(*style.hook + kHookGive, mcp.lower, mcp.upper) : mcp.upper;
   const Advance first = advance(0, to);
   stop_of(0).penetration = first.deepest[0];
@@ -263,20 +269,21 @@ Posture HandCloser::close_finger(const HeldProduct& product, const DepthLimits& 
   return posture;
 }
 
-Posture HandCloser::reach_and_close(const HeldProduct& product, const DepthLimits& limits,
-                                    const ClosingStyle& style, Finger finger, const Posture& start,
-                                    std::array<SegmentStop, kSegmentCount>& stops) const {
+hand::Posture HandCloser::reach_and_close(
+    const HeldProduct& product, const DepthLimits& limits, const ClosingStyle& style,
+    hand::Finger finger, const hand::Posture& start,
+    std::array<SegmentStop, hand::kSegmentCount>& stops) const {
   if (style.hook) {
-    Posture straight = start;
-    const JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
+    hand::Posture straight = start;
+    const hand::JointDof& mcp = hand_->skeleton.dof(flexion_of(finger, 0));
     straight[mcp.dof] = std::clamp(*style.hook, mcp.lower, mcp.upper);
     return close_finger(product, limits, style, finger, straight, stops);
   }
   // Bent too much, the fingertip meets the product first and the rest hangs in the air.
   for (const double share : {kPreshape, 0.5 * kPreshape, 0.0}) {
-    const Posture shaped = preshaped(product, limits, finger, product.diameter, share, start);
-    const Posture closed = close_finger(product, limits, style, finger, shaped, stops);
-    const auto segments = segments_of(finger);
+    const hand::Posture shaped = preshaped(product, limits, finger, product.diameter, share, start);
+    const hand::Posture closed = close_finger(product, limits, style, finger, shaped, stops);
+    const auto segments = hand::segments_of(finger);
     const SegmentStop& proximal = stops[index_of(*segments[0])];
     if (share == 0.0 || proximal.reason != StopReason::kDistalStop || proximal.penetration > 0.0 ||
         stops[index_of(*segments[1])].penetration > 0.0) {
@@ -286,18 +293,18 @@ Posture HandCloser::reach_and_close(const HeldProduct& product, const DepthLimit
   return start;
 }
 
-Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits& limits,
-                                  const ClosingStyle& style, Posture start, int rounds,
-                                  std::array<SegmentStop, kSegmentCount>& stops) const {
-  Posture posture = start;
-  for (const Finger finger : kFingers) {
+hand::Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits& limits,
+                                        const ClosingStyle& style, hand::Posture start, int rounds,
+                                        std::array<SegmentStop, hand::kSegmentCount>& stops) const {
+  hand::Posture posture = start;
+  for (const hand::Finger finger : kFingers) {
     posture = reach_and_close(product, limits, style, finger, posture, stops);
   }
   for (int round = 0; round < rounds; ++round) {
     // Flexing fingers converge; where two would share space, spread them at the knuckle and close
     // again. The middle finger stays, the others give way outwards.
     const std::vector<RoundCone> cones = cones_.posed(hand_->skeleton, posture);
-    const auto crossing = [&](Finger a, Finger b) {
+    const auto crossing = [&](hand::Finger a, hand::Finger b) {
       double deepest = -kWidestGap;
       const double arm = 60.0;
       for (const RoundCone& p : cones) {
@@ -310,21 +317,21 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
       if (deepest > 0.5 * kNeighbourGive) return deepest / arm;
       return deepest < -kUsualGap && style.spread == 0.0 ? (deepest + kUsualGap) / arm : 0.0;
     };
-    const double index = crossing(Finger::kIndex, Finger::kMiddle);
-    const double ring = crossing(Finger::kMiddle, Finger::kRing);
-    const double little = crossing(Finger::kRing, Finger::kLittle);
+    const double index = crossing(hand::Finger::kIndex, hand::Finger::kMiddle);
+    const double ring = crossing(hand::Finger::kMiddle, hand::Finger::kRing);
+    const double little = crossing(hand::Finger::kRing, hand::Finger::kLittle);
     bool is_changed = false;
-    const auto spread = [&](Finger finger, double angle) {
+    const auto spread = [&](hand::Finger finger, double angle) {
       if (std::abs(angle) < kLeastSpread) return;
-      const JointDof& dof = hand_->skeleton.dof(abduction_of(finger));
+      const hand::JointDof& dof = hand_->skeleton.dof(abduction_of(finger));
       const double next = std::clamp(posture[dof.dof] + angle, dof.lower, dof.upper);
       if (std::abs(next - posture[dof.dof]) < 0.5 * kLeastSpread) return;
       is_changed = true;
       // A little open is enough to move aside, as a rule.
-      Posture aside = posture;
+      hand::Posture aside = posture;
       aside[dof.dof] = next;
       const auto open = [&](int level, double by) {
-        const JointDof& flexion = hand_->skeleton.dof(flexion_of(finger, level));
+        const hand::JointDof& flexion = hand_->skeleton.dof(flexion_of(finger, level));
         aside[flexion.dof] = std::max(flexion.lower, aside[flexion.dof] - by);
       };
       open(0, kReleaseMcp);
@@ -339,9 +346,9 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
       }
       posture = reach_and_close(product, limits, style, finger, aside, stops);
     };
-    spread(Finger::kIndex, index);
-    spread(Finger::kRing, -ring);
-    spread(Finger::kLittle, -ring - little);
+    spread(hand::Finger::kIndex, index);
+    spread(hand::Finger::kRing, -ring);
+    spread(hand::Finger::kLittle, -ring - little);
     if (!is_changed) break;
   }
   rest_idle_fingers(product, limits, posture);
@@ -350,21 +357,23 @@ Posture HandCloser::close_fingers(const HeldProduct& product, const DepthLimits&
 
 // A finger that meets nothing isn't clenched in the air: it goes with its neighbour.
 void HandCloser::rest_idle_fingers(const HeldProduct& product, const DepthLimits& limits,
-                                   Posture& posture) const {
-  const auto is_idle = [&](Finger finger) {
+                                   hand::Posture& posture) const {
+  const auto is_idle = [&](hand::Finger finger) {
     const SkinGroup& group = groups_[index_of(finger)][0];
-    const std::vector<DistanceSample> samples = look_at_skin(group, product, posture).sample;
-    return std::all_of(samples.begin(), samples.end(),
-                       [](const DistanceSample& sample) { return sample.distance > kIdleGap; });
+    const std::vector<geometry::DistanceSample> samples =
+        look_at_skin(group, product, posture).sample;
+    return std::all_of(samples.begin(), samples.end(), [](const geometry::DistanceSample& sample) {
+      return sample.distance > kIdleGap;
+    });
   };
-  using Pair = std::pair<Finger, Finger>;
-  for (const auto& [finger, neighbour] :
-       {Pair{Finger::kIndex, Finger::kMiddle}, Pair{Finger::kRing, Finger::kMiddle},
-        Pair{Finger::kLittle, Finger::kRing}}) {
+  using Pair = std::pair<hand::Finger, hand::Finger>;
+  for (const auto& [finger, neighbour] : {Pair{hand::Finger::kIndex, hand::Finger::kMiddle},
+                                          Pair{hand::Finger::kRing, hand::Finger::kMiddle},
+                                          Pair{hand::Finger::kLittle, hand::Finger::kRing}}) {
     if (!is_idle(finger)) continue;
-    Posture resting = posture;
+    hand::Posture resting = posture;
     for (int level = 0; level < 3; ++level) {
-      const JointDof& dof = hand_->skeleton.dof(flexion_of(finger, level));
+      const hand::JointDof& dof = hand_->skeleton.dof(flexion_of(finger, level));
       resting[dof.dof] =
           std::clamp(std::min(posture[dof.dof], posture[flexion_of(neighbour, level)] + kIdleMore),
                      dof.lower, dof.upper);
@@ -374,28 +383,28 @@ void HandCloser::rest_idle_fingers(const HeldProduct& product, const DepthLimits
 }
 
 double HandCloser::make_room(const HeldProduct& whole, const DepthLimits& limits,
-                             Posture& posture) const {
+                             hand::Posture& posture) const {
   double left = 0.0;
-  for (const Finger finger : kFingers) {
-    const auto depth_in = [&](const Posture& at) {
+  for (const hand::Finger finger : kFingers) {
+    const auto depth_in = [&](const hand::Posture& at) {
       const SkinLook look = look_at_skin(groups_[index_of(finger)][0], whole, at);
       double deepest = 0.0;
-      for (const DistanceSample& sample : look.sample) {
+      for (const geometry::DistanceSample& sample : look.sample) {
         deepest = std::max(deepest, -sample.distance - limits.finger);
       }
       return deepest;
     };
     double depth = depth_in(posture);
     for (int round = 0; round < kRoomRounds && depth > 0.0; ++round) {
-      Posture best = posture;
+      hand::Posture best = posture;
       double least = depth;
       for (const int level : {0, 1}) {
         for (const double by : {kRoomStep, -kRoomStep}) {
-          Posture next = posture;
-          const JointDof& dof = hand_->skeleton.dof(flexion_of(finger, level));
+          hand::Posture next = posture;
+          const hand::JointDof& dof = hand_->skeleton.dof(flexion_of(finger, level));
           next[dof.dof] = std::clamp(next[dof.dof] + by, dof.lower, dof.upper);
           if (level == 1) {
-            const JointDof& dip = hand_->skeleton.dof(flexion_of(finger, 2));
+            const hand::JointDof& dip = hand_->skeleton.dof(flexion_of(finger, 2));
             next[dip.dof] =
                 std::clamp(next[dip.dof] + kDipPerPipFlexion * by, dip.lower, dip.upper);
           }
@@ -414,10 +423,11 @@ double HandCloser::make_room(const HeldProduct& whole, const DepthLimits& limits
   return left;
 }
 
-std::array<double, kSegmentCount> HandCloser::depths(const HeldProduct& product,
-                                                     const Posture& posture) const {
-  const std::vector<DistanceSample> samples = look_at_skin(palm_, product, posture).sample;
-  std::array<double, kSegmentCount> depth;
+std::array<double, hand::kSegmentCount> HandCloser::depths(const HeldProduct& product,
+                                                           const hand::Posture& posture) const {
+  const std::vector<geometry::DistanceSample> samples =
+      look_at_skin(palm_, product, posture).sample;
+  std::array<double, hand::kSegmentCount> depth;
   depth.fill(-kSkinRange);
   for (std::size_t k = 0; k < samples.size(); ++k) {
     double& deepest = depth[index_of(palm_.segment[k])];
@@ -427,9 +437,9 @@ std::array<double, kSegmentCount> HandCloser::depths(const HeldProduct& product,
 }
 
 HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& limits,
-                                const Posture& posture, const Vec3& axis_in_hand) const {
+                                const hand::Posture& posture, const Vec3& axis_in_hand) const {
   const SkinLook look = look_at_skin(all_, product, posture);
-  const std::vector<DistanceSample>& samples = look.sample;
+  const std::vector<geometry::DistanceSample>& samples = look.sample;
   HoldMeasure measure;
   measure.penetration.fill(-kSkinRange);
   const Vec3 u = axis_in_hand.unitOrthogonal();
@@ -446,10 +456,11 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& l
     deepest = std::max(deepest, depth);
     if (depth <= 0.0) continue;
     // Skin gives way beside the deepest place: as under a ball, about half of the overlap stays.
-    const double limit = all_.segment[k] == Segment::kPalm ? limits.palm : limits.finger;
+    const double limit = all_.segment[k] == hand::Segment::kPalm ? limits.palm : limits.finger;
     const double share = std::clamp((depth / limit - kLeastShare) / kShareRange, 0.0, 1.0);
     measure.contact_area += share * all_.area[k];
-    if (finger_of(all_.segment[k]) == Finger::kThumb || all_.region[k] == Region::kThenar) {
+    if (hand::finger_of(all_.segment[k]) == hand::Finger::kThumb ||
+        all_.region[k] == hand::Region::kThenar) {
       measure.thumb_area += share * all_.area[k];
     }
     const Vec3 normal = product.product_from_hand.rotation.conjugate() * samples[k].normal;
@@ -457,12 +468,12 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& l
       turns.push_back(std::atan2(v.dot(normal), u.dot(normal)));
     }
   }
-  std::array<bool, kFingerCount> touches{};
+  std::array<bool, hand::kFingerCount> touches{};
   for (std::size_t s = 1; s < measure.penetration.size(); ++s) {
     measure.touching += std::clamp(0.25 * (measure.penetration[s] + 3.0), 0.0, 1.0);
     if (measure.penetration[s] <= 0.0) continue;
     ++measure.segments;
-    touches[index_of(*finger_of(static_cast<Segment>(s)))] = true;
+    touches[index_of(*hand::finger_of(static_cast<hand::Segment>(s)))] = true;
   }
   for (const bool t : touches) measure.fingers += t ? 1 : 0;
   if (!turns.empty()) {
@@ -476,4 +487,4 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& l
   return measure;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

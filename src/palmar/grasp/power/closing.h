@@ -14,7 +14,7 @@
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/grasp/power/thumb_closing.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// What a posed hand and a product do to each other, before skin gives way.
 struct HoldMeasure {
@@ -25,7 +25,8 @@ struct HoldMeasure {
   int segments = 0;            ///< phalanges whose palmar skin touches
   double touching = 0.0;       ///< the same without steps: from 0 to 1 each over 4 mm of approach
   int fingers = 0;             ///< fingers (thumb included) with such a segment
-  std::array<double, kSegmentCount> penetration{};  ///< deepest palmar skin, mm; negative: gap
+  std::array<double, hand::kSegmentCount>
+      penetration{};  ///< deepest palmar skin, mm; negative: gap
   double wrap = 0.0;  ///< share of a turn about the grip axis between the outermost contacts
 };
 
@@ -53,14 +54,14 @@ struct ClosingStyle {
 class HandCloser {
  public:
   /// Looks at skin vertices `spacing` [mm] apart (0: at all of them). Keeps a pointer to `hand`.
-  HandCloser(const Hand& hand, double spacing);
+  HandCloser(const hand::Hand& hand, double spacing);
   HandCloser(const HandCloser&) = delete;
   HandCloser& operator=(const HandCloser&) = delete;
 
-  const Hand& hand() const { return *hand_; }
+  const hand::Hand& hand() const { return *hand_; }
 
   /// Fingers straight and a little spread, thumb out to the side.
-  const Posture& open_posture() const { return open_posture_; }
+  const hand::Posture& open_posture() const { return open_posture_; }
 
   /// Largest travel [mm] of the product along `direction` (unit, hand frame) before palmar skin
   /// reaches a limit, the hand open. Phalanges hold back a part of theirs, to be used in closing;
@@ -71,46 +72,49 @@ class HandCloser {
   /// Closes the four fingers; the thumb stays as in `start`. Fingers begin with the abduction that
   /// `start` gives them and are then spread or drawn together up to `rounds` times, until they lie
   /// side by side. `stops` says what stopped them.
-  Posture close_fingers(const HeldProduct& product, const DepthLimits& limits,
-                        const ClosingStyle& style, Posture start, int rounds,
-                        std::array<SegmentStop, kSegmentCount>& stops) const;
+  hand::Posture close_fingers(const HeldProduct& product, const DepthLimits& limits,
+                              const ClosingStyle& style, hand::Posture start, int rounds,
+                              std::array<SegmentStop, hand::kSegmentCount>& stops) const;
   /// The posture from which close_fingers() starts: open, fanned out as the style says.
-  Posture start_posture(const ClosingStyle& style) const;
+  hand::Posture start_posture(const ClosingStyle& style) const;
 
   const ThumbCloser& thumb() const { return *thumb_; }
 
   /// Fingers that were closed on a part of the product alone go out of the way of the whole of it,
   /// back and sides included, until no skin is deeper than a finger's limit. How much deeper some
   /// still is, mm.
-  double make_room(const HeldProduct& whole, const DepthLimits& limits, Posture& posture) const;
+  double make_room(const HeldProduct& whole, const DepthLimits& limits,
+                   hand::Posture& posture) const;
 
   /// HoldMeasure::penetration alone.
-  std::array<double, kSegmentCount> depths(const HeldProduct& product,
-                                           const Posture& posture) const;
+  std::array<double, hand::kSegmentCount> depths(const HeldProduct& product,
+                                                 const hand::Posture& posture) const;
   /// Contact and penetrations in a posture. `axis_in_hand`: grip axis, unit.
-  HoldMeasure measure(const HeldProduct& product, const DepthLimits& limits, const Posture& posture,
-                      const Vec3& axis_in_hand) const;
+  HoldMeasure measure(const HeldProduct& product, const DepthLimits& limits,
+                      const hand::Posture& posture, const Vec3& axis_in_hand) const;
 
  private:
   /// Fingers reach out already bent to the handle's curvature, as far as it is out of the way.
-  Posture preshaped(const HeldProduct& product, const DepthLimits& limits, Finger finger,
-                    double diameter, double share, const Posture& start) const;
-  bool is_free(const HeldProduct& product, const DepthLimits& limits, Finger finger,
-               const Posture& posture) const;
+  hand::Posture preshaped(const HeldProduct& product, const DepthLimits& limits,
+                          hand::Finger finger, double diameter, double share,
+                          const hand::Posture& start) const;
+  bool is_free(const HeldProduct& product, const DepthLimits& limits, hand::Finger finger,
+               const hand::Posture& posture) const;
   /// Reaches out and closes; several tries if the tip meets the product too early.
-  Posture reach_and_close(const HeldProduct& product, const DepthLimits& limits,
-                          const ClosingStyle& style, Finger finger, const Posture& start,
-                          std::array<SegmentStop, kSegmentCount>& stops) const;
-  Posture close_finger(const HeldProduct& product, const DepthLimits& limits,
-                       const ClosingStyle& style, Finger finger, Posture posture,
-                       std::array<SegmentStop, kSegmentCount>& stops) const;
+  hand::Posture reach_and_close(const HeldProduct& product, const DepthLimits& limits,
+                                const ClosingStyle& style, hand::Finger finger,
+                                const hand::Posture& start,
+                                std::array<SegmentStop, hand::kSegmentCount>& stops) const;
+  hand::Posture close_finger(const HeldProduct& product, const DepthLimits& limits,
+                             const ClosingStyle& style, hand::Finger finger, hand::Posture posture,
+                             std::array<SegmentStop, hand::kSegmentCount>& stops) const;
 
   void rest_idle_fingers(const HeldProduct& product, const DepthLimits& limits,
-                         Posture& posture) const;
+                         hand::Posture& posture) const;
 
-  const Hand* hand_;
+  const hand::Hand* hand_;
   AdvanceCare care_;
-  Posture open_posture_;
+  hand::Posture open_posture_;
   DigitGroups groups_, sparse_;
   SkinGroup palm_;  ///< palmar skin of the whole hand
   SkinGroup all_;
@@ -120,7 +124,11 @@ class HandCloser {
 };
 
 /// Range of one degree of freedom.
-inline double lower_of(const Hand& hand, Dof dof) { return hand.skeleton.dof(dof).lower; }
-inline double upper_of(const Hand& hand, Dof dof) { return hand.skeleton.dof(dof).upper; }
+inline double lower_of(const hand::Hand& hand, hand::Dof dof) {
+  return hand.skeleton.dof(dof).lower;
+}
+inline double upper_of(const hand::Hand& hand, hand::Dof dof) {
+  return hand.skeleton.dof(dof).upper;
+}
 
-}  // namespace palmar
+}  // namespace palmar::grasp

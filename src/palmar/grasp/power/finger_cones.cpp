@@ -7,7 +7,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 double radius_at(const RoundCone& cone, double t) {
@@ -15,7 +15,7 @@ double radius_at(const RoundCone& cone, double t) {
 }
 
 // Mean distance of the skin of a part from its line, in the half towards a and that towards b.
-void fit_radii(const Hand& hand, const std::vector<char>& belongs, RoundCone& cone) {
+void fit_radii(const hand::Hand& hand, const std::vector<char>& belongs, RoundCone& cone) {
   double sum[2] = {0.0, 0.0};
   int count[2] = {0, 0};
   const Vec3 along = cone.b - cone.a;
@@ -62,23 +62,25 @@ ConeContact contact_of(const RoundCone& p, const RoundCone& q) {
 
 double overlap(const RoundCone& p, const RoundCone& q) { return contact_of(p, q).overlap; }
 
-FingerCones::FingerCones(const Hand& hand) {
-  const Skeleton& skeleton = hand.skeleton;
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
-    const auto segments = segments_of(finger);
-    const bool is_thumb = finger == Finger::kThumb;
-    const Vec3 base = skeleton.joint(joint_of(*segments[0])).centre;
+FingerCones::FingerCones(const hand::Hand& hand) {
+  const hand::Skeleton& skeleton = hand.skeleton;
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
+    const auto segments = hand::segments_of(finger);
+    const bool is_thumb = finger == hand::Finger::kThumb;
+    const Vec3 base = skeleton.joint(hand::joint_of(*segments[0])).centre;
 
     Part metacarpal;
     metacarpal.cone.finger = finger;
     // A carpus stands between the wrist and the finger metacarpals: start a third of the way up.
-    metacarpal.cone.a = is_thumb ? skeleton.joint(JointId::kThumbCmc).centre : Vec3(base * 0.33);
+    metacarpal.cone.a =
+        is_thumb ? skeleton.joint(hand::JointId::kThumbCmc).centre : Vec3(base * 0.33);
     metacarpal.cone.b = base;
     std::vector<char> belongs(hand.skin.vertices.size(), 0);
     const Vec3 along = base - metacarpal.cone.a;
     for (std::size_t v = 0; v < belongs.size(); ++v) {
-      if (hand.segment[v] != Segment::kPalm || hand.region[v] == Region::kDorsum) continue;
+      if (hand.segment[v] != hand::Segment::kPalm || hand.region[v] == hand::Region::kDorsum)
+        continue;
       const Vec3 r = hand.skin.vertices[v] - metacarpal.cone.a;
       const double t = along.dot(r) / along.squaredNorm();
       const Vec3 across = r - t * along;
@@ -89,15 +91,15 @@ FingerCones::FingerCones(const Hand& hand) {
     parts_.push_back(metacarpal);
 
     for (int level = 0; level < 3 && segments[level]; ++level) {
-      const Segment segment = *segments[level];
+      const hand::Segment segment = *segments[level];
       Part part;
       part.segment = segment;
       part.cone.finger = finger;
       part.cone.level = level + 1;
-      part.cone.a = skeleton.joint(joint_of(segment)).centre;
+      part.cone.a = skeleton.joint(hand::joint_of(segment)).centre;
       const bool is_last = level == 2 || !segments[level + 1];
-      part.cone.b =
-          is_last ? skeleton.fingertips[f] : skeleton.joint(joint_of(*segments[level + 1])).centre;
+      part.cone.b = is_last ? skeleton.fingertips[f]
+                            : skeleton.joint(hand::joint_of(*segments[level + 1])).centre;
       for (std::size_t v = 0; v < belongs.size(); ++v) {
         belongs[v] = hand.segment[v] == segment ? 1 : 0;
       }
@@ -112,16 +114,17 @@ FingerCones::FingerCones(const Hand& hand) {
   }
 }
 
-std::vector<RoundCone> FingerCones::posed(const Skeleton& skeleton, const Posture& posture) const {
-  const PosedSkeleton pose = pose_skeleton(skeleton, posture);
+std::vector<RoundCone> FingerCones::posed(const hand::Skeleton& skeleton,
+                                          const hand::Posture& posture) const {
+  const hand::PosedSkeleton pose = hand::pose_skeleton(skeleton, posture);
   std::vector<RoundCone> cones;
   cones.reserve(parts_.size());
   for (const Part& part : parts_) {
     RoundCone cone = part.cone;
-    Rigid3 moved;
+    geometry::Rigid3 moved;
     if (part.segment) {
       moved = pose.segment[index_of(*part.segment)];
-    } else if (cone.finger == Finger::kThumb) {
+    } else if (cone.finger == hand::Finger::kThumb) {
       moved = pose.thumb_metacarpal;
     }
     cone.a = moved * cone.a;
@@ -131,4 +134,4 @@ std::vector<RoundCone> FingerCones::posed(const Skeleton& skeleton, const Postur
   return cones;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

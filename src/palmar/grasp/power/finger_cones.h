@@ -7,14 +7,14 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A finger bone with the flesh round it: a cone with round ends from a to b, radius linear
 /// between. Hand frame, mm.
 struct RoundCone {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
   double radius_a = 0.0, radius_b = 0.0;
-  Finger finger = Finger::kThumb;
+  hand::Finger finger = hand::Finger::kThumb;
   int level = 0;  ///< 0 metacarpal, 1 proximal, 2 middle, 3 distal phalanx (thumb: 0, 1, 2)
 };
 
@@ -45,17 +45,17 @@ ConeContact contact_of(const RoundCone& p, const RoundCone& q);
 /// crossing each other at every step. Radii are the mean distance of the skin from the bone line.
 class FingerCones {
  public:
-  explicit FingerCones(const Hand& hand);
+  explicit FingerCones(const hand::Hand& hand);
 
   /// All cones in a posture, finger by finger from the metacarpal outwards.
-  std::vector<RoundCone> posed(const Skeleton& skeleton, const Posture& posture) const;
+  std::vector<RoundCone> posed(const hand::Skeleton& skeleton, const hand::Posture& posture) const;
 
  private:
   struct Part {
     RoundCone cone;
-    std::optional<Segment> segment;  ///< phalanx that carries it; a metacarpal otherwise
+    std::optional<hand::Segment> segment;  ///< phalanx that carries it; a metacarpal otherwise
   };
   std::vector<Part> parts_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

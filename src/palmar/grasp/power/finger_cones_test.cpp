@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 RoundCone cone(const Vec3& a, const Vec3& b, double radius_a, double radius_b) {
@@ -41,4 +41,4 @@ TEST(RoundCone, CrossingConesOverlapAtTheCrossing) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,7 +6,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 Vec3 rotation_vector(const Quat& q) {
@@ -31,7 +31,7 @@ Eigen::Matrix3d left_jacobian(const Vec3& w) {
 }
 
 // s of cmc_share() per radian, on the side where the joint stands.
-double share_rate(const JointDof& dof, double share) {
+double share_rate(const hand::JointDof& dof, double share) {
   const double up = dof.upper - dof.reference, down = dof.reference - dof.lower;
   const bool is_up = share > 0.0 || (share == 0.0 && up >= down);
   const double limit = is_up ? up : down;
@@ -39,8 +39,8 @@ double share_rate(const JointDof& dof, double share) {
 }
 
 // s_fe and s_aa carry their sign; past zero the other limit posture takes over with |s|.
-const CmcLimit& limit_of(const CmcLimit& up, const CmcLimit& down, const JointDof& dof,
-                         double share) {
+const hand::CmcLimit& limit_of(const hand::CmcLimit& up, const hand::CmcLimit& down,
+                               const hand::JointDof& dof, double share) {
   const bool is_up =
       share > 0.0 || (share == 0.0 && dof.upper - dof.reference >= dof.reference - dof.lower);
   return is_up ? up : down;
@@ -48,42 +48,42 @@ const CmcLimit& limit_of(const CmcLimit& up, const CmcLimit& down, const JointDo
 
 }  // namespace
 
-FingerMotion::FingerMotion(const Skeleton& skeleton, const Posture& posture)
-    : posed_(pose_skeleton(skeleton, posture)) {
+FingerMotion::FingerMotion(const hand::Skeleton& skeleton, const hand::Posture& posture)
+    : posed_(hand::pose_skeleton(skeleton, posture)) {
   // q = exp(|s_fe| log q_fe + |s_aa| log q_aa), t = |s_fe| t_fe + |s_aa| t_aa about the centre c.
-  const CmcShare share = cmc_share(skeleton, posture);
-  const JointDof& fe_dof = skeleton.dof(Dof::kThumbCmcFlexion);
-  const JointDof& aa_dof = skeleton.dof(Dof::kThumbCmcAbduction);
-  const ThumbCmc& cmc = skeleton.thumb_cmc;
-  const CmcLimit& fe = limit_of(cmc.flexion, cmc.extension, fe_dof, share.s_fe);
-  const CmcLimit& aa = limit_of(cmc.abduction, cmc.adduction, aa_dof, share.s_aa);
+  const hand::CmcShare share = hand::cmc_share(skeleton, posture);
+  const hand::JointDof& fe_dof = skeleton.dof(hand::Dof::kThumbCmcFlexion);
+  const hand::JointDof& aa_dof = skeleton.dof(hand::Dof::kThumbCmcAbduction);
+  const hand::ThumbCmc& cmc = skeleton.thumb_cmc;
+  const hand::CmcLimit& fe = limit_of(cmc.flexion, cmc.extension, fe_dof, share.s_fe);
+  const hand::CmcLimit& aa = limit_of(cmc.abduction, cmc.adduction, aa_dof, share.s_aa);
   const double fe_sign = &fe == &cmc.flexion ? 1.0 : -1.0;
   const double aa_sign = &aa == &cmc.abduction ? 1.0 : -1.0;
   const Vec3 log_fe = fe_sign * rotation_vector(fe.q), t_fe = fe_sign * fe.t;
   const Vec3 log_aa = aa_sign * rotation_vector(aa.q), t_aa = aa_sign * aa.t;
   const Eigen::Matrix3d jacobian = left_jacobian(share.s_fe * log_fe + share.s_aa * log_aa);
   const Vec3 centre =
-      skeleton.joint(JointId::kThumbCmc).centre + share.s_fe * t_fe + share.s_aa * t_aa;
+      skeleton.joint(hand::JointId::kThumbCmc).centre + share.s_fe * t_fe + share.s_aa * t_aa;
   const double fe_rate = share_rate(fe_dof, share.s_fe);
   const double aa_rate = share_rate(aa_dof, share.s_aa);
-  cmc_ = {{Dof::kThumbCmcFlexion, fe_rate * (jacobian * log_fe), centre, fe_rate * t_fe},
-          {Dof::kThumbCmcAbduction, aa_rate * (jacobian * log_aa), centre, aa_rate * t_aa}};
+  cmc_ = {{hand::Dof::kThumbCmcFlexion, fe_rate * (jacobian * log_fe), centre, fe_rate * t_fe},
+          {hand::Dof::kThumbCmcAbduction, aa_rate * (jacobian * log_aa), centre, aa_rate * t_aa}};
 
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
-    const bool is_thumb = finger == Finger::kThumb;
-    Rigid3 proximal = is_thumb ? posed_.thumb_metacarpal : Rigid3{};
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
+    const bool is_thumb = finger == hand::Finger::kThumb;
+    geometry::Rigid3 proximal = is_thumb ? posed_.thumb_metacarpal : geometry::Rigid3{};
     std::vector<DofMotion> chain = is_thumb ? cmc_ : std::vector<DofMotion>{};
-    for (const std::optional<Segment>& segment : segments_of(finger)) {
+    for (const std::optional<hand::Segment>& segment : hand::segments_of(finger)) {
       if (!segment) continue;
       // A joint's first axis is turned by its later ones: b_from_a = T_n ... T_2 T_1.
-      const Joint& joint = skeleton.joint(joint_of(*segment));
-      Rigid3 outer = proximal;
+      const hand::Joint& joint = skeleton.joint(hand::joint_of(*segment));
+      geometry::Rigid3 outer = proximal;
       std::vector<DofMotion> own;
       for (auto dof = joint.dofs.rbegin(); dof != joint.dofs.rend(); ++dof) {
         own.push_back({dof->dof, outer.rotation * dof->axis, outer * dof->centre, Vec3::Zero()});
-        outer =
-            outer * Rigid3::about_axis(dof->axis, dof->centre, posture[dof->dof] - dof->reference);
+        outer = outer * geometry::Rigid3::about_axis(dof->axis, dof->centre,
+                                                     posture[dof->dof] - dof->reference);
       }
       chain.insert(chain.end(), own.begin(), own.end());
       moving_[index_of(*segment)] = chain;
@@ -92,4 +92,4 @@ FingerMotion::FingerMotion(const Skeleton& skeleton, const Posture& posture)
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

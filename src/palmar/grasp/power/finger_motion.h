@@ -8,7 +8,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// What one degree of freedom does to everything it moves, in one posture: a point x of a part that
 /// it moves goes, per radian,
@@ -17,7 +17,7 @@ namespace palmar {
 ///
 /// and a direction n goes dn = turn x n. Hand frame; mm, rad.
 struct DofMotion {
-  Dof dof{};
+  hand::Dof dof{};
   Vec3 turn = Vec3::Zero();
   Vec3 centre = Vec3::Zero();
   Vec3 slide = Vec3::Zero();  ///< mm/rad; of the thumb's CMC joint only
@@ -31,18 +31,20 @@ struct DofMotion {
 /// posture changes (Xie 2014, eq. 2-5), that of the side on which the range of motion is wider.
 class FingerMotion {
  public:
-  FingerMotion(const Skeleton& skeleton, const Posture& posture);
+  FingerMotion(const hand::Skeleton& skeleton, const hand::Posture& posture);
 
-  const PosedSkeleton& posed() const { return posed_; }
+  const hand::PosedSkeleton& posed() const { return posed_; }
   /// Those that move a phalanx, from the palm outwards.
-  const std::vector<DofMotion>& moving(Segment phalanx) const { return moving_[index_of(phalanx)]; }
+  const std::vector<DofMotion>& moving(hand::Segment phalanx) const {
+    return moving_[index_of(phalanx)];
+  }
   /// Those that move the thumb's metacarpal.
   const std::vector<DofMotion>& moving_thumb_metacarpal() const { return cmc_; }
 
  private:
-  PosedSkeleton posed_;
-  std::array<std::vector<DofMotion>, kSegmentCount> moving_;
+  hand::PosedSkeleton posed_;
+  std::array<std::vector<DofMotion>, hand::kSegmentCount> moving_;
   std::vector<DofMotion> cmc_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

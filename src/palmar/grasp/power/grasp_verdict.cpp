@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 // 30 degrees of friction angle is a coefficient of 0.58, ordinary for dry skin.
@@ -17,13 +17,13 @@ constexpr double kLargeGirth = 1.0;       // hand lengths; what a hand spans fro
 constexpr double kSheetWidth = 5.0;       // finger limit depths; wider is a sheet, not a wire
 constexpr double kAtLimitDepth = 0.1;     // mm; that near to the limit depth counts as there
 
-std::string words_of(Segment segment) {
+std::string words_of(hand::Segment segment) {
   static constexpr std::array<const char*, 3> kPart = {"base", "middle part", "tip"};
-  const Finger finger = *finger_of(segment);
-  const auto segments = segments_of(finger);
+  const hand::Finger finger = *hand::finger_of(segment);
+  const auto segments = hand::segments_of(finger);
   std::size_t level = 0;
   while (segments[level] != segment) ++level;
-  if (finger == Finger::kThumb) return std::string("the thumb's ") + kPart[2 * level];
+  if (finger == hand::Finger::kThumb) return std::string("the thumb's ") + kPart[2 * level];
   return std::string("the ") + kPart[level] + " of the " + std::string(name_of(finger)) + " finger";
 }
 
@@ -31,7 +31,7 @@ std::string words_of(Segment segment) {
 std::string open_segments(const Grasp& grasp) {
   std::vector<std::string> list;
   for (std::size_t s = 1; s < grasp.stops.size(); ++s) {
-    const bool is_thumb = finger_of(grasp.stops[s].segment) == Finger::kThumb;
+    const bool is_thumb = hand::finger_of(grasp.stops[s].segment) == hand::Finger::kThumb;
     if (is_thumb && grasp.grip == Grip::kFixedHook) continue;  // takes no part
     if (grasp.stops[s].penetration <= 0.0) list.push_back(words_of(grasp.stops[s].segment));
   }
@@ -53,13 +53,13 @@ std::string count_words(int fingers) {
 }  // namespace
 
 void finish_stops(const HoldMeasure& measure, const DepthLimits& limits, Grasp& grasp) {
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const auto segment = static_cast<Segment>(s);
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    const auto segment = static_cast<hand::Segment>(s);
     SegmentStop& stop = grasp.stops[s];
     stop.segment = segment;
     stop.penetration = measure.penetration[s];
-    const double limit = segment == Segment::kPalm ? limits.palm : limits.finger;
-    if (segment == Segment::kPalm) {
+    const double limit = segment == hand::Segment::kPalm ? limits.palm : limits.finger;
+    if (segment == hand::Segment::kPalm) {
       stop.reason = stop.penetration > limit - kAtLimitDepth ? StopReason::kLimitDepth
                     : stop.penetration > 0.0                 ? StopReason::kDistalStop
                                                              : StopReason::kNotReached;
@@ -76,7 +76,8 @@ void finish_stops(const HoldMeasure& measure, const DepthLimits& limits, Grasp& 
   }
 }
 
-void judge_hold(const Hand& hand, const HoldMeasure& measure, const GripSite& site, Grasp& grasp) {
+void judge_hold(const hand::Hand& hand, const HoldMeasure& measure, const GripSite& site,
+                Grasp& grasp) {
   const std::string open = open_segments(grasp);
   const std::string girth = fmt::format("its girth at the grip is {:.0f} mm", site.girth);
   if (measure.wrap < kHalfRound && site.girth > kLargeGirth * hand.dimensions.hand_length) {
@@ -117,4 +118,4 @@ bool is_out_of_reach(const GripSite& site, const PowerGraspOptions& options, Gra
   return true;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

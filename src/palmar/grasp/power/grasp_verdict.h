@@ -6,7 +6,7 @@
 #include "palmar/grasp/power/closing.h"
 #include "palmar/grasp/power/grip_axis.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// What stopped every segment once the hand is closed, from `measure` and the reasons that closing
 /// left in grasp.stops.
@@ -14,10 +14,11 @@ void finish_stops(const HoldMeasure& measure, const DepthLimits& limits, Grasp& 
 
 /// Status and message of a closed hand: contacts hold from opposite sides if no gap between them
 /// round the axis exceeds half a turn by more than two friction angles of 30 degrees.
-void judge_hold(const Hand& hand, const HoldMeasure& measure, const GripSite& site, Grasp& grasp);
+void judge_hold(const hand::Hand& hand, const HoldMeasure& measure, const GripSite& site,
+                Grasp& grasp);
 
 /// Status and message of a shape that skin can't be closed on, reported before trying. False: it
 /// can.
 bool is_out_of_reach(const GripSite& site, const PowerGraspOptions& options, Grasp& grasp);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -11,7 +11,7 @@
 
 #include "palmar/grasp/power/section_stack.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kLargestTaper = 0.6;  // radius per length; a steeper cone slips out
@@ -208,7 +208,7 @@ std::optional<Window> best_window(const Bar& bar, double spacing, const Vec3& ax
   return best;
 }
 
-double spacing_for(const TriangleMesh& mesh, const Vec3& axis) {
+double spacing_for(const geometry::TriangleMesh& mesh, const Vec3& axis) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const Vec3& v : mesh.vertices) {
@@ -225,8 +225,8 @@ struct Straightened {
   Vec3 axis;
 };
 
-Straightened straighten(const TriangleMesh& mesh, Window window, Vec3 axis, const Vec3& gravity,
-                        const GripSearchOptions& options) {
+Straightened straighten(const geometry::TriangleMesh& mesh, Window window, Vec3 axis,
+                        const Vec3& gravity, const GripSearchOptions& options) {
   for (int round = 0; round < kRefinements; ++round) {
     const Vec3 next = options.axis ? *options.axis : window.direction;
     const double spacing = spacing_for(mesh, next);
@@ -247,7 +247,7 @@ Straightened straighten(const TriangleMesh& mesh, Window window, Vec3 axis, cons
 }
 
 // Third moment of the surface about a point along a direction: a sign that turns with the product.
-double third_moment(const TriangleMesh& mesh, const Vec3& point, const Vec3& direction) {
+double third_moment(const geometry::TriangleMesh& mesh, const Vec3& point, const Vec3& direction) {
   double moment = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const Vec3& a = mesh.vertices[t[0]];
@@ -259,7 +259,7 @@ double third_moment(const TriangleMesh& mesh, const Vec3& point, const Vec3& dir
   return moment;
 }
 
-std::vector<Vec3> directions(const TriangleMesh& mesh, const PrincipalFrame& frame) {
+std::vector<Vec3> directions(const geometry::TriangleMesh& mesh, const PrincipalFrame& frame) {
   // A mirrored product must be looked at from mirrored directions: the third axis has its own sign.
   Eigen::Matrix3d axes = frame.axes;
   if (third_moment(mesh, frame.centre, axes.col(2)) < 0.0) axes.col(2) = -axes.col(2);
@@ -274,7 +274,7 @@ std::vector<Vec3> directions(const TriangleMesh& mesh, const PrincipalFrame& fra
 }
 
 // Mean distance of the surface from the axis beyond the site less that on the other side, mm.
-double flare_of(const TriangleMesh& mesh, const GripSite& site) {
+double flare_of(const geometry::TriangleMesh& mesh, const GripSite& site) {
   std::array<double, 2> moment = {0.0, 0.0}, area = {0.0, 0.0};
   for (const Triangle& t : mesh.triangles) {
     const Vec3& a = mesh.vertices[t[0]];
@@ -292,7 +292,7 @@ double flare_of(const TriangleMesh& mesh, const GripSite& site) {
 }
 
 // Turns the axis to the working end and finds where that end sticks out.
-void find_working_end(const TriangleMesh& mesh, const Vec3& gravity, double palm_breadth,
+void find_working_end(const geometry::TriangleMesh& mesh, const Vec3& gravity, double palm_breadth,
                       bool is_fixed, GripSite& site) {
   double low = 0.0, high = 0.0;
   for (const Vec3& v : mesh.vertices) {
@@ -334,7 +334,7 @@ void find_working_end(const TriangleMesh& mesh, const Vec3& gravity, double palm
 
 }  // namespace
 
-PrincipalFrame principal_frame(const TriangleMesh& mesh) {
+PrincipalFrame principal_frame(const geometry::TriangleMesh& mesh) {
   PrincipalFrame frame;
   if (mesh.triangles.empty()) return frame;
   Vec3 surface_moment = Vec3::Zero(), volume_moment = Vec3::Zero();
@@ -382,7 +382,8 @@ PrincipalFrame principal_frame(const TriangleMesh& mesh) {
   return frame;
 }
 
-std::vector<GripSite> find_grip_sites(const TriangleMesh& mesh, const GripSearchOptions& options) {
+std::vector<GripSite> find_grip_sites(const geometry::TriangleMesh& mesh,
+                                      const GripSearchOptions& options) {
   if (mesh.triangles.empty()) return {};
   const PrincipalFrame frame = principal_frame(mesh);
   struct Candidate {
@@ -445,4 +446,4 @@ std::vector<GripSite> find_grip_sites(const TriangleMesh& mesh, const GripSearch
   return sites;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

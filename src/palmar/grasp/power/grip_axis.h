@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 // Kong & Lowe 2005 (Int J Industrial Ergonomics 35:495-507): handles of 19.7 % of hand length are
 // the most comfortable. How much worse others are was measured for some diameters only; the
@@ -55,7 +55,7 @@ struct GripSearchOptions {
 ///                head) far from it
 ///
 /// The axis points to the side on which more of the product lies beyond the hand.
-std::vector<GripSite> find_grip_sites(const TriangleMesh& mesh,
+std::vector<GripSite> find_grip_sites(const geometry::TriangleMesh& mesh,
                                       const GripSearchOptions& options = {});
 
 /// Principal frame of a mesh's surface: columns of a right-handed rotation, largest spread first,
@@ -64,6 +64,6 @@ struct PrincipalFrame {
   Vec3 centre = Vec3::Zero();  ///< of gravity of the enclosed volume (of the surface if open), mm
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
-PrincipalFrame principal_frame(const TriangleMesh& mesh);
+PrincipalFrame principal_frame(const geometry::TriangleMesh& mesh);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

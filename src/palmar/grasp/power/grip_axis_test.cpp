@@ -11,7 +11,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/grasp/power/section_stack.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 // Bar of elliptic section about a bent or straight centre line; closed by flat caps.
@@ -21,9 +21,9 @@ struct Ring {
   double half_thickness = 10.0;  // along z
 };
 
-TriangleMesh bar(const std::vector<Ring>& rings) {
+geometry::TriangleMesh bar(const std::vector<Ring>& rings) {
   constexpr int kSides = 48;
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (const Ring& ring : rings) {
     for (int i = 0; i < kSides; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / kSides;
@@ -50,7 +50,7 @@ TriangleMesh bar(const std::vector<Ring>& rings) {
   return mesh;
 }
 
-TriangleMesh straight_bar(double length, double half_width, double half_thickness) {
+geometry::TriangleMesh straight_bar(double length, double half_width, double half_thickness) {
   std::vector<Ring> rings;
   for (double x = -0.5 * length; x <= 0.5 * length + 1e-9; x += length / 50.0) {
     rings.push_back({{x, 0.0, 0.0}, half_width, half_thickness});
@@ -59,9 +59,9 @@ TriangleMesh straight_bar(double length, double half_width, double half_thicknes
 }
 
 // A handle of 130 mm with a heavy head across its +x end.
-TriangleMesh hammer() {
-  TriangleMesh mesh = straight_bar(130.0, 14.0, 11.0);
-  const TriangleMesh head = make_box({45.0, 45.0, 110.0}, 8);
+geometry::TriangleMesh hammer() {
+  geometry::TriangleMesh mesh = straight_bar(130.0, 14.0, 11.0);
+  const geometry::TriangleMesh head = geometry::make_box({45.0, 45.0, 110.0}, 8);
   const int shift = mesh.vertex_count();
   for (const Vec3& v : head.vertices) mesh.vertices.push_back(v + Vec3(80.0, 0.0, 15.0));
   for (const Triangle& t : head.triangles) {
@@ -70,7 +70,7 @@ TriangleMesh hammer() {
   return mesh;
 }
 
-TriangleMesh moved(TriangleMesh mesh, const Rigid3& motion) {
+geometry::TriangleMesh moved(geometry::TriangleMesh mesh, const geometry::Rigid3& motion) {
   for (Vec3& v : mesh.vertices) v = motion * v;
   return mesh;
 }
@@ -98,8 +98,8 @@ TEST(SectionsAlong, SectionOfAnEllipticBarHasItsAreaGirthAndWidths) {
 }
 
 TEST(SectionsAlong, InnerWallIsLeftOut) {
-  TriangleMesh pipe = straight_bar(100.0, 30.0, 30.0);
-  TriangleMesh bore = straight_bar(90.0, 25.0, 25.0);
+  geometry::TriangleMesh pipe = straight_bar(100.0, 30.0, 30.0);
+  geometry::TriangleMesh bore = straight_bar(90.0, 25.0, 25.0);
   for (Triangle& t : bore.triangles) std::swap(t[0], t[1]);
   const int shift = pipe.vertex_count();
   pipe.vertices.insert(pipe.vertices.end(), bore.vertices.begin(), bore.vertices.end());
@@ -137,8 +137,8 @@ TEST(FindGripSites, HammerIsHeldByTheHandleWithTheHeadAtTheThumb) {
 }
 
 TEST(FindGripSites, TurningTheProductTurnsTheAnswer) {
-  const Rigid3 motion{Quat(Eigen::AngleAxisd(1.1, Vec3(0.3, -0.5, 0.8).normalized())),
-                      Vec3(210.0, -35.0, 80.0)};
+  const geometry::Rigid3 motion{Quat(Eigen::AngleAxisd(1.1, Vec3(0.3, -0.5, 0.8).normalized())),
+                                Vec3(210.0, -35.0, 80.0)};
   const auto plain = find_grip_sites(hammer());
   const auto turned = find_grip_sites(moved(hammer(), motion));
   ASSERT_EQ(plain.size(), turned.size());
@@ -167,4 +167,4 @@ TEST(FindGripSites, HandleThickerScoresWorseThanTheComfortableOne) {
 TEST(FindGripSites, EmptyMeshHasNoSite) { EXPECT_TRUE(find_grip_sites({}).empty()); }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

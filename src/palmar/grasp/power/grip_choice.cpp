@@ -8,7 +8,7 @@
 
 #include "palmar/grasp/power/section_stack.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kSmallShare = 0.14;  // of hand length
@@ -19,7 +19,7 @@ constexpr double kSectionSpacing = 3.0;  // mm
 
 }  // namespace
 
-BodyShape body_shape(const TriangleMesh& mesh) {
+BodyShape body_shape(const geometry::TriangleMesh& mesh) {
   BodyShape shape;
   const PrincipalFrame frame = principal_frame(mesh);
   shape.centre = frame.centre;
@@ -52,7 +52,7 @@ Grip wrap_for(double girth, double hand_length) {
   return share > kLargeShare ? Grip::kLargeDiameter : Grip::kMediumWrap;
 }
 
-std::vector<GripSite> ball_sites(const TriangleMesh& mesh, const BodyShape& shape) {
+std::vector<GripSite> ball_sites(const geometry::TriangleMesh& mesh, const BodyShape& shape) {
   std::vector<GripSite> sites;
   for (int k = 0; k < 3; ++k) {
     const Vec3 axis = shape.axes.col(k);
@@ -85,4 +85,4 @@ std::vector<GripSite> ball_sites(const TriangleMesh& mesh, const BodyShape& shap
   return sites;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

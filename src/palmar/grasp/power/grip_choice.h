@@ -8,7 +8,7 @@
 #include "palmar/grasp/grip.h"
 #include "palmar/grasp/power/grip_axis.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// How round a whole product is.
 struct BodyShape {
@@ -17,7 +17,7 @@ struct BodyShape {
   Vec3 extent = Vec3::Zero();                          ///< along the principal axes, mm
   double fill = 0.0;  ///< volume over that of the box of these extents; a ball's is pi/6
 };
-BodyShape body_shape(const TriangleMesh& mesh);
+BodyShape body_shape(const geometry::TriangleMesh& mesh);
 
 /// A ball, an egg, a knob: extents within a third of each other and filled like a ball (0.42 to
 /// 0.63; a cylinder as long as thick fills 0.79, a cube 1).
@@ -31,6 +31,6 @@ Grip wrap_for(double girth, double hand_length);
 
 /// Ways through the middle of a rounded body, for a palm on any side of it: a grip site along each
 /// principal axis. Empty for an empty mesh.
-std::vector<GripSite> ball_sites(const TriangleMesh& mesh, const BodyShape& shape);
+std::vector<GripSite> ball_sites(const geometry::TriangleMesh& mesh, const BodyShape& shape);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

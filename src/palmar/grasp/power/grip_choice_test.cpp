@@ -8,11 +8,11 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
-TriangleMesh ellipsoid(const Vec3& diameters) {
-  TriangleMesh mesh = make_icosphere(0.5, 4);
+geometry::TriangleMesh ellipsoid(const Vec3& diameters) {
+  geometry::TriangleMesh mesh = geometry::make_icosphere(0.5, 4);
   for (Vec3& v : mesh.vertices) v = v.cwiseProduct(diameters);
   return mesh;
 }
@@ -27,9 +27,9 @@ TEST(BodyShape, ABallFillsPiSixthsOfItsBox) {
 TEST(BodyShape, EggsAreBallsAndCubesAndRodsAreNot) {
   EXPECT_TRUE(is_ball_like(body_shape(ellipsoid({70.0, 65.0, 60.0}))));
   EXPECT_FALSE(is_ball_like(body_shape(ellipsoid({70.0, 70.0, 140.0}))));
-  EXPECT_FALSE(is_ball_like(body_shape(make_box({60.0, 60.0, 60.0}, 2))));
-  EXPECT_FALSE(is_ball_like(body_shape(make_box({60.0, 60.0, 5.0}, 2))));
-  EXPECT_FALSE(is_ball_like(body_shape(TriangleMesh{})));
+  EXPECT_FALSE(is_ball_like(body_shape(geometry::make_box({60.0, 60.0, 60.0}, 2))));
+  EXPECT_FALSE(is_ball_like(body_shape(geometry::make_box({60.0, 60.0, 5.0}, 2))));
+  EXPECT_FALSE(is_ball_like(body_shape(geometry::TriangleMesh{})));
 }
 
 TEST(WrapFor, ThreeWrapsInTheOrderOfSize) {
@@ -43,7 +43,7 @@ TEST(WrapFor, ThreeWrapsInTheOrderOfSize) {
 }
 
 TEST(BallSites, GoThroughTheMiddleInThreeDirections) {
-  const TriangleMesh mesh = ellipsoid({80.0, 72.0, 64.0});
+  const geometry::TriangleMesh mesh = ellipsoid({80.0, 72.0, 64.0});
   const std::vector<GripSite> sites = ball_sites(mesh, body_shape(mesh));
   ASSERT_EQ(sites.size(), 3u);
   for (const GripSite& site : sites) {
@@ -55,4 +55,4 @@ TEST(BallSites, GoThroughTheMiddleInThreeDirections) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

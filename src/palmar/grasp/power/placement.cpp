@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kThinBoxShare = 0.8;     // of half the thickness may be filled with skin
@@ -23,7 +23,7 @@ constexpr double kLeaveCost = 400.0;   // mm^2
 constexpr double kProximalUnit = 6.0;  // mm
 constexpr double kAlongUnit = 16.0;    // mm
 constexpr double kMostAlong = 24.0;    // mm from the site along its axis
-constexpr double kSlantUnit = 6.0 * kDegree;
+constexpr double kSlantUnit = 6.0 * geometry::kDegree;
 constexpr double kStart =
     140.0;  // mm between palm and section before the push: room for what sticks out
 constexpr double kUsualProximal = 0.074;  // hand lengths from the knuckles to the grip axis
@@ -46,25 +46,26 @@ constexpr double kEquallyGood = 0.01;   // share of the score within which holds
 constexpr int kTurnsTried = 8;
 // Steps by which a kept pose may be improved for another hand.
 constexpr double kNearProximal = 3.0;  // mm
-constexpr double kNearTilt = 3.0 * kDegree;
+constexpr double kNearTilt = 3.0 * geometry::kDegree;
 constexpr double kThumbShare = 0.5;    // of what the thumb holds, again, for opposing the fingers
 constexpr double kPromising = 0.6;     // share of the best rank from which a hold is improved
 constexpr std::size_t kImproved = 3;   // holds that are looked at more finely
 constexpr std::size_t kHoldsKept = 4;  // holds that are given back
-constexpr double kOtherAngle = 30.0 * kDegree;  // beyond which a way of holding is another one
-constexpr double kOtherPlace = 20.0;            // mm; the same
+constexpr double kOtherAngle =
+    30.0 * geometry::kDegree;         // beyond which a way of holding is another one
+constexpr double kOtherPlace = 20.0;  // mm; the same
 
 // Axes of the palm: across towards the thumb along the metacarpal heads, distal, palmar.
 struct PalmFrame {
   Vec3 heads, across, distal, palmar;
 };
 
-PalmFrame palm_frame(const Skeleton& skeleton) {
+PalmFrame palm_frame(const hand::Skeleton& skeleton) {
   PalmFrame frame;
-  const Vec3 index = skeleton.joint(JointId::kIndexMcp).centre;
-  const Vec3 little = skeleton.joint(JointId::kLittleMcp).centre;
-  frame.heads =
-      0.5 * (skeleton.joint(JointId::kMiddleMcp).centre + skeleton.joint(JointId::kRingMcp).centre);
+  const Vec3 index = skeleton.joint(hand::JointId::kIndexMcp).centre;
+  const Vec3 little = skeleton.joint(hand::JointId::kLittleMcp).centre;
+  frame.heads = 0.5 * (skeleton.joint(hand::JointId::kMiddleMcp).centre +
+                       skeleton.joint(hand::JointId::kRingMcp).centre);
   frame.palmar = Vec3::UnitZ();
   frame.across = index - little;
   frame.across.z() = 0.0;
@@ -76,16 +77,16 @@ PalmFrame palm_frame(const Skeleton& skeleton) {
 // How far fingers stray from what hands do of themselves, degrees in all: knuckles of neighbours
 // bend alike (within 25-30 degrees at most) and DIP follows PIP at two thirds, within 15 degrees
 // (Rijkpema & Girard 1991).
-double strain_of(const Posture& posture) {
+double strain_of(const hand::Posture& posture) {
   double strain = 0.0;
-  for (int f = 1; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
+  for (int f = 1; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
     const double mcp = posture[flexion_of(finger, 0)], pip = posture[flexion_of(finger, 1)],
                  dip = posture[flexion_of(finger, 2)];
-    strain += std::max(0.0, std::abs(dip - 2.0 / 3.0 * pip) / kDegree - 15.0);
+    strain += std::max(0.0, std::abs(dip - 2.0 / 3.0 * pip) / geometry::kDegree - 15.0);
     if (f == 1) continue;
-    const double before = posture[flexion_of(static_cast<Finger>(f - 1), 0)];
-    strain += 2.0 * std::max(0.0, std::abs(mcp - before) / kDegree - 15.0);
+    const double before = posture[flexion_of(static_cast<hand::Finger>(f - 1), 0)];
+    strain += 2.0 * std::max(0.0, std::abs(mcp - before) / geometry::kDegree - 15.0);
   }
   return strain;
 }
@@ -99,7 +100,7 @@ double leave_cost(const HandlePose& pose, const HandlePose& usual) {
 }
 
 double score_of(const HoldMeasure& measure, const GripSite& site, const Placement& placement,
-                const HandlePose& usual, double hand_length, const Posture& posture) {
+                const HandlePose& usual, double hand_length, const hand::Posture& posture) {
   double score = measure.contact_area + kSegmentCredit * measure.touching +
                  kWrapCredit * measure.wrap - kClash * measure.other_area -
                  200.0 * std::max(0.0, measure.deepest_other - 2.0) -
@@ -118,7 +119,7 @@ double score_of(const HoldMeasure& measure, const GripSite& site, const Placemen
 // One placement closed from a given start, and what it is worth.
 struct Trial {
   const HandCloser& closer;
-  const DistanceField& product;
+  const geometry::DistanceField& product;
   const GripSite& site;
   DepthLimits limits;
   HandlePose usual;
@@ -139,18 +140,18 @@ struct Trial {
     const Vec3& axis = hold.placement.axis_in_hand;
     const ThumbCloser& thumb = closer.thumb();
     hold.thumb = thumb.find_pose(at, limits, hold.posture, axis);
-    std::array<SegmentStop, kSegmentCount> stops;
+    std::array<SegmentStop, hand::kSegmentCount> stops;
     hold.posture = thumb.closed(at, limits, hold.posture, hold.thumb, stops);
     judge(hold);
     hold.score += kThumbShare * thumb.worth(at, limits, hold.posture, axis);
   }
   ClosedPose run(std::size_t site_index, const ClosingStyle& style, const HandlePose& pose,
-                 const Posture& start, int rounds) const {
+                 const hand::Posture& start, int rounds) const {
     ClosedPose hold;
     hold.site = site_index;
     hold.style = style;
     hold.placement = place(closer, product, limits, style, site, pose);
-    std::array<SegmentStop, kSegmentCount> stops;
+    std::array<SegmentStop, hand::kSegmentCount> stops;
     hold.posture = closer.close_fingers(held(hold.placement), limits, style, start, rounds, stops);
     judge(hold);
     return hold;
@@ -158,10 +159,10 @@ struct Trial {
 };
 
 // The open hand with the fingers abducted as in a hold that was found.
-Posture start_like(const HandCloser& closer, const ClosedPose& hold) {
-  Posture start = closer.start_posture(hold.style);
-  for (int f = 1; f < kFingerCount; ++f) {
-    const Dof dof = abduction_of(static_cast<Finger>(f));
+hand::Posture start_like(const HandCloser& closer, const ClosedPose& hold) {
+  hand::Posture start = closer.start_posture(hold.style);
+  for (int f = 1; f < hand::kFingerCount; ++f) {
+    const hand::Dof dof = abduction_of(static_cast<hand::Finger>(f));
     start[dof] = hold.posture[dof];
   }
   return start;
@@ -170,7 +171,7 @@ Posture start_like(const HandCloser& closer, const ClosedPose& hold) {
 }  // namespace
 
 // A short product moves towards the little finger, so that the thumb meets it and not its rim.
-HandlePose usual_pose(const Hand& hand, const ClosingStyle& style, const GripSite& site,
+HandlePose usual_pose(const hand::Hand& hand, const ClosingStyle& style, const GripSite& site,
                       bool is_place_fixed) {
   HandlePose pose;
   pose.proximal = kUsualProximal * hand.dimensions.hand_length;
@@ -178,8 +179,8 @@ HandlePose usual_pose(const Hand& hand, const ClosingStyle& style, const GripSit
   const double share = site.girth / std::numbers::pi / hand.dimensions.hand_length;
   pose.tilt += kThinTilt * std::clamp((kThick - share) / (kThick - kThin), 0.0, 1.0);
   if (style.hook) {
-    const Vec3& mcp = hand.skeleton.joint(JointId::kMiddleMcp).centre;
-    const Vec3& pip = hand.skeleton.joint(JointId::kMiddlePip).centre;
+    const Vec3& mcp = hand.skeleton.joint(hand::JointId::kMiddleMcp).centre;
+    const Vec3& pip = hand.skeleton.joint(hand::JointId::kMiddlePip).centre;
     const double past = style.has_thumb ? kThumbedHookShare : kHookShare;
     pose.proximal = -past * (pip - mcp).norm();
     pose.oblique = kHookOblique;
@@ -190,7 +191,7 @@ HandlePose usual_pose(const Hand& hand, const ClosingStyle& style, const GripSit
   return pose;
 }
 
-PalmLine palm_line(const Hand& hand) {
+PalmLine palm_line(const hand::Hand& hand) {
   const PalmFrame palm = palm_frame(hand.skeleton);
   const HandlePose pose;
   return {palm.heads - kUsualProximal * hand.dimensions.hand_length * palm.distal +
@@ -198,7 +199,8 @@ PalmLine palm_line(const Hand& hand) {
           std::cos(pose.oblique) * palm.across + std::sin(pose.oblique) * palm.distal};
 }
 
-bool differ(const Hand& hand, const Rigid3& product_from_hand, const Rigid3& other) {
+bool differ(const hand::Hand& hand, const geometry::Rigid3& product_from_hand,
+            const geometry::Rigid3& other) {
   const Vec3 heads = palm_frame(hand.skeleton).heads;
   return product_from_hand.rotation.angularDistance(other.rotation) > kOtherAngle ||
          (product_from_hand * heads - other * heads).norm() > kOtherPlace;
@@ -210,8 +212,9 @@ DepthLimits limits_for(const DepthLimits& asked, const GripSite& site) {
   return {std::min(asked.palm, most), std::min(asked.finger, most)};
 }
 
-Placement place(const HandCloser& closer, const DistanceField& product, const DepthLimits& limits,
-                const ClosingStyle& style, const GripSite& site, const HandlePose& pose) {
+Placement place(const HandCloser& closer, const geometry::DistanceField& product,
+                const DepthLimits& limits, const ClosingStyle& style, const GripSite& site,
+                const HandlePose& pose) {
   PalmFrame palm = palm_frame(closer.hand().skeleton);
   if (style.hook) {
     // The handle lies on the bent proximal phalanges.
@@ -227,7 +230,7 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
   in_hand << axis, -outward, axis.cross(-outward);
   const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
   // A left hand turns its product the other way.
-  const double turn = closer.hand().side == Side::kRight ? pose.turn : -pose.turn;
+  const double turn = closer.hand().side == hand::Side::kRight ? pose.turn : -pose.turn;
   const Vec3 facing = Eigen::AngleAxisd(turn, site.axis) * wide;
   Eigen::Matrix3d in_product;
   in_product << site.axis, facing, site.axis.cross(facing);
@@ -250,11 +253,12 @@ Placement place(const HandCloser& closer, const DistanceField& product, const De
   return placement;
 }
 
-PosesFound find_poses(const HandCloser& closer, const std::vector<const DistanceField*>& distances,
+PosesFound find_poses(const HandCloser& closer,
+                      const std::vector<const geometry::DistanceField*>& distances,
                       const std::vector<GripSite>& sites, const DepthLimits& limits,
                       const PoseSearch& search, const Progress& progress) {
   PosesFound found;
-  const Hand& hand = closer.hand();
+  const hand::Hand& hand = closer.hand();
   const double best_site = sites.empty() ? 1.0 : sites.front().score;
   const auto finish = [&](ClosedPose& hold) {
     // A part that is less of a handle must hold much better to be preferred.
@@ -270,7 +274,7 @@ PosesFound find_poses(const HandCloser& closer, const std::vector<const Distance
   for (std::size_t s = 0; s < distances.size(); ++s) {
     for (const ClosingStyle& style : search.styles) {
       const Trial trial = trial_at(s, style);
-      Posture start = closer.start_posture(style);
+      hand::Posture start = closer.start_posture(style);
       const std::size_t first = tried.size();
       for (int k = 0; k < (search.turn ? 1 : kTurnsTried); ++k) {
         progress.throw_if_cancelled();
@@ -299,7 +303,7 @@ PosesFound find_poses(const HandCloser& closer, const std::vector<const Distance
   const auto better = [&](ClosedPose& current, double scale) {
     const GripSite& site = sites[current.site];
     const Trial trial = trial_at(current.site, current.style);
-    const Posture start = start_like(closer, current);
+    const hand::Posture start = start_like(closer, current);
     bool is_changed = false;
     const auto improve = [&](double HandlePose::*what, double step, double low, double high) {
       const HandlePose from = current.placement.pose;
@@ -320,11 +324,13 @@ PosesFound find_poses(const HandCloser& closer, const std::vector<const Distance
     const bool is_hook = current.style.hook.has_value();
     improve(&HandlePose::proximal, 6.0, is_hook ? usual - 8.0 : kLeastProximal,
             is_hook ? usual + 8.0 : kMostProximal);
-    improve(&HandlePose::tilt, 5.0 * kDegree, -15.0 * kDegree, 15.0 * kDegree);
-    improve(&HandlePose::oblique, 6.0 * kDegree, 2.0 * kDegree, 30.0 * kDegree);
+    improve(&HandlePose::tilt, 5.0 * geometry::kDegree, -15.0 * geometry::kDegree,
+            15.0 * geometry::kDegree);
+    improve(&HandlePose::oblique, 6.0 * geometry::kDegree, 2.0 * geometry::kDegree,
+            30.0 * geometry::kDegree);
     if (!search.is_place_fixed) improve(&HandlePose::along, 8.0, -kMostAlong, kMostAlong);
     if (!search.turn && site.thickness < 0.98 * site.width) {
-      improve(&HandlePose::turn, 15.0 * kDegree, -100.0, 100.0);
+      improve(&HandlePose::turn, 15.0 * geometry::kDegree, -100.0, 100.0);
     }
     return is_changed;
   };
@@ -373,11 +379,12 @@ PosesFound find_poses(const HandCloser& closer, const std::vector<const Distance
   return found;
 }
 
-ClosedPose pose_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
-                     const DepthLimits& limits, const Hand& other, const ClosedPose& of_other,
-                     const PoseKept& kept, int& tried, const Progress& progress) {
+ClosedPose pose_like(const HandCloser& closer, const geometry::DistanceField& product,
+                     const GripSite& site, const DepthLimits& limits, const hand::Hand& other,
+                     const ClosedPose& of_other, const PoseKept& kept, int& tried,
+                     const Progress& progress) {
   progress.throw_if_cancelled();
-  const Hand& hand = closer.hand();
+  const hand::Hand& hand = closer.hand();
   const HandlePose theirs = usual_pose(other, of_other.style, site, kept.is_place_fixed);
   const Trial trial{closer, product, site, limits_for(limits, site),
                     usual_pose(hand, of_other.style, site, kept.is_place_fixed)};
@@ -386,9 +393,9 @@ ClosedPose pose_like(const HandCloser& closer, const DistanceField& product, con
   pose.proximal = trial.usual.proximal + size * (pose.proximal - theirs.proximal);
   pose.tilt += trial.usual.tilt - theirs.tilt;
   pose.along += trial.usual.along - theirs.along;
-  Posture start = start_like(closer, of_other);
-  for (int f = 1; f < kFingerCount; ++f) {
-    const JointDof& dof = hand.skeleton.dof(abduction_of(static_cast<Finger>(f)));
+  hand::Posture start = start_like(closer, of_other);
+  for (int f = 1; f < hand::kFingerCount; ++f) {
+    const hand::JointDof& dof = hand.skeleton.dof(abduction_of(static_cast<hand::Finger>(f)));
     start[dof.dof] = std::clamp(start[dof.dof], dof.lower, dof.upper);
   }
   ClosedPose hold = trial.run(of_other.site, of_other.style, pose, start, 2);
@@ -418,4 +425,4 @@ ClosedPose pose_like(const HandCloser& closer, const DistanceField& product, con
   return hold;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

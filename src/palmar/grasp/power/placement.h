@@ -9,7 +9,7 @@
 #include "palmar/grasp/power/closing.h"
 #include "palmar/grasp/power/grip_axis.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// How a handle lies in a hand, as few numbers. The hand frame's z is palmar, y distal.
 struct HandlePose {
@@ -25,7 +25,7 @@ struct HandlePose {
 /// Product and hand before fingers close: the product pressed into the palm.
 struct Placement {
   HandlePose pose;
-  Rigid3 product_from_hand;
+  geometry::Rigid3 product_from_hand;
   Vec3 axis_in_hand = Vec3::UnitX();   ///< grip axis, unit
   Vec3 push_in_hand = -Vec3::UnitZ();  ///< unit direction in which the product meets the palm
 };
@@ -33,17 +33,18 @@ struct Placement {
 /// Puts a grip site into the hand and pushes it into the palm until the palm or a finger's base
 /// reaches its limit (HandCloser::free_travel). `product` gives the distance; its transform is not
 /// used. With the fingers open.
-Placement place(const HandCloser& closer, const DistanceField& product, const DepthLimits& limits,
-                const ClosingStyle& style, const GripSite& site, const HandlePose& pose);
+Placement place(const HandCloser& closer, const geometry::DistanceField& product,
+                const DepthLimits& limits, const ClosingStyle& style, const GripSite& site,
+                const HandlePose& pose);
 
 /// Where a grip axis usually lies in a hand: a point of it and its direction towards the thumb.
 struct PalmLine {
   Vec3 point = Vec3::Zero(), axis = Vec3::UnitX();
 };
-PalmLine palm_line(const Hand& hand);
+PalmLine palm_line(const hand::Hand& hand);
 
 /// The pose that a grip has of itself on a site, whatever the product's details.
-HandlePose usual_pose(const Hand& hand, const ClosingStyle& style, const GripSite& site,
+HandlePose usual_pose(const hand::Hand& hand, const ClosingStyle& style, const GripSite& site,
                       bool is_place_fixed);
 
 /// One way of holding, closed on a sparse skin.
@@ -51,7 +52,7 @@ struct ClosedPose {
   std::size_t site = 0;
   ClosingStyle style;
   Placement placement;
-  Posture posture;
+  hand::Posture posture;
   ThumbPose thumb;
   HoldMeasure measure;
   double score = 0.0;  ///< mm^2 of palmar contact, plus credit for segments and wrap, minus clashes
@@ -75,7 +76,8 @@ struct PosesFound {
 /// (Napier 1956). Coarse to fine, always in the same order: eight turns at every site, the best of
 /// them improved one number after the other with shrinking steps, then the thumb. distances[k] is
 /// the product's distance as seen near sites[k]; sites beyond distances.size() are not tried.
-PosesFound find_poses(const HandCloser& closer, const std::vector<const DistanceField*>& distances,
+PosesFound find_poses(const HandCloser& closer,
+                      const std::vector<const geometry::DistanceField*>& distances,
                       const std::vector<GripSite>& sites, const DepthLimits& limits,
                       const PoseSearch& search, const Progress& progress);
 
@@ -87,15 +89,17 @@ struct PoseKept {
 /// The way of holding that another hand found at a site, for this one: its pose differs from the
 /// usual pose as that hand's does (lengths in hand lengths), fingers start as far abducted, the
 /// thumb goes the same way. `tried` counts the placements that were closed.
-ClosedPose pose_like(const HandCloser& closer, const DistanceField& product, const GripSite& site,
-                     const DepthLimits& limits, const Hand& other, const ClosedPose& of_other,
-                     const PoseKept& kept, int& tried, const Progress& progress);
+ClosedPose pose_like(const HandCloser& closer, const geometry::DistanceField& product,
+                     const GripSite& site, const DepthLimits& limits, const hand::Hand& other,
+                     const ClosedPose& of_other, const PoseKept& kept, int& tried,
+                     const Progress& progress);
 
 /// Whether two ways of holding differ by more than 30 degrees or 20 mm.
-bool differ(const Hand& hand, const Rigid3& product_from_hand, const Rigid3& other);
+bool differ(const hand::Hand& hand, const geometry::Rigid3& product_from_hand,
+            const geometry::Rigid3& other);
 
 /// Limits that a product (its wall, if hollow) can take: skin must not come out on the other side,
 /// nor meet skin from there.
 DepthLimits limits_for(const DepthLimits& asked, const GripSite& site);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

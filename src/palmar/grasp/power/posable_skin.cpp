@@ -7,28 +7,29 @@
 
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
-Rigid3 displacement(const Skeleton& skeleton, JointId id, const Posture& posture, double weight) {
-  if (id == JointId::kThumbCmc) {
-    CmcShare share = cmc_share(skeleton, posture);
+geometry::Rigid3 displacement(const hand::Skeleton& skeleton, hand::JointId id,
+                              const hand::Posture& posture, double weight) {
+  if (id == hand::JointId::kThumbCmc) {
+    hand::CmcShare share = hand::cmc_share(skeleton, posture);
     share.s_fe *= weight;
     share.s_aa *= weight;
-    return cmc_displacement(skeleton, share);
+    return hand::cmc_displacement(skeleton, share);
   }
-  Rigid3 moved;
-  for (const JointDof& dof : skeleton.joint(id).dofs) {
+  geometry::Rigid3 moved;
+  for (const hand::JointDof& dof : skeleton.joint(id).dofs) {
     const double turn = posture[dof.dof] - dof.reference;
     if (turn == 0.0) continue;
-    moved = Rigid3::about_axis(dof.axis, dof.centre, weight * turn) * moved;
+    moved = geometry::Rigid3::about_axis(dof.axis, dof.centre, weight * turn) * moved;
   }
   // The hand frame is fixed to the palm: what turns at the wrist is the forearm, the other way.
-  return id == JointId::kWrist ? moved.inverse() : moved;
+  return id == hand::JointId::kWrist ? moved.inverse() : moved;
 }
 
-bool is_at_rest(const Skeleton& skeleton, JointId id, const Posture& posture) {
-  for (const JointDof& dof : skeleton.joint(id).dofs) {
+bool is_at_rest(const hand::Skeleton& skeleton, hand::JointId id, const hand::Posture& posture) {
+  for (const hand::JointDof& dof : skeleton.joint(id).dofs) {
     if (posture[dof.dof] != dof.reference) return false;
   }
   return true;
@@ -36,7 +37,7 @@ bool is_at_rest(const Skeleton& skeleton, JointId id, const Posture& posture) {
 
 }  // namespace
 
-PosableSkin::PosableSkin(const Hand& hand, std::vector<int> vertices)
+PosableSkin::PosableSkin(const hand::Hand& hand, std::vector<int> vertices)
     : hand_(&hand), vertices_(std::move(vertices)) {
   std::vector<int> slot(hand.skin.vertices.size(), -1);
   for (std::size_t k = 0; k < vertices_.size(); ++k) {
@@ -47,7 +48,7 @@ PosableSkin::PosableSkin(const Hand& hand, std::vector<int> vertices)
   for (const int v : hand.thumb_ball.vertex) {
     has_thumb_ball_ = has_thumb_ball_ || slot[v] >= 0;
   }
-  for (const JointWeights& weights : hand.weights) {
+  for (const hand::JointWeights& weights : hand.weights) {
     if (weights.bulge.empty()) continue;
     JointBulge bulge{weights.joint, {}, {}};
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
@@ -58,9 +59,9 @@ PosableSkin::PosableSkin(const Hand& hand, std::vector<int> vertices)
     }
     if (!bulge.slot.empty()) bulges_.push_back(std::move(bulge));
   }
-  for (const JointId id : kDistalToProximal) {
+  for (const hand::JointId id : hand::kDistalToProximal) {
     JointShare share{id, {}, {}, {}};
-    for (const JointWeights& weights : hand.weights) {
+    for (const hand::JointWeights& weights : hand.weights) {
       if (weights.joint != id) continue;
       for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
         const int s = slot[weights.vertex[k]];
@@ -78,15 +79,15 @@ PosableSkin::PosableSkin(const Hand& hand, std::vector<int> vertices)
   }
 }
 
-void PosableSkin::pose(const Posture& posture, std::vector<Vec3>& posed) const {
+void PosableSkin::pose(const hand::Posture& posture, std::vector<Vec3>& posed) const {
   if (has_thumb_ball_) {
-    posed = pose_skin_vertices(*hand_, posture, vertices_);
+    posed = hand::pose_skin_vertices(*hand_, posture, vertices_);
     return;
   }
   posed = reference_;
-  const Skeleton& skeleton = hand_->skeleton;
+  const hand::Skeleton& skeleton = hand_->skeleton;
   for (const JointBulge& bulge : bulges_) {
-    const JointDof& flexion = skeleton.joint(bulge.joint).dofs.back();
+    const hand::JointDof& flexion = skeleton.joint(bulge.joint).dofs.back();
     const double turn = posture[flexion.dof] - flexion.reference;
     if (!(turn > 0.0)) continue;
     for (std::size_t k = 0; k < bulge.slot.size(); ++k) {
@@ -95,7 +96,7 @@ void PosableSkin::pose(const Posture& posture, std::vector<Vec3>& posed) const {
   }
   for (const JointShare& share : shares_) {
     if (is_at_rest(skeleton, share.joint, posture)) continue;
-    const Rigid3 whole = displacement(skeleton, share.joint, posture, 1.0);
+    const geometry::Rigid3 whole = displacement(skeleton, share.joint, posture, 1.0);
     const Eigen::Matrix3d rotation = whole.rotation.toRotationMatrix();
     for (const int s : share.full) {
       Vec3& p = posed[s];
@@ -108,4 +109,4 @@ void PosableSkin::pose(const Posture& posture, std::vector<Vec3>& posed) const {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

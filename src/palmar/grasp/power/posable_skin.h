@@ -6,7 +6,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A few skin vertices that are posed again and again while a hand closes: the influences of the
 /// joints are sorted out once. Gives the same positions as pose_skin_vertices().
@@ -14,26 +14,26 @@ class PosableSkin {
  public:
   PosableSkin() = default;
   /// Keeps a pointer to `hand`, which must live longer.
-  PosableSkin(const Hand& hand, std::vector<int> vertices);
+  PosableSkin(const hand::Hand& hand, std::vector<int> vertices);
 
   const std::vector<int>& vertices() const { return vertices_; }
 
   /// Positions in the hand frame, in the order of vertices(), mm. `posed` is resized.
-  void pose(const Posture& posture, std::vector<Vec3>& posed) const;
+  void pose(const hand::Posture& posture, std::vector<Vec3>& posed) const;
 
  private:
   struct JointShare {
-    JointId joint{};
+    hand::JointId joint{};
     std::vector<int> full;       ///< slots that follow the joint wholly
     std::vector<int> part;       ///< slots that follow it in part ...
     std::vector<double> weight;  ///< ... by w1 w2
   };
   struct JointBulge {
-    JointId joint{};
+    hand::JointId joint{};
     std::vector<int> slot;
     std::vector<Vec3> bulge;  ///< mm per rad of flexion
   };
-  const Hand* hand_ = nullptr;
+  const hand::Hand* hand_ = nullptr;
   std::vector<int> vertices_;
   std::vector<Vec3> reference_;
   std::vector<JointShare> shares_;  ///< distal to proximal
@@ -41,4 +41,4 @@ class PosableSkin {
   bool has_thumb_ball_ = false;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -10,7 +10,7 @@
 
 #include "palmar/geometry/convex_hull.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kSmallestGirth = 3.0;  // mm; shorter outlines are scan noise
@@ -59,7 +59,7 @@ std::optional<SectionOutline> outline_of(const std::vector<Point2>& loop, double
     moment += c * (a + b) / 3.0;
   }
   if (twice_area <= 0.0) return {};
-  const std::vector<Point2> hull = convex_hull(loop);
+  const std::vector<Point2> hull = geometry::convex_hull(loop);
   if (hull.size() < 3) return {};
   SectionOutline outline;
   outline.area = 0.5 * twice_area;
@@ -121,7 +121,8 @@ std::vector<SectionOutline> outlines_of(std::vector<Cut>& cuts, double station,
 
 }  // namespace
 
-std::vector<Section> sections_along(const TriangleMesh& mesh, const Vec3& axis, double spacing) {
+std::vector<Section> sections_along(const geometry::TriangleMesh& mesh, const Vec3& axis,
+                                    double spacing) {
   if (mesh.vertices.empty() || mesh.triangles.empty()) return {};
   const Plane plane = plane_across(axis);
   std::vector<double> height(mesh.vertices.size());
@@ -175,4 +176,4 @@ std::vector<Section> sections_along(const TriangleMesh& mesh, const Vec3& axis, 
   return sections;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// One outer outline of a plane section of a product. Holes (the inner wall of a mug) are left out:
 /// a hand never feels them.
@@ -29,6 +29,7 @@ struct Section {
 /// spacing inside the lower end to the upper end. Stations are dot products with `axis`. Outlines
 /// below 3 mm of girth are noise of a scan and are left out. An open outline (gap in the mesh) is
 /// closed by a straight line. Empty for an empty mesh.
-std::vector<Section> sections_along(const TriangleMesh& mesh, const Vec3& axis, double spacing);
+std::vector<Section> sections_along(const geometry::TriangleMesh& mesh, const Vec3& axis,
+                                    double spacing);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -11,7 +11,7 @@
 #include "palmar/geometry/distance/grid_distance.h"
 #include "palmar/geometry/rigid3.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kFinest = 2.0;  // mm between nodes; the final closing is checked exactly
@@ -22,21 +22,21 @@ constexpr double kAlong = 110.0;       // mm from the site along its axis that a
 constexpr double kSideways = 130.0;    // ... across it
 
 // A field seen from another frame and through a window.
-class TurnedField : public DistanceField {
+class TurnedField : public geometry::DistanceField {
  public:
-  TurnedField(std::shared_ptr<const DistanceField> field, const Rigid3& field_from_here,
+  TurnedField(std::shared_ptr<const DistanceField> field, const geometry::Rigid3& field_from_here,
               const Box3& window)
       : field_(std::move(field)), there_from_here_(field_from_here), window_(window) {}
 
   void sample(std::span<const Vec3> points, double range,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     const Eigen::Matrix3d rotation = there_from_here_.rotation.toRotationMatrix();
     std::vector<Vec3> there(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       there[i] = rotation * points[i] + there_from_here_.translation;
     }
     field_->sample(there, range, samples);
-    for (DistanceSample& sample : samples) {
+    for (geometry::DistanceSample& sample : samples) {
       sample.normal = rotation.transpose() * sample.normal;
       sample.closest = rotation.transpose() * (sample.closest - there_from_here_.translation);
     }
@@ -45,17 +45,17 @@ class TurnedField : public DistanceField {
 
  private:
   std::shared_ptr<const DistanceField> field_;
-  Rigid3 there_from_here_;
+  geometry::Rigid3 there_from_here_;
   Box3 window_;
 };
 
-class RefinedField : public DistanceField {
+class RefinedField : public geometry::DistanceField {
  public:
   RefinedField(const DistanceField& quick, const DistanceField& exact, double margin)
       : quick_(&quick), exact_(&exact), margin_(margin) {}
 
   void sample(std::span<const Vec3> points, double range,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     quick_->sample(points, range, samples);
     std::vector<Vec3> touched;
     std::vector<std::size_t> place;
@@ -64,7 +64,7 @@ class RefinedField : public DistanceField {
       touched.push_back(points[i]);
       place.push_back(i);
     }
-    std::vector<DistanceSample> found(touched.size());
+    std::vector<geometry::DistanceSample> found(touched.size());
     exact_->sample(touched, range, found);
     for (std::size_t i = 0; i < place.size(); ++i) samples[place[i]] = found[i];
   }
@@ -78,25 +78,26 @@ class RefinedField : public DistanceField {
 
 }  // namespace
 
-std::unique_ptr<DistanceField> exact_where_touched(const DistanceField& quick,
-                                                   const DistanceField& exact, double margin) {
+std::unique_ptr<geometry::DistanceField> exact_where_touched(const geometry::DistanceField& quick,
+                                                             const geometry::DistanceField& exact,
+                                                             double margin) {
   return std::make_unique<RefinedField>(quick, exact, margin);
 }
 
-std::unique_ptr<DistanceField> distance_near(const TriangleMesh& mesh,
-                                             std::shared_ptr<const DistanceField> product,
-                                             const GripSite& site) {
+std::unique_ptr<geometry::DistanceField> distance_near(
+    const geometry::TriangleMesh& mesh, std::shared_ptr<const geometry::DistanceField> product,
+    const GripSite& site) {
   const Vec3 wide = (site.wide - site.axis * site.axis.dot(site.wide)).normalized();
   Eigen::Matrix3d axes;
   axes << site.axis, wide, site.axis.cross(wide);
-  const Rigid3 product_from_site{Quat(axes), site.point};
-  const Rigid3 site_from_product = product_from_site.inverse();
+  const geometry::Rigid3 product_from_site{Quat(axes), site.point};
+  const geometry::Rigid3 site_from_product = product_from_site.inverse();
   const Box3 box = product->bounding_box();
   Box3 window;  // not from `box`: that would turn with the file's axes
   for (const Vec3& v : mesh.vertices) window.extend(site_from_product * v);
   const Vec3 reach(kAlong, kSideways, kSideways);
   window = window.intersection(Box3(-reach, reach));
-  GridDistanceOptions options;
+  geometry::GridDistanceOptions options;
   options.spacing =
       std::clamp(std::min(site.girth / std::numbers::pi / kPerDiameter, kPerWall * site.wall),
                  kFinest, kCoarsest);
@@ -108,12 +109,12 @@ std::unique_ptr<DistanceField> distance_near(const TriangleMesh& mesh,
   window.min().z() = -window.max().z();
   auto near = std::make_shared<TurnedField>(std::move(product), product_from_site, window);
   options.band = kSiteBand;
-  auto grid = std::make_shared<GridDistance>(std::move(near), options);
+  auto grid = std::make_shared<geometry::GridDistance>(std::move(near), options);
   return std::make_unique<TurnedField>(std::move(grid), site_from_product, box);
 }
 
-double wall_at(const TriangleMesh& mesh, const DistanceField& distance, const GripSite& site,
-               double palm_breadth) {
+double wall_at(const geometry::TriangleMesh& mesh, const geometry::DistanceField& distance,
+               const GripSite& site, double palm_breadth) {
   constexpr double kStep = 0.75;            // mm
   constexpr std::size_t kMostProbes = 150;  // a quartile of that many is within a few per cent
   struct Probe {
@@ -140,7 +141,7 @@ double wall_at(const TriangleMesh& mesh, const DistanceField& distance, const Gr
   std::vector<std::pair<double, double>> depths;  // mm, and the area it stands for
   double whole = 0.0;
   std::vector<Vec3> points;
-  std::vector<DistanceSample> samples;
+  std::vector<geometry::DistanceSample> samples;
   for (std::size_t k = 0; k < probes.size(); k += stride) {
     points.clear();
     for (double s = kStep; s <= kSiteBand + 1e-9; s += kStep) {
@@ -149,7 +150,7 @@ double wall_at(const TriangleMesh& mesh, const DistanceField& distance, const Gr
     samples.resize(points.size());
     distance.sample(points, 2.0 * kSiteBand, samples);
     double deepest = 0.0;
-    for (const DistanceSample& sample : samples) {
+    for (const geometry::DistanceSample& sample : samples) {
       if (sample.distance > 0.0 || -sample.distance < deepest - kStep) break;  // out again
       deepest = std::max(deepest, -sample.distance);
     }
@@ -167,4 +168,4 @@ double wall_at(const TriangleMesh& mesh, const DistanceField& distance, const Gr
   return 2.0 * depths.back().first;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,36 +6,41 @@
 #include <cmath>
 #include <limits>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kOtherSide = -0.3;  // cosine between normals of the two sides of a wall
 
 }  // namespace
 
-bool is_near(const DistanceSample& sample) { return std::abs(sample.distance) < kSkinRange - 1e-6; }
+bool is_near(const geometry::DistanceSample& sample) {
+  return std::abs(sample.distance) < kSkinRange - 1e-6;
+}
 
-int level_of(Finger finger, Segment segment) {
-  const auto segments = segments_of(finger);
+int level_of(hand::Finger finger, hand::Segment segment) {
+  const auto segments = hand::segments_of(finger);
   for (int level = 0; level < 3; ++level) {
     if (segments[level] == segment) return level;
   }
   return -1;
 }
 
-Dof flexion_of(Finger finger, int level) {
-  if (finger == Finger::kThumb) return level == 0 ? Dof::kThumbMpFlexion : Dof::kThumbIpFlexion;
-  const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * (static_cast<int>(finger) - 1);
-  return static_cast<Dof>(level == 0 ? first : first + level + 1);
+hand::Dof flexion_of(hand::Finger finger, int level) {
+  if (finger == hand::Finger::kThumb)
+    return level == 0 ? hand::Dof::kThumbMpFlexion : hand::Dof::kThumbIpFlexion;
+  const int first =
+      static_cast<int>(hand::Dof::kIndexMcpFlexion) + 4 * (static_cast<int>(finger) - 1);
+  return static_cast<hand::Dof>(level == 0 ? first : first + level + 1);
 }
 
-Dof abduction_of(Finger finger) {
-  if (finger == Finger::kThumb) return Dof::kThumbCmcAbduction;
-  return static_cast<Dof>(static_cast<int>(Dof::kIndexMcpAbduction) +
-                          4 * (static_cast<int>(finger) - 1));
+hand::Dof abduction_of(hand::Finger finger) {
+  if (finger == hand::Finger::kThumb) return hand::Dof::kThumbCmcAbduction;
+  return static_cast<hand::Dof>(static_cast<int>(hand::Dof::kIndexMcpAbduction) +
+                                4 * (static_cast<int>(finger) - 1));
 }
 
-SkinLook look_at_skin(const SkinGroup& group, const HeldProduct& product, const Posture& posture) {
+SkinLook look_at_skin(const SkinGroup& group, const HeldProduct& product,
+                      const hand::Posture& posture) {
   SkinLook look;
   group.skin.pose(posture, look.in_hand);
   look.in_product.reserve(look.in_hand.size());
@@ -45,18 +50,18 @@ SkinLook look_at_skin(const SkinGroup& group, const HeldProduct& product, const 
   return look;
 }
 
-StopReason Advance::reason_for(Segment moved) const {
+StopReason Advance::reason_for(hand::Segment moved) const {
   if (!is_stopped) return StopReason::kRangeOfMotion;
   if (!by_product) return StopReason::kOtherFinger;
   return segment == moved ? StopReason::kLimitDepth : StopReason::kDistalStop;
 }
 
 Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const DepthLimits& limits,
-                     const std::vector<Obstacle>& obstacles, const Posture& from, const Posture& to,
-                     const AdvanceCare& care) {
+                     const std::vector<Obstacle>& obstacles, const hand::Posture& from,
+                     const hand::Posture& to, const AdvanceCare& care) {
   const std::size_t count = group.segment.size();
   const auto posture_at = [&](double s) {
-    Posture posture = from;
+    hand::Posture posture = from;
     for (std::size_t i = 0; i < posture.angle.size(); ++i) {
       posture.angle[i] += s * (to.angle[i] - from.angle[i]);
     }
@@ -65,7 +70,7 @@ Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const D
   struct Look {
     double share = 0.0;
     std::vector<Vec3> skin;
-    std::vector<DistanceSample> sample;
+    std::vector<geometry::DistanceSample> sample;
     std::vector<double> slack;      // to the product's limit, mm
     std::vector<double> clearance;  // to the obstacles, mm
     double least = 0.0;
@@ -94,7 +99,7 @@ Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const D
     look.clearance.assign(count, kSkinRange);
     look.least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < count; ++k) {
-      const double limit = group.segment[k] == Segment::kPalm ? limits.palm : limits.finger;
+      const double limit = group.segment[k] == hand::Segment::kPalm ? limits.palm : limits.finger;
       look.slack[k] = look.sample[k].distance + limit + forgiven[k];
       // Past the middle of a thin wall the other side is nearer: that is deeper still, not out
       // again.
@@ -184,7 +189,7 @@ Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const D
   result.by_product = now.by_product;
   if (count > 0) result.segment = group.segment[now.who];
   for (std::size_t k = 0; k < count; ++k) {
-    const auto finger = finger_of(group.segment[k]);
+    const auto finger = hand::finger_of(group.segment[k]);
     if (!finger) continue;
     double& deepest = result.deepest[level_of(*finger, group.segment[k])];
     deepest = std::max(deepest, -now.sample[k].distance);
@@ -192,4 +197,4 @@ Advance advance_skin(const SkinGroup& group, const HeldProduct& product, const D
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

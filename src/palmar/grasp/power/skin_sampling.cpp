@@ -7,11 +7,11 @@
 #include <limits>
 #include <map>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 /// A third of the triangles round each vertex, mm^2.
-std::vector<double> thirds_of_area(const TriangleMesh& mesh) {
+std::vector<double> thirds_of_area(const geometry::TriangleMesh& mesh) {
   std::vector<double> area(mesh.vertices.size(), 0.0);
   for (const Triangle& t : mesh.triangles) {
     const Vec3& a = mesh.vertices[t[0]];
@@ -25,7 +25,7 @@ std::vector<double> thirds_of_area(const TriangleMesh& mesh) {
 
 }  // namespace
 
-SkinSample sample_skin(const Hand& hand, double spacing) {
+SkinSample sample_skin(const hand::Hand& hand, double spacing) {
   const std::vector<double> area = thirds_of_area(hand.skin);
   SkinSample sample;
   if (spacing <= 0.0) {
@@ -72,4 +72,4 @@ SkinSample sample_skin(const Hand& hand, double spacing) {
   return sample;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,7 +6,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Skin vertices that speak for their neighbourhood.
 struct SkinSample {
@@ -17,6 +17,6 @@ struct SkinSample {
 /// Vertices of the reference posture no two of which (of one region and segment) stand nearer than
 /// `spacing` [mm]: the first of every neighbourhood in vertex order, so the choice is always the
 /// same. All vertices for spacing 0.
-SkinSample sample_skin(const Hand& hand, double spacing);
+SkinSample sample_skin(const hand::Hand& hand, double spacing);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

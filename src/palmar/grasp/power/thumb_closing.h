@@ -10,7 +10,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/grasp/power/skin_advance.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// The angles of the thumb's four joint motions on a product: CMC flexion and abduction, MP and IP
 /// flexion, rad.
@@ -28,24 +28,25 @@ using ThumbPose = std::array<double, 4>;
 class ThumbCloser {
  public:
   /// `groups`: the skin; `sparse`: some of it for the fit. All must live longer.
-  ThumbCloser(const Hand& hand, const FingerCones& cones, const DigitGroups& groups,
+  ThumbCloser(const hand::Hand& hand, const FingerCones& cones, const DigitGroups& groups,
               const DigitGroups& sparse, const AdvanceCare& care);
 
   /// How well the thumb holds, as an area of contact that it is worth, mm^2.
-  double worth(const HeldProduct& product, const DepthLimits& limits, const Posture& posture,
+  double worth(const HeldProduct& product, const DepthLimits& limits, const hand::Posture& posture,
                const Vec3& grip_axis_in_hand) const;
 
   /// Where the thumb holds best, fingers as in `start`.
-  ThumbPose find_pose(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
-                      const Vec3& grip_axis_in_hand) const;
+  ThumbPose find_pose(const HeldProduct& product, const DepthLimits& limits,
+                      const hand::Posture& start, const Vec3& grip_axis_in_hand) const;
 
   /// The fit that is reached from a pose (of another hand or a coarser skin, say).
   ThumbPose settled(const ThumbPose& from, const HeldProduct& product, const DepthLimits& limits,
-                    const Posture& start, const Vec3& grip_axis_in_hand) const;
+                    const hand::Posture& start, const Vec3& grip_axis_in_hand) const;
 
   /// The thumb of `start` in that pose, and what holds it there.
-  Posture closed(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
-                 const ThumbPose& pose, std::array<SegmentStop, kSegmentCount>& stops) const;
+  hand::Posture closed(const HeldProduct& product, const DepthLimits& limits,
+                       const hand::Posture& start, const ThumbPose& pose,
+                       std::array<SegmentStop, hand::kSegmentCount>& stops) const;
 
  private:
   /// The fingers that the thumb is opposed to.
@@ -56,18 +57,18 @@ class ThumbCloser {
     Vec3 facing;  ///< where the product's surface under the thumb ought to face, unit, hand frame
     Quat hand_from_product;
   };
-  Opposed opposed(const HeldProduct& product, const Posture& posture,
+  Opposed opposed(const HeldProduct& product, const hand::Posture& posture,
                   const Vec3& grip_axis_in_hand) const;
-  std::vector<Obstacle> obstacles(const Posture& posture) const;
+  std::vector<Obstacle> obstacles(const hand::Posture& posture) const;
   Eigen::VectorXd residuals(const HeldProduct& product, const DepthLimits& limits,
-                            const Posture& posture, const Opposed& fingers) const;
-  Posture with(const Posture& posture, const ThumbPose& pose) const;
+                            const hand::Posture& posture, const Opposed& fingers) const;
+  hand::Posture with(const hand::Posture& posture, const ThumbPose& pose) const;
   /// The metacarpal as far as it can go towards a flexion and an abduction [rad], then MP and IP
   /// bent until skin reaches its limit.
-  ThumbPose reached(const HeldProduct& product, const DepthLimits& limits, const Posture& start,
-                    double flexion, double abduction) const;
+  ThumbPose reached(const HeldProduct& product, const DepthLimits& limits,
+                    const hand::Posture& start, double flexion, double abduction) const;
 
-  const Hand* hand_;
+  const hand::Hand* hand_;
   const FingerCones* cones_;
   const std::array<SkinGroup, 3>* groups_;
   const DigitGroups* sparse_;
@@ -77,4 +78,4 @@ class ThumbCloser {
   Vec3 volar_ = Vec3::UnitZ();       // of the distal phalanx, reference posture
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -7,20 +7,20 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
-VolarSkin volar_skin(const Hand& hand, const SkinGroup& group, Finger finger) {
-  const Skeleton& skeleton = hand.skeleton;
+VolarSkin volar_skin(const hand::Hand& hand, const SkinGroup& group, hand::Finger finger) {
+  const hand::Skeleton& skeleton = hand.skeleton;
   VolarSkin result;
   result.share.assign(group.segment.size(), 0.0);
   std::vector<Vec3> skin;
-  group.skin.pose(reference_posture(skeleton), skin);
-  std::vector<std::pair<Segment, Vec3>> bones;
-  for (const std::optional<Segment>& segment : segments_of(finger)) {
-    if (segment) bones.emplace_back(*segment, skeleton.joint(joint_of(*segment)).centre);
+  group.skin.pose(hand::reference_posture(skeleton), skin);
+  std::vector<std::pair<hand::Segment, Vec3>> bones;
+  for (const std::optional<hand::Segment>& segment : hand::segments_of(finger)) {
+    if (segment) bones.emplace_back(*segment, skeleton.joint(hand::joint_of(*segment)).centre);
   }
   for (std::size_t i = 0; i < bones.size(); ++i) {
-    const Segment segment = bones[i].first;
+    const hand::Segment segment = bones[i].first;
     const Vec3 from = bones[i].second;
     const Vec3 to =
         i + 1 < bones.size() ? bones[i + 1].second : skeleton.fingertips[index_of(finger)];
@@ -57,4 +57,4 @@ double softened(double x, double far) {
   return size <= far ? x : std::copysign(std::sqrt(far * (2.0 * size - far)), x);
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,7 +6,7 @@
 
 #include "palmar/grasp/power/skin_advance.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// The volar side of a digit's phalanges, which lies on what is held.
 struct VolarSkin {
@@ -18,10 +18,10 @@ struct VolarSkin {
   /// frame, reference posture.
   std::vector<Vec3> direction;
 };
-VolarSkin volar_skin(const Hand& hand, const SkinGroup& group, Finger finger);
+VolarSkin volar_skin(const hand::Hand& hand, const SkinGroup& group, hand::Finger finger);
 
 /// A distance as a residual: x up to `far`, beyond that growing like the square root, so that skin
 /// far off pulls no harder than skin at `far`.
 double softened(double x, double far);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

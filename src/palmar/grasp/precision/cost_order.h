@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Sorts by cost, smallest first; items whose costs follow each other by less than `tie` stay in
 /// the order in which they came. A symmetric product has places of equal cost, which rounding would
@@ -35,4 +35,4 @@ void sort_by_cost(std::vector<Item>& items, double tie, const Cost& cost) {
 inline constexpr double kRoundedTie = 1e-7;
 inline constexpr double kIteratedTie = 1e-3;
 
-}  // namespace palmar
+}  // namespace palmar::grasp

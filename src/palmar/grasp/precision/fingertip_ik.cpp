@@ -13,19 +13,19 @@
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/grasp/precision/posture_terms.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr int kPlacement = 6;  // unknowns of the hand against the product
-constexpr int kFirstDof = static_cast<int>(Dof::kThumbCmcFlexion);
-constexpr int kUnknowns = kPlacement + kDofCount - kFirstDof;
+constexpr int kFirstDof = static_cast<int>(hand::Dof::kThumbCmcFlexion);
+constexpr int kUnknowns = kPlacement + hand::kDofCount - kFirstDof;
 
 using Row = Eigen::Matrix<double, kUnknowns, 1>;
 using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
-constexpr double kBalanceSpread = 0.3;       // rad; thumb against the others
-constexpr double kRangeEnd = 5.0 * kDegree;  // last part of a range, which hands avoid
-constexpr double kEndSpread = 5.0 * kDegree;
+constexpr double kBalanceSpread = 0.3;                 // rad; thumb against the others
+constexpr double kRangeEnd = 5.0 * geometry::kDegree;  // last part of a range, which hands avoid
+constexpr double kEndSpread = 5.0 * geometry::kDegree;
 constexpr double kClashSpread = 0.7;  // mm
 constexpr double kTouchGive = 1.5;    // mm beyond the depth; a pad is no ball
 constexpr double kNextGive = 0.5;     // mm, phalanges next to one that touches
@@ -43,12 +43,12 @@ struct Stage {
 };
 constexpr std::array<Stage, 3> kStages = {{{3.0, 1.0}, {0.5, 1.0}, {0.05, 0.3}}};
 
-int column_of(Dof dof) { return kPlacement + static_cast<int>(dof) - kFirstDof; }
+int column_of(hand::Dof dof) { return kPlacement + static_cast<int>(dof) - kFirstDof; }
 
-Finger finger_of_dof(Dof dof) {
-  if (dof <= Dof::kThumbIpFlexion) return Finger::kThumb;
-  return static_cast<Finger>(1 +
-                             (static_cast<int>(dof) - static_cast<int>(Dof::kIndexMcpFlexion)) / 4);
+hand::Finger finger_of_dof(hand::Dof dof) {
+  if (dof <= hand::Dof::kThumbIpFlexion) return hand::Finger::kThumb;
+  return static_cast<hand::Finger>(
+      1 + (static_cast<int>(dof) - static_cast<int>(hand::Dof::kIndexMcpFlexion)) / 4);
 }
 
 /// Two cones that come near each other: nearest points of their lines and the overlap.
@@ -74,7 +74,7 @@ bool may_cross(const RoundCone& p, const RoundCone& q) {
   if (p.level == 0 || q.level == 0) return false;
   const int fp = static_cast<int>(p.finger), fq = static_cast<int>(q.finger);
   if (fp >= fq) return false;
-  if (p.finger == Finger::kThumb) return q.level >= 1;
+  if (p.finger == hand::Finger::kThumb) return q.level >= 1;
   return fq == fp + 1;
 }
 
@@ -96,8 +96,8 @@ class FingertipSystem {
     lower_.setConstant(-1e9);
     upper_.setConstant(1e9);
     is_free_.fill(problem.is_hand_free);
-    for (int d = kFirstDof; d < kDofCount; ++d) {
-      const JointDof& dof = ik.hand().skeleton.dof(static_cast<Dof>(d));
+    for (int d = kFirstDof; d < hand::kDofCount; ++d) {
+      const hand::JointDof& dof = ik.hand().skeleton.dof(static_cast<hand::Dof>(d));
       const auto column = column_of(dof.dof);
       lower_[column_of(dof.dof)] = dof.lower;
       upper_[column_of(dof.dof)] = dof.upper;
@@ -107,8 +107,8 @@ class FingertipSystem {
   }
 
   struct State {
-    Posture posture;
-    Rigid3 product_from_hand;
+    hand::Posture posture;
+    geometry::Rigid3 product_from_hand;
   };
 
   void evaluate(const State& state, const Stage& stage, double& cost, Square* h, Row* g);
@@ -166,7 +166,7 @@ class FingertipSystem {
   void add_crossings(const State& state, const FingerMotion& motion);
   void add_balls(const State& state, const FingerMotion& motion);
   double give_of(const FingertipIk::Ball& ball) const;
-  bool is_moving(Finger finger) const { return problem_->is_finger_free[index_of(finger)]; }
+  bool is_moving(hand::Finger finger) const { return problem_->is_finger_free[index_of(finger)]; }
   State stepped(const State& state, const Row& step) const;
   void minimise(State& state, const Stage& stage, int most);
 
@@ -174,15 +174,15 @@ class FingertipSystem {
   const FingertipProblem* problem_;
   std::vector<PostureTerm> terms_;
   Vec3 pivot_ = Vec3::Zero();
-  std::array<bool, kSegmentCount> is_contact_{};
-  std::array<double, kSegmentCount> depth_{};
+  std::array<bool, hand::kSegmentCount> is_contact_{};
+  std::array<double, hand::kSegmentCount> depth_{};
   Row lower_, upper_;
   std::array<bool, kUnknowns> is_free_{};
   double cost_ = 0.0, clash_ = 0.0;
   Square* h_ = nullptr;
   Row* g_ = nullptr;
   std::vector<Vec3> points_, points_in_hand_;
-  std::vector<DistanceSample> samples_;
+  std::vector<geometry::DistanceSample> samples_;
   std::vector<Touch> touches_;  ///< of sliding goals
   int iterations_ = 0;
 };
@@ -197,9 +197,9 @@ FingertipSystem::Touch FingertipSystem::touch_of(const State& state, const Finge
   std::array<Vec3, 4> points;
   points.fill(state.product_from_hand * touch.in_hand);
   Eigen::Matrix3d axes = state.product_from_hand.rotation.toRotationMatrix();
-  if (ik_->hand().side == Side::kLeft) axes.col(0) = -axes.col(0);
+  if (ik_->hand().side == hand::Side::kLeft) axes.col(0) = -axes.col(0);
   for (int c = 0; c < 3; ++c) points[c + 1] += kBendStep * axes.col(c);
-  std::array<DistanceSample, 4> samples;
+  std::array<geometry::DistanceSample, 4> samples;
   const std::size_t count = with_bend ? 4 : 1;
   problem_->product->sample(std::span(points).first(count), kEverywhere,
                             std::span(samples).first(count));
@@ -297,8 +297,8 @@ void FingertipSystem::add_posture(const State& state, const Stage& stage) {
     row[column_of(term.dof[1])] += factor * term.factor[1] / term.spread;
     add(factor * value_of(term, state.posture), row);
   }
-  for (int d = kFirstDof; d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
+  for (int d = kFirstDof; d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
     const int c = column_of(dof);
     if (is_abduction(dof) || upper_[c] - lower_[c] < 4.0 * kRangeEnd) continue;
     const double q = state.posture[dof];
@@ -315,16 +315,16 @@ void FingertipSystem::add_posture(const State& state, const Stage& stage) {
 void FingertipSystem::add_crossings(const State& state, const FingerMotion& motion) {
   const std::vector<RoundCone> cones = ik_->cones_.posed(ik_->hand().skeleton, state.posture);
   const auto phalanx_of = [](const RoundCone& cone) {
-    return *segments_of(cone.finger)[cone.level - 1];
+    return *hand::segments_of(cone.finger)[cone.level - 1];
   };
   for (const RoundCone& p : cones) {
     for (const RoundCone& q : cones) {
       if (!may_cross(p, q)) continue;
       if (!is_moving(p.finger) && !is_moving(q.finger)) continue;
-      const Segment sp = phalanx_of(p), sq = phalanx_of(q);
+      const hand::Segment sp = phalanx_of(p), sq = phalanx_of(q);
       // Two that touch the product face each other over it, flattened.
-      const bool is_facing =
-          p.finger == Finger::kThumb && is_contact_[index_of(sp)] && is_contact_[index_of(sq)];
+      const bool is_facing = p.finger == hand::Finger::kThumb && is_contact_[index_of(sp)] &&
+                             is_contact_[index_of(sq)];
       const Crossing crossing = crossing_of(p, q);
       const double excess = crossing.overlap - (is_facing ? kFacingGive : kNeighbourGive);
       if (excess <= 0.0) continue;
@@ -349,7 +349,7 @@ double FingertipSystem::give_of(const FingertipIk::Ball& ball) const {
   if (is_contact_[index_of(*ball.phalanx)]) {
     return kTouchGive + depth_[index_of(*ball.phalanx)];
   }
-  for (const std::optional<Segment>& segment : segments_of(*ball.finger)) {
+  for (const std::optional<hand::Segment>& segment : hand::segments_of(*ball.finger)) {
     if (segment && is_contact_[index_of(*segment)]) return kNextGive;
   }
   return 0.0;
@@ -361,13 +361,14 @@ void FingertipSystem::add_balls(const State& state, const FingerMotion& motion) 
   points_in_hand_.clear();
   std::vector<const FingertipIk::Ball*> balls;
   for (const FingertipIk::Ball& ball : ik_->balls_) {
-    const bool is_still = !ball.finger || (!ball.phalanx && ball.finger != Finger::kThumb);
+    const bool is_still = !ball.finger || (!ball.phalanx && ball.finger != hand::Finger::kThumb);
     if (!problem_->is_hand_free && (is_still || !is_moving(*ball.finger))) continue;
     balls.push_back(&ball);
-    const Rigid3& moved = !ball.finger   ? motion.posed().forearm
-                          : ball.phalanx ? motion.posed().segment[index_of(*ball.phalanx)]
-                          : *ball.finger == Finger::kThumb ? motion.posed().thumb_metacarpal
-                                                           : motion.posed().segment[0];
+    const geometry::Rigid3& moved = !ball.finger   ? motion.posed().forearm
+                                    : ball.phalanx ? motion.posed().segment[index_of(*ball.phalanx)]
+                                    : *ball.finger == hand::Finger::kThumb
+                                        ? motion.posed().thumb_metacarpal
+                                        : motion.posed().segment[0];
     points_in_hand_.push_back(moved * ball.centre);
     points_.push_back(state.product_from_hand * points_in_hand_.back());
   }
@@ -380,7 +381,7 @@ void FingertipSystem::add_balls(const State& state, const FingerMotion& motion) 
     if (excess <= 0.0) continue;
     clash_ = std::max(clash_, excess);
     const std::vector<DofMotion>& moving = ball.phalanx ? motion.moving(*ball.phalanx)
-                                           : ball.finger == Finger::kThumb
+                                           : ball.finger == hand::Finger::kThumb
                                                ? motion.moving_thumb_metacarpal()
                                                : kFixed;
     Row row = Row::Zero();
@@ -414,11 +415,11 @@ FingertipSystem::State FingertipSystem::stepped(const State& state, const Row& s
   const double angle = turn.norm();
   if (angle > 0.0) {
     next.product_from_hand =
-        Rigid3::about_axis(turn / angle, pivot_, angle) * next.product_from_hand;
+        geometry::Rigid3::about_axis(turn / angle, pivot_, angle) * next.product_from_hand;
   }
   next.product_from_hand.translation += step.head<3>();
-  for (int d = kFirstDof; d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
+  for (int d = kFirstDof; d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
     const int c = column_of(dof);
     if (!is_free_[c]) continue;
     next.posture[dof] = std::clamp(next.posture[dof] + step[c], lower_[c], upper_[c]);
@@ -441,7 +442,7 @@ void FingertipSystem::minimise(State& state, const Stage& stage, int most) {
     for (int c = 0; c < kUnknowns; ++c) {
       bool is_held = !is_free_[c];
       if (c >= kPlacement && !is_held) {
-        const double q = state.posture[static_cast<Dof>(c - kPlacement + kFirstDof)];
+        const double q = state.posture[static_cast<hand::Dof>(c - kPlacement + kFirstDof)];
         is_held = (q <= lower_[c] && g[c] > 0.0) || (q >= upper_[c] && g[c] < 0.0);
       }
       if (!is_held) continue;
@@ -518,7 +519,7 @@ FingertipSolution FingertipSystem::solution(const State& state) {
 }
 
 FingertipSolution FingertipSystem::solve() {
-  State state{clamp_to_range(ik_->hand().skeleton, problem_->start).posture,
+  State state{hand::clamp_to_range(ik_->hand().skeleton, problem_->start).posture,
               problem_->product_from_hand};
   if (problem_->is_refining) {
     minimise(state, kStages.back(), problem_->max_iterations);
@@ -528,8 +529,9 @@ FingertipSolution FingertipSystem::solve() {
   return solution(state);
 }
 
-FingertipIk::FingertipIk(const Hand& hand) : hand_(&hand), cones_(hand) {
-  for (const RoundCone& cone : cones_.posed(hand.skeleton, reference_posture(hand.skeleton))) {
+FingertipIk::FingertipIk(const hand::Hand& hand) : hand_(&hand), cones_(hand) {
+  for (const RoundCone& cone :
+       cones_.posed(hand.skeleton, hand::reference_posture(hand.skeleton))) {
     const bool is_metacarpal = cone.level == 0;
     for (const double t : {0.1, 0.55, 1.0}) {
       Ball ball;
@@ -537,7 +539,7 @@ FingertipIk::FingertipIk(const Hand& hand) : hand_(&hand), cones_(hand) {
       ball.radius = (1.0 - t) * cone.radius_a + t * cone.radius_b;
       ball.finger = cone.finger;
       if (!is_metacarpal) {
-        ball.phalanx = segments_of(cone.finger)[cone.level - 1];
+        ball.phalanx = hand::segments_of(cone.finger)[cone.level - 1];
       }
       balls_.push_back(ball);
     }
@@ -556,19 +558,19 @@ FingertipSolution FingertipIk::solve(const FingertipProblem& problem) const {
   return FingertipSystem(*this, problem).solve();
 }
 
-double FingertipIk::clash_of(const DistanceField& product, const Posture& posture,
-                             const Rigid3& product_from_hand,
+double FingertipIk::clash_of(const geometry::DistanceField& product, const hand::Posture& posture,
+                             const geometry::Rigid3& product_from_hand,
                              const std::vector<FingertipPoint>& contacts) const {
-  const PosedSkeleton posed = pose_skeleton(hand_->skeleton, posture);
+  const hand::PosedSkeleton posed = hand::pose_skeleton(hand_->skeleton, posture);
   std::vector<Vec3> points;
   for (const Ball& ball : balls_) {
-    const Rigid3& moved = !ball.finger                     ? posed.forearm
-                          : ball.phalanx                   ? posed.segment[index_of(*ball.phalanx)]
-                          : *ball.finger == Finger::kThumb ? posed.thumb_metacarpal
-                                                           : posed.segment[0];
+    const geometry::Rigid3& moved = !ball.finger   ? posed.forearm
+                                    : ball.phalanx ? posed.segment[index_of(*ball.phalanx)]
+                                    : *ball.finger == hand::Finger::kThumb ? posed.thumb_metacarpal
+                                                                           : posed.segment[0];
     points.push_back(product_from_hand * (moved * ball.centre));
   }
-  std::vector<DistanceSample> samples(points.size());
+  std::vector<geometry::DistanceSample> samples(points.size());
   product.sample(points, kFarOff, samples);
   double sum = 0.0;
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -582,4 +584,4 @@ double FingertipIk::clash_of(const DistanceField& product, const Posture& postur
   return sum;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -10,7 +10,7 @@
 #include "palmar/grasp/power/finger_cones.h"
 #include "palmar/grasp/precision/fingertip_point.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// One fingertip and where it is to go. Product frame, mm.
 struct FingertipGoal {
@@ -28,19 +28,19 @@ struct FingertipGoal {
 
 struct FingertipProblem {
   std::vector<FingertipGoal> goals;
-  const DistanceField* product = nullptr;  ///< not to run into; none: thin air
-  Posture natural;                         ///< the hand likes to be near this one
-  Posture start;
-  Rigid3 product_from_hand;  ///< at the start
-  bool is_hand_free = true;  ///< whether the hand may move against the product
-  std::array<bool, kFingerCount> is_finger_free = {true, true, true, true, true};
+  const geometry::DistanceField* product = nullptr;  ///< not to run into; none: thin air
+  hand::Posture natural;                             ///< the hand likes to be near this one
+  hand::Posture start;
+  geometry::Rigid3 product_from_hand;  ///< at the start
+  bool is_hand_free = true;            ///< whether the hand may move against the product
+  std::array<bool, hand::kFingerCount> is_finger_free = {true, true, true, true, true};
   bool is_refining = false;  ///< start is near the answer: only the last, sharpest stage
   int max_iterations = 60;
 };
 
 struct FingertipSolution {
-  Posture posture;
-  Rigid3 product_from_hand;
+  hand::Posture posture;
+  geometry::Rigid3 product_from_hand;
   std::vector<Vec3> reached;  ///< where the fingertips are, product frame, mm, per goal
   std::vector<Vec3> normal;   ///< of the product there, as far as known (else zero), per goal
   std::vector<double> miss;   ///< to what was asked (sliding: to the surface), mm, per goal
@@ -69,17 +69,17 @@ struct FingertipSolution {
 /// Deterministic. All weights are our choice.
 class FingertipIk {
  public:
-  explicit FingertipIk(const Hand& hand);  ///< keeps a pointer to the hand
+  explicit FingertipIk(const hand::Hand& hand);  ///< keeps a pointer to the hand
 
-  const Hand& hand() const { return *hand_; }
+  const hand::Hand& hand() const { return *hand_; }
 
   /// From the problem's start. What can't be reached is missed: see `miss`.
   FingertipSolution solve(const FingertipProblem& problem) const;
 
   /// How deep balls of fingers, palm and forearm are in the product beyond what they may be: the
   /// sum, mm. A quick look at a placement. Fingers of `contacts` may touch with their last phalanx.
-  double clash_of(const DistanceField& product, const Posture& posture,
-                  const Rigid3& product_from_hand,
+  double clash_of(const geometry::DistanceField& product, const hand::Posture& posture,
+                  const geometry::Rigid3& product_from_hand,
                   const std::vector<FingertipPoint>& contacts) const;
 
  private:
@@ -88,13 +88,13 @@ class FingertipIk {
   struct Ball {
     Vec3 centre = Vec3::Zero();  ///< reference posture, mm
     double radius = 0.0;
-    std::optional<Segment> phalanx;
-    std::optional<Finger> finger;  ///< of a phalanx or metacarpal; none: forearm
+    std::optional<hand::Segment> phalanx;
+    std::optional<hand::Finger> finger;  ///< of a phalanx or metacarpal; none: forearm
   };
 
-  const Hand* hand_;
+  const hand::Hand* hand_;
   FingerCones cones_;
   std::vector<Ball> balls_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -11,14 +11,14 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kPadShare = 0.55;
-constexpr double kTipShare = 0.72, kTipTilt = 50.0 * kDegree;
-constexpr double kSideShare = 0.65, kSideTilt = 20.0 * kDegree;
-constexpr double kTipSideShare = 0.4, kTipSideTilt = 30.0 * kDegree;
-constexpr double kWebShare = 0.25, kWebTilt = -20.0 * kDegree, kWebStep = 0.05;
+constexpr double kTipShare = 0.72, kTipTilt = 50.0 * geometry::kDegree;
+constexpr double kSideShare = 0.65, kSideTilt = 20.0 * geometry::kDegree;
+constexpr double kTipSideShare = 0.4, kTipSideTilt = 30.0 * geometry::kDegree;
+constexpr double kWebShare = 0.25, kWebTilt = -20.0 * geometry::kDegree, kWebStep = 0.05;
 constexpr double kNormalRadius = 4.0;  // mm; the skin's normal is a mean over that much pulp
 
 struct SkinHit {
@@ -28,14 +28,14 @@ struct SkinHit {
 };
 
 // Moeller and Trumbore 1997; only skin of one finger, the farthest hit: the outside.
-std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, const Vec3& origin,
-                                     const Vec3& direction) {
+std::optional<SkinHit> outermost_hit(const hand::Hand& hand, hand::Finger finger,
+                                     const Vec3& origin, const Vec3& direction) {
   std::optional<SkinHit> best;
   for (std::size_t t = 0; t < hand.skin.triangles.size(); ++t) {
     const Triangle& corner = hand.skin.triangles[t];
     bool belongs = false;
     for (const int v : corner) {
-      belongs = belongs || finger_of(hand.segment[v]) == finger;
+      belongs = belongs || hand::finger_of(hand.segment[v]) == finger;
     }
     if (!belongs) continue;
     const Vec3& a = hand.skin.vertices[corner[0]];
@@ -56,7 +56,7 @@ std::optional<SkinHit> outermost_hit(const Hand& hand, Finger finger, const Vec3
   return best;
 }
 
-Vec3 mean_normal(const Hand& hand, const Vec3& point, const Vec3& outwards) {
+Vec3 mean_normal(const hand::Hand& hand, const Vec3& point, const Vec3& outwards) {
   Vec3 sum = Vec3::Zero();
   for (const Triangle& t : hand.skin.triangles) {
     const Vec3& a = hand.skin.vertices[t[0]];
@@ -90,30 +90,30 @@ std::string_view name_of(FingertipPart part) {
   return "unknown";
 }
 
-FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart part) {
-  const Skeleton& skeleton = hand.skeleton;
-  const auto segments = segments_of(finger);
+FingertipPoint fingertip_point(const hand::Hand& hand, hand::Finger finger, FingertipPart part) {
+  const hand::Skeleton& skeleton = hand.skeleton;
+  const auto segments = hand::segments_of(finger);
   const bool is_side = part == FingertipPart::kRadialSide || part == FingertipPart::kTipSide ||
                        part == FingertipPart::kWeb;
-  if (is_side && finger == Finger::kThumb) {
+  if (is_side && finger == hand::Finger::kThumb) {
     throw Error("fingertip point: the thumb has no radial side that grips use");
   }
-  if (part == FingertipPart::kMiddlePad && finger == Finger::kThumb) {
+  if (part == FingertipPart::kMiddlePad && finger == hand::Finger::kThumb) {
     throw Error("fingertip point: the thumb has no middle phalanx");
   }
-  const std::size_t last = finger == Finger::kThumb ? 1 : 2;
+  const std::size_t last = finger == hand::Finger::kThumb ? 1 : 2;
   const bool is_on_middle = part == FingertipPart::kRadialSide || part == FingertipPart::kMiddlePad;
   const std::size_t level = part == FingertipPart::kWeb ? 0 : is_on_middle ? 1 : last;
-  const Segment segment = *segments[level];
-  const JointDof& flexion = skeleton.joint(joint_of(segment)).dofs.back();
-  const Vec3 from = skeleton.joint(joint_of(segment)).centre;
-  const Vec3 to = level < last ? skeleton.joint(joint_of(*segments[level + 1])).centre
+  const hand::Segment segment = *segments[level];
+  const hand::JointDof& flexion = skeleton.joint(hand::joint_of(segment)).dofs.back();
+  const Vec3 from = skeleton.joint(hand::joint_of(segment)).centre;
+  const Vec3 to = level < last ? skeleton.joint(hand::joint_of(*segments[level + 1])).centre
                                : skeleton.fingertips[index_of(finger)];
   const Vec3 along = (to - from).normalized();
   const Vec3 palmar = flexion.axis.cross(along).normalized();
   Vec3 radial = along.cross(palmar);
-  const Vec3 towards_thumb =
-      skeleton.joint(JointId::kIndexMcp).centre - skeleton.joint(JointId::kLittleMcp).centre;
+  const Vec3 towards_thumb = skeleton.joint(hand::JointId::kIndexMcp).centre -
+                             skeleton.joint(hand::JointId::kLittleMcp).centre;
   if (radial.dot(towards_thumb) < 0.0) radial = -radial;
 
   Vec3 direction = palmar;
@@ -153,4 +153,4 @@ FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart pa
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

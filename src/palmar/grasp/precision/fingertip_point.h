@@ -6,7 +6,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Which part of a fingertip touches the product.
 enum class FingertipPart {
@@ -21,8 +21,8 @@ std::string_view name_of(FingertipPart part);  ///< "pad", "tip", "radial_side",
 
 /// A point of the skin by which a finger touches things. Reference posture, hand frame, mm.
 struct FingertipPoint {
-  Finger finger{};
-  Segment segment{};  ///< phalanx that carries it
+  hand::Finger finger{};
+  hand::Segment segment{};  ///< phalanx that carries it
   FingertipPart part{};
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();  ///< unit, out of the skin
@@ -45,6 +45,6 @@ struct FingertipPoint {
 ///
 /// The shares are our choice. Throws Error naming the finger where the ray meets no skin, or for a
 /// side or a middle phalanx of the thumb.
-FingertipPoint fingertip_point(const Hand& hand, Finger finger, FingertipPart part);
+FingertipPoint fingertip_point(const hand::Hand& hand, hand::Finger finger, FingertipPart part);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -11,7 +11,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kPulpReach = 11.0;  // mm round a fingertip point that can touch
@@ -22,7 +22,7 @@ constexpr double kMissed = 0.3;           // mm; a goal missed by more isn't pre
 constexpr int kIterations = 30;
 constexpr double kFarSide = 0.5;  // cosine of skin's and product's normal; such skin came through
 
-std::vector<int> all_vertices(const Hand& hand) {
+std::vector<int> all_vertices(const hand::Hand& hand) {
   std::vector<int> vertices(hand.skin.vertices.size());
   std::iota(vertices.begin(), vertices.end(), 0);
   return vertices;
@@ -32,35 +32,35 @@ std::vector<int> all_vertices(const Hand& hand) {
 
 FingertipPress::FingertipPress(const FingertipIk& ik)
     : ik_(&ik), skin_(ik.hand(), all_vertices(ik.hand())) {
-  area_weighted_normals(ik.hand().skin.vertices, ik.hand().skin.triangles, normal_);
+  geometry::area_weighted_normals(ik.hand().skin.vertices, ik.hand().skin.triangles, normal_);
 }
 
-SkinDepth FingertipPress::look(const DistanceField& product, const Posture& posture,
-                               const Rigid3& product_from_hand) const {
+SkinDepth FingertipPress::look(const geometry::DistanceField& product, const hand::Posture& posture,
+                               const geometry::Rigid3& product_from_hand) const {
   std::vector<Vec3> posed;
   skin_.pose(posture, posed);
   for (Vec3& p : posed) p = product_from_hand * p;
-  std::vector<DistanceSample> samples(posed.size());
+  std::vector<geometry::DistanceSample> samples(posed.size());
   product.sample(posed, kRange, samples);
-  const Hand& hand = ik_->hand();
+  const hand::Hand& hand = ik_->hand();
   SkinDepth result;
   result.palmar.fill(-kRange);
   result.any.fill(-kRange);
   for (std::size_t v = 0; v < posed.size(); ++v) {
     const std::size_t s = index_of(hand.segment[v]);
     result.any[s] = std::max(result.any[s], -samples[v].distance);
-    if (hand.region[v] == Region::kDorsum) continue;
+    if (hand.region[v] == hand::Region::kDorsum) continue;
     result.palmar[s] = std::max(result.palmar[s], -samples[v].distance);
   }
   return result;
 }
 
-std::vector<double> FingertipPress::depth_at(const DistanceField& product,
+std::vector<double> FingertipPress::depth_at(const geometry::DistanceField& product,
                                              const FingertipSolution& solution,
                                              const std::vector<FingertipGoal>& goals) const {
-  const Hand& hand = ik_->hand();
-  const double flesh = flesh_depth(hand);
-  const PosedSkeleton motion = pose_skeleton(hand.skeleton, solution.posture);
+  const hand::Hand& hand = ik_->hand();
+  const double flesh = contact::flesh_depth(hand);
+  const hand::PosedSkeleton motion = hand::pose_skeleton(hand.skeleton, solution.posture);
   std::vector<double> result;
   for (const FingertipGoal& goal : goals) {
     std::vector<int> pulp;
@@ -75,14 +75,15 @@ std::vector<double> FingertipPress::depth_at(const DistanceField& product,
     std::vector<Vec3> posed;
     PosableSkin(hand, std::move(pulp)).pose(solution.posture, posed);
     for (Vec3& p : posed) p = solution.product_from_hand * p;
-    std::vector<DistanceSample> samples(posed.size());
+    std::vector<geometry::DistanceSample> samples(posed.size());
     product.sample(posed, kRange, samples);
     double deepest = -kRange;
     for (std::size_t k = 0; k < posed.size(); ++k) {
       double depth = -samples[k].distance;
       // Skin may be through a thin product.
       if (-depth < flesh && normal[k].dot(samples[k].normal) > kFarSide) {
-        const auto passed = surface_passed(product, posed[k], samples[k], normal[k], flesh);
+        const auto passed =
+            contact::surface_passed(product, posed[k], samples[k], normal[k], flesh);
         if (passed) depth = -passed->distance;
       }
       deepest = std::max(deepest, depth);
@@ -117,4 +118,4 @@ FingertipSolution FingertipPress::press(FingertipProblem& problem, double depth)
   return best;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -8,12 +8,12 @@
 #include "palmar/grasp/power/posable_skin.h"
 #include "palmar/grasp/precision/fingertip_ik.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// How deep the skin of a posed hand is in the product, mm; gaps count negative, down to -10.
 struct SkinDepth {
-  std::array<double, kSegmentCount> palmar{};  ///< deepest palmar skin of each segment
-  std::array<double, kSegmentCount> any{};     ///< deepest skin of each segment
+  std::array<double, hand::kSegmentCount> palmar{};  ///< deepest palmar skin of each segment
+  std::array<double, hand::kSegmentCount> any{};     ///< deepest skin of each segment
 };
 
 /// Presses fingertips that touch a product into it.
@@ -22,11 +22,12 @@ class FingertipPress {
   explicit FingertipPress(const FingertipIk& ik);
 
   /// Every skin vertex by the product's own distance.
-  SkinDepth look(const DistanceField& product, const Posture& posture,
-                 const Rigid3& product_from_hand) const;
+  SkinDepth look(const geometry::DistanceField& product, const hand::Posture& posture,
+                 const geometry::Rigid3& product_from_hand) const;
 
   /// Deepest skin within a pulp's breadth of each fingertip point, mm, per goal.
-  std::vector<double> depth_at(const DistanceField& product, const FingertipSolution& hand,
+  std::vector<double> depth_at(const geometry::DistanceField& product,
+                               const FingertipSolution& hand,
                                const std::vector<FingertipGoal>& goals) const;
 
   /// Solves again with deeper and deeper goals until the deepest skin of every pulp is `depth` [mm]
@@ -40,4 +41,4 @@ class FingertipPress {
   std::vector<Vec3> normal_;  ///< of the skin, reference posture
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

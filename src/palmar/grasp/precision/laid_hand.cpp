@@ -20,7 +20,7 @@
 #include "palmar/grasp/precision/fingertip_press.h"
 #include "palmar/hand/posture/named_postures.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kLaidDepth = 0.5;   // mm that palm and pads are pressed in before forces are known
@@ -37,13 +37,13 @@ constexpr double kPushDepth = 1.0;                      // mm
 constexpr int kPushSides = 8;
 
 /// A product and what it stands on.
-class StandingProduct : public DistanceField {
+class StandingProduct : public geometry::DistanceField {
  public:
   StandingProduct(std::shared_ptr<const DistanceField> product, const Vec3& up, double level)
       : product_(std::move(product)), up_(up), level_(level) {}
 
   void sample(std::span<const Vec3> points, double range,
-              std::span<DistanceSample> samples) const override {
+              std::span<geometry::DistanceSample> samples) const override {
     product_->sample(points, range, samples);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const double height = up_.dot(points[k]) - level_;
@@ -60,11 +60,12 @@ class StandingProduct : public DistanceField {
 };
 
 // What a ray meets first; nothing within `longest`.
-std::optional<DistanceSample> below(const DistanceField& surface, const Vec3& from,
-                                    const Vec3& direction, double longest) {
+std::optional<geometry::DistanceSample> below(const geometry::DistanceField& surface,
+                                              const Vec3& from, const Vec3& direction,
+                                              double longest) {
   double way = 0.0;
   for (int step = 0; step < 400 && way < longest; ++step) {
-    const DistanceSample sample = surface.at(from + way * direction);
+    const geometry::DistanceSample sample = surface.at(from + way * direction);
     if (sample.distance < 0.05) return sample;
     way += std::max(sample.distance, 0.05);
   }
@@ -72,17 +73,18 @@ std::optional<DistanceSample> below(const DistanceField& surface, const Vec3& fr
 }
 
 // The middle of the palm's skin, as a place that touches.
-FingertipPoint palm_point(const Hand& hand) {
-  const Vec3 knuckle = hand.skeleton.joint(JointId::kMiddleMcp).centre;
-  const Vec3 wrist = hand.skeleton.joint(JointId::kWrist).centre;
+FingertipPoint palm_point(const hand::Hand& hand) {
+  const Vec3 knuckle = hand.skeleton.joint(hand::JointId::kMiddleMcp).centre;
+  const Vec3 wrist = hand.skeleton.joint(hand::JointId::kWrist).centre;
   const Vec3 middle = knuckle + kPalmShare * (wrist - knuckle);
   FingertipPoint result;
-  result.finger = Finger::kMiddle;
-  result.segment = Segment::kPalm;
+  result.finger = hand::Finger::kMiddle;
+  result.segment = hand::Segment::kPalm;
   result.normal = Vec3::UnitZ();  // the hand frame's z is palmar
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t v = 0; v < hand.skin.vertices.size(); ++v) {
-    if (hand.segment[v] != Segment::kPalm || hand.region[v] == Region::kDorsum) continue;
+    if (hand.segment[v] != hand::Segment::kPalm || hand.region[v] == hand::Region::kDorsum)
+      continue;
     const Vec3 off = hand.skin.vertices[v] - middle;
     const double away = std::hypot(off.x(), off.y());
     if (away >= nearest) continue;
@@ -92,8 +94,8 @@ FingertipPoint palm_point(const Hand& hand) {
   return result;
 }
 
-std::string laid_finger_words(Finger finger) {
-  return finger == Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
+std::string laid_finger_words(hand::Finger finger) {
+  return finger == hand::Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
 }
 
 std::string laid_list(const std::vector<std::string>& words) {
@@ -105,14 +107,14 @@ std::string laid_list(const std::vector<std::string>& words) {
 }
 
 // Fills what follows from the solution: contacts, stops, grip point and axis.
-void describe_laid(const Hand& hand, const Product& product, const FingertipIk& ik,
+void describe_laid(const hand::Hand& hand, const product::Product& product, const FingertipIk& ik,
                    const FingertipProblem& problem, const FingertipSolution& solution,
                    Grasp& grasp) {
   grasp.posture = solution.posture;
   grasp.product_from_hand = solution.product_from_hand;
   Vec3 middle = Vec3::Zero();
   for (std::size_t k = 0; k < problem.goals.size(); ++k) {
-    if (problem.goals[k].fingertip.segment == Segment::kPalm) continue;
+    if (problem.goals[k].fingertip.segment == hand::Segment::kPalm) continue;
     FingertipContact contact;
     contact.finger = problem.goals[k].fingertip.finger;
     contact.target = contact.reached = solution.reached[k];
@@ -123,15 +125,16 @@ void describe_laid(const Hand& hand, const Product& product, const FingertipIk& 
     grasp.fingertips.push_back(contact);
   }
   middle /= static_cast<double>(grasp.fingertips.size());
-  const Vec3 radial = hand.skeleton.joint(JointId::kIndexMcp).centre -
-                      hand.skeleton.joint(JointId::kLittleMcp).centre;
+  const Vec3 radial = hand.skeleton.joint(hand::JointId::kIndexMcp).centre -
+                      hand.skeleton.joint(hand::JointId::kLittleMcp).centre;
   grasp.grip_axis = (grasp.product_from_hand.rotation * radial).normalized();
   grasp.grip_point = middle;
   std::vector<Vec3> section;
-  for (const SectionCurve& curve : plane_section(product.mesh, grasp.grip_point, grasp.grip_axis)) {
+  for (const geometry::SectionCurve& curve :
+       geometry::plane_section(product.mesh, grasp.grip_point, grasp.grip_axis)) {
     section.insert(section.end(), curve.point.begin(), curve.point.end());
   }
-  grasp.grip_girth = girth(section, grasp.grip_axis);
+  grasp.grip_girth = geometry::girth(section, grasp.grip_axis);
   const SkinDepth skin =
       FingertipPress(ik).look(*product.distance, grasp.posture, grasp.product_from_hand);
   for (std::size_t s = 0; s < grasp.stops.size(); ++s) {
@@ -145,14 +148,15 @@ Grasp empty_grasp(Grip grip) {
   Grasp grasp;
   grasp.grip = grip;
   for (std::size_t s = 0; s < grasp.stops.size(); ++s) {
-    grasp.stops[s].segment = static_cast<Segment>(s);
+    grasp.stops[s].segment = static_cast<hand::Segment>(s);
   }
   return grasp;
 }
 
 }  // namespace
 
-Grasp close_laid_hand(const Hand& hand, const Product& product, Grip grip, const LaidSite& site) {
+Grasp close_laid_hand(const hand::Hand& hand, const product::Product& product, Grip grip,
+                      const LaidSite& site) {
   Grasp grasp = empty_grasp(grip);
   const FingertipIk ik(hand);
   double level = std::numeric_limits<double>::infinity();
@@ -162,17 +166,17 @@ Grasp close_laid_hand(const Hand& hand, const Product& product, Grip grip, const
   FingertipProblem problem;
   problem.product = &surface;
   problem.natural = problem.start =
-      named_posture(hand.skeleton, grip == Grip::kFlatHand ? "flat" : "relaxed").value();
+      hand::named_posture(hand.skeleton, grip == Grip::kFlatHand ? "flat" : "relaxed").value();
   problem.max_iterations = 150;
   Eigen::Matrix3d axes;
   axes.col(2) = -site.up;
   axes.col(1) = site.fingers;
   axes.col(0) = axes.col(1).cross(axes.col(2));
   problem.product_from_hand.rotation = Quat(axes).normalized();
-  const PosedSkeleton posed = pose_skeleton(hand.skeleton, problem.start);
+  const hand::PosedSkeleton posed = hand::pose_skeleton(hand.skeleton, problem.start);
   std::vector<FingertipPoint> places;
-  for (int f = 0; f < kFingerCount; ++f) {
-    places.push_back(fingertip_point(hand, static_cast<Finger>(f), FingertipPart::kPad));
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    places.push_back(fingertip_point(hand, static_cast<hand::Finger>(f), FingertipPart::kPad));
   }
   places.push_back(palm_point(hand));
   problem.product_from_hand.translation =
@@ -200,8 +204,8 @@ Grasp close_laid_hand(const Hand& hand, const Product& product, Grip grip, const
     goal.depth = kLaidDepth;
     goal.is_sliding = true;
     goal.is_rest = true;  // nothing is pressed between thumb and fingers
-    goal.slide = places[k].segment == Segment::kPalm ? kPalmSlide : kLaidSlide;
-    goal.square = places[k].segment == Segment::kPalm ? kPalmSquare : kLaidSquare;
+    goal.slide = places[k].segment == hand::Segment::kPalm ? kPalmSlide : kLaidSlide;
+    goal.square = places[k].segment == hand::Segment::kPalm ? kPalmSquare : kLaidSquare;
     problem.goals.push_back(goal);
   }
   const FingertipSolution solution = ik.solve(problem);
@@ -209,14 +213,15 @@ Grasp close_laid_hand(const Hand& hand, const Product& product, Grip grip, const
   grasp.score = 1.0 / (1.0 + solution.strain);
 
   std::vector<std::string> touching;
-  if (grasp.stops[index_of(Segment::kPalm)].penetration > 0.0) touching.emplace_back("palm");
+  if (grasp.stops[index_of(hand::Segment::kPalm)].penetration > 0.0) touching.emplace_back("palm");
   const bool has_palm = !touching.empty();
-  for (int f = 0; f < kFingerCount; ++f) {
+  for (int f = 0; f < hand::kFingerCount; ++f) {
     const bool touches =
         std::any_of(grasp.stops.begin(), grasp.stops.end(), [&](const SegmentStop& stop) {
-          return finger_of(stop.segment) == static_cast<Finger>(f) && stop.penetration > 0.0;
+          return hand::finger_of(stop.segment) == static_cast<hand::Finger>(f) &&
+                 stop.penetration > 0.0;
         });
-    if (touches) touching.push_back(laid_finger_words(static_cast<Finger>(f)));
+    if (touches) touching.push_back(laid_finger_words(static_cast<hand::Finger>(f)));
   }
   const std::size_t fingers = touching.size() - (has_palm ? 1 : 0);
   grasp.status = fingers >= (has_palm ? 2U : 3U) ? GraspStatus::kHeld
@@ -227,17 +232,18 @@ Grasp close_laid_hand(const Hand& hand, const Product& product, Grip grip, const
   return grasp;
 }
 
-Grasp close_finger_push(const Hand& hand, const Product& product, const Vec3& point) {
+Grasp close_finger_push(const hand::Hand& hand, const product::Product& product,
+                        const Vec3& point) {
   Grasp grasp = empty_grasp(Grip::kFingerPush);
   const FingertipIk ik(hand);
-  const FingertipPoint tip = fingertip_point(hand, Finger::kIndex, FingertipPart::kTip);
-  const DistanceSample at = product.distance->at(point);
+  const FingertipPoint tip = fingertip_point(hand, hand::Finger::kIndex, FingertipPart::kTip);
+  const geometry::DistanceSample at = product.distance->at(point);
   // Where the surface's direction is smooth.
   constexpr double kOff = 3.0;  // mm
   const Vec3 normal = product.distance->at(at.closest + kOff * at.normal).normal;
   FingertipProblem problem;
   problem.product = product.distance.get();
-  problem.natural = problem.start = named_posture(hand.skeleton, "point").value();
+  problem.natural = problem.start = hand::named_posture(hand.skeleton, "point").value();
   problem.max_iterations = 150;
   FingertipGoal goal;
   goal.fingertip = tip;
@@ -245,13 +251,13 @@ Grasp close_finger_push(const Hand& hand, const Product& product, const Vec3& po
   goal.normal = normal;
   goal.depth = kPushDepth;
   problem.goals = {goal};
-  const PosedSkeleton posed = pose_skeleton(hand.skeleton, problem.start);
-  const Rigid3& carrier = posed.segment[index_of(tip.segment)];
+  const hand::PosedSkeleton posed = hand::pose_skeleton(hand.skeleton, problem.start);
+  const geometry::Rigid3& carrier = posed.segment[index_of(tip.segment)];
   const Quat facing = Quat::FromTwoVectors(carrier.rotation * tip.normal, -normal);
   FingertipSolution best;
   double least = std::numeric_limits<double>::infinity();
   for (int side = 0; side < kPushSides; ++side) {
-    const double sign = hand.side == Side::kRight ? 1.0 : -1.0;
+    const double sign = hand.side == hand::Side::kRight ? 1.0 : -1.0;
     const double angle = sign * 2.0 * std::numbers::pi * side / kPushSides;
     problem.product_from_hand.rotation = Quat(Eigen::AngleAxisd(angle, normal)) * facing;
     problem.product_from_hand.translation =
@@ -259,7 +265,7 @@ Grasp close_finger_push(const Hand& hand, const Product& product, const Vec3& po
     const FingertipSolution solution = ik.solve(problem);
     const double cost = std::pow(solution.worst_miss / 0.5, 2) +
                         std::pow(std::max(0.0, solution.clash), 2) + 0.1 * solution.strain +
-                        0.5 * std::pow(solution.tilt[0] / (40.0 * kDegree), 2);
+                        0.5 * std::pow(solution.tilt[0] / (40.0 * geometry::kDegree), 2);
     if (cost >= least - 1e-6) continue;
     least = cost;
     best = solution;
@@ -282,4 +288,4 @@ Grasp close_finger_push(const Hand& hand, const Product& product, const Vec3& po
   return grasp;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

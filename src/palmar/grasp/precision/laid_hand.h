@@ -7,7 +7,7 @@
 #include "palmar/hand/hand.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Where a hand lies on a product. Product frame, mm.
 struct LaidSite {
@@ -22,11 +22,12 @@ struct LaidSite {
 /// `up` through its lowest point), on its nearest side. By inverse kinematics (FingertipIk) from
 /// the named posture. Held: the palm and two fingers touch, or three fingers. Deterministic. Not
 /// being able to is a status with a message.
-Grasp close_laid_hand(const Hand& hand, const Product& product, Grip grip, const LaidSite& site);
+Grasp close_laid_hand(const hand::Hand& hand, const product::Product& product, Grip grip,
+                      const LaidSite& site);
 
 /// The tip of the index finger presses a point of the product, the other fingers bent out of the
 /// way; the hand comes from that one of eight sides from which it is least in the way of itself.
 /// Held: the tip comes within 1 mm and no bone of the hand would be in the product.
-Grasp close_finger_push(const Hand& hand, const Product& product, const Vec3& point);
+Grasp close_finger_push(const hand::Hand& hand, const product::Product& product, const Vec3& point);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -13,29 +13,29 @@
 #include "palmar/grasp/power/grip_axis.h"
 #include "palmar/grasp/precision/cost_order.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr int kPoints = 300;
-constexpr double kCone = 35.0 * kDegree;  // normals against the line through both points
-constexpr double kEdge = 25.0 * kDegree;  // mean normal against the triangle's
-constexpr double kFingerRoom = 7.0;       // mm off the surface that has to be free for a finger
-constexpr double kThinnest = 0.2;         // mm
-constexpr double kAway = 50.0;            // mm; unit of the cost of being off centre
-constexpr double kAwayFromPlace = 20.0;   // mm; the same where a place is asked for
-constexpr double kNearPlace = 40.0;       // mm from that where points are looked for
-constexpr double kAngleUnit = 20.0 * kDegree;  // of the cost of slanting normals
-constexpr double kWidthUnit = 20.0;            // mm
-constexpr double kPenSlenderness = 4.5;        // length over breadth
-constexpr double kPenBreadth = 32.0;           // mm; thicker bars are no pens
-constexpr double kPenLength = 80.0;            // mm
-constexpr double kPenGrip = 35.0;              // mm behind the tip ...
-constexpr double kPenShare = 0.28;             // ... or this share of the length if that is less
-constexpr double kAlike = 0.92;                // ends whose girths differ less look alike
-constexpr double kEqualSpread = 0.02;          // relative; axes of spreads that near are no axes
-constexpr double kSkewed = 1e-6;               // of a third moment, relative; less has no sign
-constexpr double kRound = 0.9;                 // breadth over breadth of something round
-constexpr double kRollStep = 2.0;              // mm; over which the surface's bend is looked at
+constexpr double kCone = 35.0 * geometry::kDegree;  // normals against the line through both points
+constexpr double kEdge = 25.0 * geometry::kDegree;  // mean normal against the triangle's
+constexpr double kFingerRoom = 7.0;      // mm off the surface that has to be free for a finger
+constexpr double kThinnest = 0.2;        // mm
+constexpr double kAway = 50.0;           // mm; unit of the cost of being off centre
+constexpr double kAwayFromPlace = 20.0;  // mm; the same where a place is asked for
+constexpr double kNearPlace = 40.0;      // mm from that where points are looked for
+constexpr double kAngleUnit = 20.0 * geometry::kDegree;  // of the cost of slanting normals
+constexpr double kWidthUnit = 20.0;                      // mm
+constexpr double kPenSlenderness = 4.5;                  // length over breadth
+constexpr double kPenBreadth = 32.0;                     // mm; thicker bars are no pens
+constexpr double kPenLength = 80.0;                      // mm
+constexpr double kPenGrip = 35.0;                        // mm behind the tip ...
+constexpr double kPenShare = 0.28;     // ... or this share of the length if that is less
+constexpr double kAlike = 0.92;        // ends whose girths differ less look alike
+constexpr double kEqualSpread = 0.02;  // relative; axes of spreads that near are no axes
+constexpr double kSkewed = 1e-6;       // of a third moment, relative; less has no sign
+constexpr double kRound = 0.9;         // breadth over breadth of something round
+constexpr double kRollStep = 2.0;      // mm; over which the surface's bend is looked at
 constexpr double kRollWeight = 0.5;
 constexpr double kMostRolling = 6.0;
 
@@ -60,7 +60,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 
 /// The point r of a mesh, from `centre`, with the largest `size(r)`; the first of those.
 template <class Size>
-Vec3 largest(const TriangleMesh& mesh, const Vec3& centre, const Size& size) {
+Vec3 largest(const geometry::TriangleMesh& mesh, const Vec3& centre, const Size& size) {
   Vec3 best = Vec3::Zero();
   double most = 0.0;
   for (const Vec3& v : mesh.vertices) {
@@ -74,7 +74,7 @@ Vec3 largest(const TriangleMesh& mesh, const Vec3& centre, const Size& size) {
 
 /// Three directions that turn and mirror with a mesh, whatever its symmetry: to the farthest
 /// vertex, to the one farthest off that line, to the one farthest off the plane of both.
-std::array<Vec3, 3> landmarks(const TriangleMesh& mesh, const Vec3& centre) {
+std::array<Vec3, 3> landmarks(const geometry::TriangleMesh& mesh, const Vec3& centre) {
   std::array<Vec3, 3> result;
   result[0] = largest(mesh, centre, [](const Vec3& r) { return r.norm(); });
   const Vec3 line = result[0].normalized();
@@ -87,9 +87,9 @@ std::array<Vec3, 3> landmarks(const TriangleMesh& mesh, const Vec3& centre) {
 }
 
 /// PinchShape::axes.
-Eigen::Matrix3d pinch_axes(const TriangleMesh& mesh, const Vec3& centre) {
+Eigen::Matrix3d pinch_axes(const geometry::TriangleMesh& mesh, const Vec3& centre) {
   Eigen::Matrix3d axes = principal_frame(mesh).axes;
-  const std::vector<double> area = vertex_areas(mesh);
+  const std::vector<double> area = geometry::vertex_areas(mesh);
   const std::array<Vec3, 3> marks = landmarks(mesh, centre);
   const auto moment = [&](const Vec3& axis, int power) {
     double sum = 0.0;
@@ -135,8 +135,8 @@ Eigen::Matrix3d pinch_axes(const TriangleMesh& mesh, const Vec3& centre) {
 
 /// Radius of the surface (the smaller one) about a point with its normal over half the width
 /// between the fingers, inverse: 0 for a flat face, 1 for a ball.
-double rolling(const Product& product, const Vec3& point, const Vec3& normal, const Vec3& towards,
-               double width) {
+double rolling(const product::Product& product, const Vec3& point, const Vec3& normal,
+               const Vec3& towards, double width) {
   const Vec3 t = (towards - normal * normal.dot(towards)).normalized();  // never along the normal
   const Vec3 b = normal.cross(t);
   const Vec3 off = point + kPadOffset * normal;
@@ -158,8 +158,8 @@ double rolling(const Product& product, const Vec3& point, const Vec3& normal, co
 
 }  // namespace
 
-std::vector<SurfacePoint> spread_points(const TriangleMesh& mesh, int count) {
-  const double spacing = std::sqrt(surface_area(mesh) / (0.7 * count));
+std::vector<SurfacePoint> spread_points(const geometry::TriangleMesh& mesh, int count) {
+  const double spacing = std::sqrt(geometry::surface_area(mesh) / (0.7 * count));
   std::vector<SurfacePoint> all;
   for (Triangle t : mesh.triangles) {
     const auto at = [&](int v) -> const Vec3& { return mesh.vertices[v]; };
@@ -180,9 +180,9 @@ std::vector<SurfacePoint> spread_points(const TriangleMesh& mesh, int count) {
   return chosen;
 }
 
-PinchShape pinch_shape(const TriangleMesh& mesh) {
+PinchShape pinch_shape(const geometry::TriangleMesh& mesh) {
   PinchShape shape;
-  shape.centre = centre_of_volume(mesh);
+  shape.centre = geometry::centre_of_volume(mesh);
   shape.axes = pinch_axes(mesh, shape.centre);
   shape.lower.setConstant(1e9);
   shape.upper.setConstant(-1e9);
@@ -204,7 +204,7 @@ PinchShape pinch_shape(const TriangleMesh& mesh) {
   // The writing end is the thinner one: mean distance of the skin from the axis over 15 mm.
   std::array<double, 2> girth = {0.0, 0.0};
   std::array<double, 2> weight = {0.0, 0.0};
-  const std::vector<double> area = vertex_areas(mesh);
+  const std::vector<double> area = geometry::vertex_areas(mesh);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3 local = shape.axes.transpose() * (mesh.vertices[v] - shape.centre);
     const double from_lower = local.x() - shape.lower.x(), from_upper = shape.upper.x() - local.x();
@@ -226,8 +226,8 @@ namespace {
 
 // What of a mesh lies near a place: a knob on a board has few of the points that are spread over
 // all of it. All if nothing is near.
-TriangleMesh near_part(const TriangleMesh& mesh, const Vec3& place) {
-  TriangleMesh part;
+geometry::TriangleMesh near_part(const geometry::TriangleMesh& mesh, const Vec3& place) {
+  geometry::TriangleMesh part;
   part.vertices = mesh.vertices;
   for (const Triangle& t : mesh.triangles) {
     const Vec3 middle = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
@@ -238,13 +238,14 @@ TriangleMesh near_part(const TriangleMesh& mesh, const Vec3& place) {
 
 }  // namespace
 
-std::vector<OpposingPair> find_opposing_pairs(const Product& product, const PinchShape& shape,
+std::vector<OpposingPair> find_opposing_pairs(const product::Product& product,
+                                              const PinchShape& shape,
                                               const OpposingOptions& options) {
   const std::vector<SurfacePoint> points =
       spread_points(options.at ? near_part(product.mesh, *options.at) : product.mesh, kPoints);
   const double unit = options.at ? kAwayFromPlace : kAway;
-  const RayQuery rays(product.mesh);
-  const std::vector<Vec3> normals = triangle_normals(product.mesh);
+  const geometry::RayQuery rays(product.mesh);
+  const std::vector<Vec3> normals = geometry::triangle_normals(product.mesh);
   std::vector<Vec3> places = {shape.centre};
   if (options.at) {
     places = {*options.at};
@@ -259,8 +260,8 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
     }
   }
   const auto pad_normal = [&](const Vec3& point, const Vec3& normal) -> std::optional<Vec3> {
-    const DistanceSample off = product.distance->at(point + kPadOffset * normal);
-    const DistanceSample room = product.distance->at(point + kFingerRoom * normal);
+    const geometry::DistanceSample off = product.distance->at(point + kPadOffset * normal);
+    const geometry::DistanceSample room = product.distance->at(point + kFingerRoom * normal);
     if (room.distance < 0.5 * kFingerRoom || off.distance < 0.5 * kPadOffset) return std::nullopt;
     if (angle_between(room.normal, normal) > kEdge) return std::nullopt;
     return off.normal;
@@ -269,15 +270,15 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
   for (const SurfacePoint& start : points) {
     const std::optional<Vec3> normal = pad_normal(start.point, start.normal);
     if (!normal) continue;
-    const std::vector<RayHit> hits = rays.all_hits(start.point, -*normal, kThinnest);
-    std::vector<RayHit> exits;
-    for (const RayHit& hit : hits) {
+    const std::vector<geometry::RayHit> hits = rays.all_hits(start.point, -*normal, kThinnest);
+    std::vector<geometry::RayHit> exits;
+    for (const geometry::RayHit& hit : hits) {
       if (normals[hit.triangle].dot(-*normal) <= 0.0) continue;
       if (hit.distance > options.widest) break;
       if (exits.size() < 2) exits.push_back(hit);
       exits.back() = hit;
     }
-    for (const RayHit& exit : exits) {
+    for (const geometry::RayHit& exit : exits) {
       OpposingPair pair;
       pair.a = start.point;
       pair.b = start.point - exit.distance * *normal;
@@ -308,4 +309,4 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
   return pairs;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

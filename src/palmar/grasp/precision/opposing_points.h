@@ -8,7 +8,7 @@
 #include "palmar/grasp/grasp.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 inline constexpr double kPadOffset = 3.0;  // mm off the surface, where its distance is smooth
 
@@ -37,7 +37,7 @@ struct PinchShape {
   /// jar. The shortest axis of something that is round about none.
   std::vector<Vec3> disc_axes;
 };
-PinchShape pinch_shape(const TriangleMesh& mesh);
+PinchShape pinch_shape(const geometry::TriangleMesh& mesh);
 
 struct OpposingOptions {
   double widest = 80.0;       ///< mm between the points
@@ -62,7 +62,8 @@ struct OpposingOptions {
 ///
 /// The last term: a thing of width w between two fingertips rolls over the more easily the smaller
 /// the radius R of its surface there. Flat faces: 0; across a round bar: 1/2.
-std::vector<OpposingPair> find_opposing_pairs(const Product& product, const PinchShape& shape,
+std::vector<OpposingPair> find_opposing_pairs(const product::Product& product,
+                                              const PinchShape& shape,
                                               const OpposingOptions& options);
 
 /// Points spread over a mesh, no two nearer than about sqrt(area / count); with their triangles'
@@ -70,6 +71,6 @@ std::vector<OpposingPair> find_opposing_pairs(const Product& product, const Pinc
 struct SurfacePoint {
   Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
 };
-std::vector<SurfacePoint> spread_points(const TriangleMesh& mesh, int count);
+std::vector<SurfacePoint> spread_points(const geometry::TriangleMesh& mesh, int count);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

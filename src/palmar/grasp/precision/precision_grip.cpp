@@ -17,7 +17,7 @@
 #include "palmar/grasp/precision/precision_search.h"
 #include "palmar/grasp/precision/ring_targets.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kReached = 1.0;         // mm; what counts as reached
@@ -32,8 +32,8 @@ constexpr double kCrossing = 1.0;        // mm; fingers that much in each other 
 constexpr double kSmallWidth = 20.0;     // mm; then it is for want of room
 constexpr double kFar = 1e-9;
 
-std::string words_of(Finger finger) {
-  return finger == Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
+std::string words_of(hand::Finger finger) {
+  return finger == hand::Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
 }
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -51,13 +51,15 @@ std::string list_of(const std::vector<FingertipPoint>& tips) {
 }
 
 /// Of the ring grip: fingers that a small pair of scissors has no room for.
-bool is_optional(Grip grip, Finger finger) {
-  return grip == Grip::kDistalType && (finger == Finger::kIndex || finger == Finger::kRing);
+bool is_optional(Grip grip, hand::Finger finger) {
+  return grip == Grip::kDistalType &&
+         (finger == hand::Finger::kIndex || finger == hand::Finger::kRing);
 }
 
 /// Goals of the asked points, in the order of the grip's fingers.
 std::vector<FingertipGoal> goals_for(const std::vector<FingertipPoint>& tips,
-                                     const Product& product, const PrecisionGripOptions& options) {
+                                     const product::Product& product,
+                                     const PrecisionGripOptions& options) {
   const std::string grip(name_of(options.grip));
   for (const FingertipTarget& target : options.targets) {
     const bool is_known = std::any_of(tips.begin(), tips.end(), [&](const FingertipPoint& tip) {
@@ -77,7 +79,7 @@ std::vector<FingertipGoal> goals_for(const std::vector<FingertipPoint>& tips,
       throw UsageError(fmt::format("fingertip points: there is none for the {}; grip {} needs {}",
                                    words_of(tip.finger), grip, list_of(tips)));
     }
-    const DistanceSample sample = product.distance->at(target->point);
+    const geometry::DistanceSample sample = product.distance->at(target->point);
     if (std::abs(sample.distance) > kOffSurface) {
       throw UsageError(fmt::format(
           "fingertip points: that of the {} ({:g}, {:g}, {:g} mm) is {:.1f} mm {} the surface of "
@@ -133,7 +135,7 @@ PressedHold pressed(const FingertipPress& press, const PrecisionHold& hold,
 void finish_stops(const PressedHold& hold, Grasp& grasp) {
   for (std::size_t s = 0; s < grasp.stops.size(); ++s) {
     SegmentStop& stop = grasp.stops[s];
-    stop.segment = static_cast<Segment>(s);
+    stop.segment = static_cast<hand::Segment>(s);
     stop.penetration = hold.skin.palmar[s];
     stop.reason = stop.penetration > 0.0 ? StopReason::kDistalStop : StopReason::kNotReached;
     for (std::size_t k = 0; k < hold.goals.size(); ++k) {
@@ -199,15 +201,15 @@ void judge(const PressedHold& hold, double widest_span, double width, Grasp& gra
     grasp.status = GraspStatus::kPartlyHeld;  // no hand can be there
   }
   if (deepest > hold.depth + 1.0) {
-    std::string name(name_of(static_cast<Segment>(where)));
+    std::string name(name_of(static_cast<hand::Segment>(where)));
     std::replace(name.begin(), name.end(), '_', ' ');
     grasp.message += fmt::format("; skin of {} is {:.1f} mm in the product", name, deepest);
   }
 }
 
 /// What a grasp says about the hold it is.
-void describe(const Hand& hand, const Product& product, const PressedHold& hold, double widest,
-              Grasp& grasp) {
+void describe(const hand::Hand& hand, const product::Product& product, const PressedHold& hold,
+              double widest, Grasp& grasp) {
   grasp.posture = hold.solution.posture;
   grasp.product_from_hand = hold.solution.product_from_hand;
   grasp.fingertips.clear();
@@ -234,21 +236,22 @@ void describe(const Hand& hand, const Product& product, const PressedHold& hold,
   const double width = (others - thumb).norm();
   const Vec3 line = width > 0.0 ? Vec3((others - thumb) / width) : Vec3(Vec3::UnitZ());
   const Vec3 radial =
-      grasp.product_from_hand.rotation * (hand.skeleton.joint(JointId::kIndexMcp).centre -
-                                          hand.skeleton.joint(JointId::kLittleMcp).centre);
+      grasp.product_from_hand.rotation * (hand.skeleton.joint(hand::JointId::kIndexMcp).centre -
+                                          hand.skeleton.joint(hand::JointId::kLittleMcp).centre);
   grasp.grip_point = 0.5 * (thumb + others);
   grasp.grip_axis = (radial - line * line.dot(radial)).normalized();
   std::vector<Vec3> section;
-  for (const SectionCurve& curve : plane_section(product.mesh, grasp.grip_point, grasp.grip_axis)) {
+  for (const geometry::SectionCurve& curve :
+       geometry::plane_section(product.mesh, grasp.grip_point, grasp.grip_axis)) {
     section.insert(section.end(), curve.point.begin(), curve.point.end());
   }
-  grasp.grip_girth = girth(section, grasp.grip_axis);
+  grasp.grip_girth = geometry::girth(section, grasp.grip_axis);
   finish_stops(hold, grasp);
   judge(hold, widest, width, grasp);
 }
 
 /// Nobody holds it: the hand is shown beside the product, touching nothing.
-void put_beside(const Hand& hand, const Product& product, Grasp& grasp) {
+void put_beside(const hand::Hand& hand, const product::Product& product, Grasp& grasp) {
   const Box3 box = product.distance->bounding_box();
   const double beside = 0.5 * box.diagonal().norm() + 1.5 * hand.dimensions.hand_length;
   grasp.product_from_hand.translation = box.center() + Vec3(0.0, 0.0, -beside);
@@ -298,13 +301,13 @@ void PrecisionGripOptions::check() const {
   }
 }
 
-Grasp close_precision_grip(const Hand& hand, const Product& product,
+Grasp close_precision_grip(const hand::Hand& hand, const product::Product& product,
                            const PrecisionGripOptions& options, const Progress& progress) {
   options.check();
   Grasp grasp;
   grasp.grip = options.grip;
   for (std::size_t s = 0; s < grasp.stops.size(); ++s) {
-    grasp.stops[s].segment = static_cast<Segment>(s);
+    grasp.stops[s].segment = static_cast<hand::Segment>(s);
   }
   const std::vector<FingertipPoint> tips = fingertips_of(hand, options.grip);
   std::vector<FingertipGoal> goals =
@@ -319,7 +322,7 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
   }
   progress.update(0.1, "finding where fingertips hold " + product.name);
   if (options.grip == Grip::kDistalType && goals.empty()) {
-    const std::optional<ScissorRings> rings = scissor_rings(find_parts(product), product);
+    const std::optional<ScissorRings> rings = scissor_rings(product::find_parts(product), product);
     PrecisionGripOptions at_rings = options;
     if (rings) at_rings.targets = ring_targets(hand, product, *rings);
     if (!at_rings.targets.empty()) goals = goals_for(tips, product, at_rings);
@@ -371,7 +374,8 @@ Grasp close_precision_grip(const Hand& hand, const Product& product,
   return grasp;
 }
 
-void take_runner_up(const Hand& hand, const Product& product, std::size_t index, Grasp& grasp) {
+void take_runner_up(const hand::Hand& hand, const product::Product& product, std::size_t index,
+                    Grasp& grasp) {
   const GraspRunnerUp chosen = grasp.runners_up.at(index);
   grasp.runners_up[index] = {grasp.grip, grasp.posture, grasp.product_from_hand, grasp.score};
   grasp.grip = chosen.grip;
@@ -402,4 +406,4 @@ void take_runner_up(const Hand& hand, const Product& product, std::size_t index,
   describe(hand, product, hold, std::numeric_limits<double>::infinity(), grasp);
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

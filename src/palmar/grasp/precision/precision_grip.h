@@ -9,11 +9,11 @@
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/grip.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Where a fingertip is to touch the product.
 struct FingertipTarget {
-  Finger finger{};
+  hand::Finger finger{};
   Vec3 point = Vec3::Zero();  ///< product frame, mm; on the surface
 };
 
@@ -31,10 +31,11 @@ struct PrecisionGripOptions {
 /// coordination. Deterministic. Not being able to reach is a status with a message that says which
 /// finger misses by how much, never an exception. Throws UsageError (bad options, a target farther
 /// than 2 mm from the surface), Cancelled.
-Grasp close_precision_grip(const Hand& hand, const Product& product,
+Grasp close_precision_grip(const hand::Hand& hand, const product::Product& product,
                            const PrecisionGripOptions& options, const Progress& progress = {});
 
 /// Makes one of a precision grip's runners-up the grasp itself; what it was becomes that runner-up.
-void take_runner_up(const Hand& hand, const Product& product, std::size_t index, Grasp& grasp);
+void take_runner_up(const hand::Hand& hand, const product::Product& product, std::size_t index,
+                    Grasp& grasp);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -10,7 +10,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/grasp/precision/cost_order.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr int kTurns = 12;
@@ -19,10 +19,10 @@ constexpr std::size_t kPerPair = 3;  // finalists
 constexpr std::size_t kStarts = 8;   // for given points
 constexpr double kClashRate = 0.12;  // cost per mm of a coarse look
 constexpr double kStrainUnit = 10.0;
-constexpr double kTiltUnit = 40.0 * kDegree;
+constexpr double kTiltUnit = 40.0 * geometry::kDegree;
 constexpr double kClashUnit = 1.0;  // mm
 constexpr double kMissUnit = 0.5;   // mm
-constexpr double kBalanceUnit = 30.0 * kDegree;
+constexpr double kBalanceUnit = 30.0 * geometry::kDegree;
 constexpr double kOffsetUnit = 10.0;     // mm
 constexpr double kPenLean = 0.4;         // cost of a pen perpendicular to the way it likes to lean
 constexpr double kAxisWeight = 2.0;      // of the asked axis
@@ -33,7 +33,7 @@ constexpr double kPenPlace = 32.0;       // mm behind the tip are fingertips tha
 constexpr double kPenPlaceShare = 0.28;  // ... or this share of the length if that is less
 constexpr double kWebUnit = 4.0;         // mm; cost of a pen that doesn't lean over the web
 constexpr double kLikeShift = 12.0;      // mm; holds nearer than that ...
-constexpr double kLikeTurn = 25.0 * kDegree;  // ... and turned less are the same
+constexpr double kLikeTurn = 25.0 * geometry::kDegree;  // ... and turned less are the same
 constexpr std::size_t kMostHolds = 8;
 
 /// Directions of a hand about which placements are said.
@@ -41,11 +41,11 @@ struct HandAxes {
   Vec3 radial, distal, dorsal;  ///< unit
 };
 
-HandAxes hand_axes(const Skeleton& skeleton) {
+HandAxes hand_axes(const hand::Skeleton& skeleton) {
   HandAxes axes;
-  axes.radial =
-      (skeleton.joint(JointId::kIndexMcp).centre - skeleton.joint(JointId::kLittleMcp).centre)
-          .normalized();
+  axes.radial = (skeleton.joint(hand::JointId::kIndexMcp).centre -
+                 skeleton.joint(hand::JointId::kLittleMcp).centre)
+                    .normalized();
   axes.distal = Vec3::UnitY();
   axes.dorsal = -Vec3::UnitZ();
   return axes;
@@ -53,7 +53,7 @@ HandAxes hand_axes(const Skeleton& skeleton) {
 
 /// Turns go the other way round for a left hand, so that it tries what a right hand would in the
 /// mirror, in the same order.
-double turn_sign(const Hand& hand) { return hand.side == Side::kLeft ? -1.0 : 1.0; }
+double turn_sign(const hand::Hand& hand) { return hand.side == hand::Side::kLeft ? -1.0 : 1.0; }
 
 /// Rotation that takes `in_hand` to `in_product` and turns by `turn` about that.
 Quat aligned(const Vec3& in_hand, const Vec3& in_product, const Vec3& zero, double turn) {
@@ -72,8 +72,8 @@ Quat aligned(const Vec3& in_hand, const Vec3& in_product, const Vec3& zero, doub
 }
 
 /// Rigid motion that places the hand's opening on two points, the thumb at `thumb`.
-Rigid3 placed_opening(const GripOpening& opening, const Vec3& radial, const Vec3& thumb,
-                      const Vec3& other, const Vec3& zero, double turn) {
+geometry::Rigid3 placed_opening(const GripOpening& opening, const Vec3& radial, const Vec3& thumb,
+                                const Vec3& other, const Vec3& zero, double turn) {
   const auto frame = [](const Vec3& z, const Vec3& towards) {
     Eigen::Matrix3d axes;
     axes.col(2) = z;
@@ -85,7 +85,7 @@ Rigid3 placed_opening(const GripOpening& opening, const Vec3& radial, const Vec3
   const Eigen::Matrix3d in_hand = frame((opening.others - opening.thumb).normalized(), radial);
   const Eigen::Matrix3d in_product =
       frame(z, zero) * Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
-  Rigid3 result;
+  geometry::Rigid3 result;
   result.rotation = Quat(Eigen::Matrix3d(in_product * in_hand.transpose())).normalized();
   result.translation =
       0.5 * (thumb + other) - result.rotation * Vec3(0.5 * (opening.thumb + opening.others));
@@ -109,13 +109,13 @@ struct Candidate {
   std::size_t pair = 0;
   int way = 0;  ///< which side the thumb is on, and the turn
   Vec3 thumb, other;
-  Rigid3 product_from_hand;
+  geometry::Rigid3 product_from_hand;
   double cost = 0.0;
 };
 
 class Search {
  public:
-  Search(const FingertipIk& ik, const GripOpenings& openings, const Product& product,
+  Search(const FingertipIk& ik, const GripOpenings& openings, const product::Product& product,
          const PrecisionGripOptions& options)
       : ik_(&ik),
         openings_(&openings),
@@ -131,13 +131,13 @@ class Search {
   std::vector<Candidate> opposed(const std::vector<OpposingPair>& all,
                                  const Progress& progress) const;
   PrecisionSearch write(const Progress& progress) const;
-  double placing_cost(const Rigid3& product_from_hand) const;
+  double placing_cost(const geometry::Rigid3& product_from_hand) const;
   PrecisionHold set_down(const Candidate& candidate, const OpposingPair& pair) const;
   double hold_cost(const PrecisionHold& hold) const;
 
   const FingertipIk* ik_;
   const GripOpenings* openings_;
-  const Product* product_;
+  const product::Product* product_;
   const PrecisionGripOptions* options_;
   PinchShape shape_;
   HandAxes axes_;
@@ -173,7 +173,7 @@ std::vector<OpposingPair> Search::pairs(double& widest) const {
   return find_opposing_pairs(*product_, shape_, options);
 }
 
-double Search::placing_cost(const Rigid3& product_from_hand) const {
+double Search::placing_cost(const geometry::Rigid3& product_from_hand) const {
   double cost = 0.0;
   if (options_->placement.axis) {
     const Vec3 radial = product_from_hand.rotation * axes_.radial;
@@ -207,7 +207,7 @@ PrecisionHold Search::set_down(const Candidate& candidate, const OpposingPair& p
   problem.natural = opening.posture;
   problem.start = opening.posture;
   problem.product_from_hand = candidate.product_from_hand;
-  const PosedSkeleton posed = pose_skeleton(ik_->hand().skeleton, opening.posture);
+  const hand::PosedSkeleton posed = hand::pose_skeleton(ik_->hand().skeleton, opening.posture);
   for (const FingertipPoint& tip : openings_->fingertips()) {
     FingertipGoal goal;
     goal.fingertip = tip;
@@ -219,9 +219,9 @@ PrecisionHold Search::set_down(const Candidate& candidate, const OpposingPair& p
     const Vec3 there =
         candidate.product_from_hand * (posed.segment[index_of(tip.segment)] * tip.point);
     const bool is_pinch = openings_->fingertips().size() == 2;
-    goal.point = tip.finger == Finger::kThumb ? candidate.thumb
-                 : is_pinch                   ? candidate.other
-                                              : product_->distance->at(there).closest;
+    goal.point = tip.finger == hand::Finger::kThumb ? candidate.thumb
+                 : is_pinch                         ? candidate.other
+                                                    : product_->distance->at(there).closest;
     problem.goals.push_back(goal);
   }
   hold.solution = ik_->solve(problem);
@@ -253,8 +253,8 @@ double Search::hold_cost(const PrecisionHold& hold) const {
 }
 
 bool is_like(const PrecisionHold& a, const PrecisionHold& b) {
-  const Rigid3& p = a.solution.product_from_hand;
-  const Rigid3& q = b.solution.product_from_hand;
+  const geometry::Rigid3& p = a.solution.product_from_hand;
+  const geometry::Rigid3& q = b.solution.product_from_hand;
   Vec3 shift = Vec3::Zero();
   for (std::size_t k = 0; k < a.solution.reached.size(); ++k) {
     shift += (a.solution.reached[k] - b.solution.reached[k]) /
@@ -325,14 +325,14 @@ PrecisionSearch Search::write(const Progress& progress) const {
     const double width = std::max(1.0, -2.0 * product_->distance->at(place).distance);
     if (width > openings_->widest() + 4.0) continue;
     const GripOpening& opening = openings_->at(width);
-    const PosedSkeleton posed = pose_skeleton(ik_->hand().skeleton, opening.posture);
+    const hand::PosedSkeleton posed = hand::pose_skeleton(ik_->hand().skeleton, opening.posture);
     for (int turn = 0; turn < kTurns; ++turn) {
       progress.throw_if_cancelled();
       PrecisionHold hold;
       FingertipProblem& problem = hold.problem;
       problem.product = product_->distance.get();
       problem.natural = problem.start = opening.posture;
-      Rigid3& placed = problem.product_from_hand;
+      geometry::Rigid3& placed = problem.product_from_hand;
       placed.rotation = aligned(opening.axis, back, shape_.axes.col(1),
                                 turn_sign(ik_->hand()) * 2.0 * std::numbers::pi * turn / kTurns);
       placed.translation = place - placed.rotation * opening.centre;
@@ -395,13 +395,14 @@ PrecisionSearch Search::run(const Progress& progress) const {
 }  // namespace
 
 PrecisionSearch search_precision_grip(const FingertipIk& ik, const GripOpenings& openings,
-                                      const Product& product, const PrecisionGripOptions& options,
+                                      const product::Product& product,
+                                      const PrecisionGripOptions& options,
                                       const Progress& progress) {
   return Search(ik, openings, product, options).run(progress);
 }
 
 PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpenings& openings,
-                                        const Product& product,
+                                        const product::Product& product,
                                         const std::vector<FingertipGoal>& goals,
                                         const Progress& progress) {
   PrecisionSearch result;
@@ -420,7 +421,7 @@ PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpening
   const double sign = turn_sign(ik.hand());
   const bool is_writing = openings.grip() == Grip::kWritingTripod;
   std::vector<Candidate> candidates;
-  const PosedSkeleton posed = pose_skeleton(ik.hand().skeleton, opening.posture);
+  const hand::PosedSkeleton posed = hand::pose_skeleton(ik.hand().skeleton, opening.posture);
   for (int turn = 0; turn < 2 * kTurns; ++turn) {
     Candidate one;
     const double angle = sign * std::numbers::pi * turn / kTurns;
@@ -475,4 +476,4 @@ PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpening
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

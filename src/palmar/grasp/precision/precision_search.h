@@ -9,7 +9,7 @@
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/precision/precision_shape.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A hand with its fingertips on a product, not pressed yet.
 struct PrecisionHold {
@@ -37,13 +37,14 @@ struct PrecisionSearch {
 ///     (offset / 10 mm)^2: of the thumb's line of action from the middle of
 ///     the others, a pen's long end over the web of the thumb: up to 0.8
 PrecisionSearch search_precision_grip(const FingertipIk& ik, const GripOpenings& openings,
-                                      const Product& product, const PrecisionGripOptions& options,
+                                      const product::Product& product,
+                                      const PrecisionGripOptions& options,
                                       const Progress& progress);
 
 /// Fingertips on given goals, in the openings' order of fingers; started from several turns.
 PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpenings& openings,
-                                        const Product& product,
+                                        const product::Product& product,
                                         const std::vector<FingertipGoal>& goals,
                                         const Progress& progress);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

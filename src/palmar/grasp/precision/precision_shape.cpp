@@ -12,130 +12,135 @@
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/hand/posture/named_postures.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kShapeReached = 0.5;  // mm
-constexpr double kSquare = 40.0 * kDegree;
-constexpr double kSquareOnBall = 65.0 * kDegree;  // fingertips touch a ball with their sides, too
-constexpr double kSideBySide = 17.0;              // mm between the pads of index and middle finger
+constexpr double kSquare = 40.0 * geometry::kDegree;
+constexpr double kSquareOnBall =
+    65.0 * geometry::kDegree;         // fingertips touch a ball with their sides, too
+constexpr double kSideBySide = 17.0;  // mm between the pads of index and middle finger
 constexpr std::array<double, 12> kWidths = {2, 8, 14, 20, 28, 36, 45, 55, 65, 75, 85, 95};
-constexpr double kFiveFit = 25.0;               // mm; round less, five fingertips don't fit
-constexpr double kThickPen = 30.0;              // mm; people write with nothing thicker
-constexpr double kThinPen = 5.0;                // mm
-constexpr double kBesides = 20.0;               // mm; from fingertip to fingertip along a rim
-constexpr double kWidestStep = 38.0 * kDegree;  // the same as an angle, at most
-constexpr double kDiscHeight = 14.0;            // mm; of the disc that hands are opened for
-constexpr double kWebSlide = 25.0;              // mm
-constexpr double kWebSquare = 1.5;              // rad
+constexpr double kFiveFit = 25.0;   // mm; round less, five fingertips don't fit
+constexpr double kThickPen = 30.0;  // mm; people write with nothing thicker
+constexpr double kThinPen = 5.0;    // mm
+constexpr double kBesides = 20.0;   // mm; from fingertip to fingertip along a rim
+constexpr double kWidestStep = 38.0 * geometry::kDegree;  // the same as an angle, at most
+constexpr double kDiscHeight = 14.0;  // mm; of the disc that hands are opened for
+constexpr double kWebSlide = 25.0;    // mm
+constexpr double kWebSquare = 1.5;    // rad
 
-Posture named(const Skeleton& skeleton, const char* name) {
-  return named_posture(skeleton, name).value_or(reference_posture(skeleton));
+hand::Posture named(const hand::Skeleton& skeleton, const char* name) {
+  return hand::named_posture(skeleton, name).value_or(hand::reference_posture(skeleton));
 }
 
-void set(Posture& posture, Finger finger, const std::array<double, 3>& flexion_deg) {
-  for (int level = 0; level < (finger == Finger::kThumb ? 2 : 3); ++level) {
-    posture[flexion_of(finger, level)] = kDegree * flexion_deg[level];
+void set(hand::Posture& posture, hand::Finger finger, const std::array<double, 3>& flexion_deg) {
+  for (int level = 0; level < (finger == hand::Finger::kThumb ? 2 : 3); ++level) {
+    posture[flexion_of(finger, level)] = geometry::kDegree * flexion_deg[level];
   }
 }
 
 }  // namespace
 
-std::vector<FingertipPoint> fingertips_of(const Hand& hand, Grip grip) {
+std::vector<FingertipPoint> fingertips_of(const hand::Hand& hand, Grip grip) {
   using enum FingertipPart;
-  const auto at = [&](Finger finger, FingertipPart part) {
+  const auto at = [&](hand::Finger finger, FingertipPart part) {
     return fingertip_point(hand, finger, part);
   };
   switch (grip) {
     case Grip::kTipPinch:
-      return {at(Finger::kThumb, kTip), at(Finger::kIndex, kTip)};
+      return {at(hand::Finger::kThumb, kTip), at(hand::Finger::kIndex, kTip)};
     case Grip::kPalmarPinch:
-      return {at(Finger::kThumb, kPad), at(Finger::kIndex, kPad)};
+      return {at(hand::Finger::kThumb, kPad), at(hand::Finger::kIndex, kPad)};
     case Grip::kTripod:
-      return {at(Finger::kThumb, kPad), at(Finger::kIndex, kPad), at(Finger::kMiddle, kPad)};
+      return {at(hand::Finger::kThumb, kPad), at(hand::Finger::kIndex, kPad),
+              at(hand::Finger::kMiddle, kPad)};
     case Grip::kLateral:
-      return {at(Finger::kThumb, kPad), at(Finger::kIndex, kRadialSide)};
+      return {at(hand::Finger::kThumb, kPad), at(hand::Finger::kIndex, kRadialSide)};
     case Grip::kPrecisionSphere:
-      return {at(Finger::kThumb, kPad), at(Finger::kIndex, kPad), at(Finger::kMiddle, kPad),
-              at(Finger::kRing, kPad), at(Finger::kLittle, kPad)};
+      return {at(hand::Finger::kThumb, kPad), at(hand::Finger::kIndex, kPad),
+              at(hand::Finger::kMiddle, kPad), at(hand::Finger::kRing, kPad),
+              at(hand::Finger::kLittle, kPad)};
     case Grip::kPrecisionDisk:
       return fingertips_of(hand, Grip::kPrecisionSphere);
     case Grip::kWritingTripod:
-      return {at(Finger::kThumb, kPad), at(Finger::kIndex, kPad), at(Finger::kMiddle, kTipSide)};
+      return {at(hand::Finger::kThumb, kPad), at(hand::Finger::kIndex, kPad),
+              at(hand::Finger::kMiddle, kTipSide)};
     case Grip::kDistalType:
-      return {at(Finger::kThumb, kPad), at(Finger::kIndex, kPad), at(Finger::kMiddle, kMiddlePad),
-              at(Finger::kRing, kMiddlePad)};
+      return {at(hand::Finger::kThumb, kPad), at(hand::Finger::kIndex, kPad),
+              at(hand::Finger::kMiddle, kMiddlePad), at(hand::Finger::kRing, kMiddlePad)};
     default:
       return {};
   }
 }
 
-Posture natural_posture(const Skeleton& skeleton, Grip grip) {
-  Posture posture;
+hand::Posture natural_posture(const hand::Skeleton& skeleton, Grip grip) {
+  hand::Posture posture;
   switch (grip) {
     case Grip::kTipPinch:
       return named(skeleton, "tip_pinch");
     case Grip::kTripod:
       posture = named(skeleton, "tripod");
-      set(posture, Finger::kIndex, {52, 42, 22});
-      set(posture, Finger::kMiddle, {56, 46, 24});
+      set(posture, hand::Finger::kIndex, {52, 42, 22});
+      set(posture, hand::Finger::kMiddle, {56, 46, 24});
       break;
     case Grip::kLateral:
       return named(skeleton, "key_pinch");
     case Grip::kWritingTripod:
       posture = named(skeleton, "tripod");
-      set(posture, Finger::kThumb, {20, 15, 25});
-      set(posture, Finger::kIndex, {48, 48, 18});
-      set(posture, Finger::kMiddle, {52, 66, 34});
-      set(posture, Finger::kRing, {54, 74, 38});
-      set(posture, Finger::kLittle, {54, 72, 38});
+      set(posture, hand::Finger::kThumb, {20, 15, 25});
+      set(posture, hand::Finger::kIndex, {48, 48, 18});
+      set(posture, hand::Finger::kMiddle, {52, 66, 34});
+      set(posture, hand::Finger::kRing, {54, 74, 38});
+      set(posture, hand::Finger::kLittle, {54, 72, 38});
       break;
     case Grip::kDistalType:
       posture = named(skeleton, "tripod");
-      set(posture, Finger::kThumb, {10, 15, 0});
-      set(posture, Finger::kIndex, {45, 30, 15});
-      set(posture, Finger::kMiddle, {52, 48, 25});
-      set(posture, Finger::kRing, {56, 54, 28});
-      set(posture, Finger::kLittle, {58, 56, 28});
+      set(posture, hand::Finger::kThumb, {10, 15, 0});
+      set(posture, hand::Finger::kIndex, {45, 30, 15});
+      set(posture, hand::Finger::kMiddle, {52, 48, 25});
+      set(posture, hand::Finger::kRing, {56, 54, 28});
+      set(posture, hand::Finger::kLittle, {58, 56, 28});
       break;
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:
       posture = named(skeleton, "cylinder_grip");
-      for (const Finger finger :
-           {Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle}) {
+      for (const hand::Finger finger : {hand::Finger::kIndex, hand::Finger::kMiddle,
+                                        hand::Finger::kRing, hand::Finger::kLittle}) {
         set(posture, finger, {40, 38, 22});
       }
-      posture[Dof::kIndexMcpAbduction] += 12.0 * kDegree;
-      posture[Dof::kRingMcpAbduction] -= 8.0 * kDegree;
-      posture[Dof::kLittleMcpAbduction] -= 18.0 * kDegree;
-      set(posture, Finger::kThumb, {10, 15, 0});
+      posture[hand::Dof::kIndexMcpAbduction] += 12.0 * geometry::kDegree;
+      posture[hand::Dof::kRingMcpAbduction] -= 8.0 * geometry::kDegree;
+      posture[hand::Dof::kLittleMcpAbduction] -= 18.0 * geometry::kDegree;
+      set(posture, hand::Finger::kThumb, {10, 15, 0});
       break;
     default:  // pads of thumb and index finger
       posture = named(skeleton, "tip_pinch");
-      set(posture, Finger::kIndex, {58, 38, 15});
-      set(posture, Finger::kThumb, {10, 10, 0});
+      set(posture, hand::Finger::kIndex, {58, 38, 15});
+      set(posture, hand::Finger::kThumb, {10, 10, 0});
       break;
   }
-  return clamp_to_range(skeleton, posture).posture;
+  return hand::clamp_to_range(skeleton, posture).posture;
 }
 
-FingertipGoal web_goal(const Hand& hand) {
+FingertipGoal web_goal(const hand::Hand& hand) {
   FingertipGoal goal;
-  goal.fingertip = fingertip_point(hand, Finger::kIndex, FingertipPart::kWeb);
+  goal.fingertip = fingertip_point(hand, hand::Finger::kIndex, FingertipPart::kWeb);
   goal.is_sliding = goal.is_rest = true;
   goal.slide = kWebSlide;
   goal.square = kWebSquare;
   return goal;
 }
 
-GripOpenings::Start GripOpenings::start_for(const Skeleton& skeleton, const Posture& natural,
-                                            const Posture& from, double width) const {
+GripOpenings::Start GripOpenings::start_for(const hand::Skeleton& skeleton,
+                                            const hand::Posture& natural, const hand::Posture& from,
+                                            double width) const {
   Start result;
   FingertipProblem& problem = result.problem;
   problem.natural = natural;
   problem.start = from;
   problem.max_iterations = 120;
-  const PosedSkeleton posed = pose_skeleton(skeleton, from);
+  const hand::PosedSkeleton posed = hand::pose_skeleton(skeleton, from);
   std::vector<Vec3> tips;
   for (const FingertipPoint& tip : fingertips_) {
     tips.push_back(posed.segment[index_of(tip.segment)] * tip.point);
@@ -146,8 +151,8 @@ GripOpenings::Start GripOpenings::start_for(const Skeleton& skeleton, const Post
   }
   // The thing's frame: z from the thumb to the other fingers, x to the radial one of them.
   const Vec3 z = (others - tips[0]).normalized();
-  Vec3 radial =
-      skeleton.joint(JointId::kIndexMcp).centre - skeleton.joint(JointId::kLittleMcp).centre;
+  Vec3 radial = skeleton.joint(hand::JointId::kIndexMcp).centre -
+                skeleton.joint(hand::JointId::kLittleMcp).centre;
   radial = (radial - z * z.dot(radial)).normalized();
   Eigen::Matrix3d axes;
   Vec3 middle = 0.5 * (others + tips[0]);
@@ -174,10 +179,10 @@ GripOpenings::Start GripOpenings::start_for(const Skeleton& skeleton, const Post
   }
   problem.product_from_hand.rotation = Quat(Eigen::Matrix3d(axes.transpose()));
   problem.product_from_hand.translation = -(problem.product_from_hand.rotation * middle);
-  if (is_ball) result.thing = make_sphere_distance(0.5 * width);
-  if (is_pen) result.thing = make_cylinder_distance({.radius = 0.5 * width});
+  if (is_ball) result.thing = geometry::make_sphere_distance(0.5 * width);
+  if (is_pen) result.thing = geometry::make_cylinder_distance({.radius = 0.5 * width});
   if (is_disc) {
-    result.thing = make_cylinder_distance({.radius = 0.5 * width, .length = kDiscHeight});
+    result.thing = geometry::make_cylinder_distance({.radius = 0.5 * width, .length = kDiscHeight});
   }
   problem.product = result.thing.get();
   const bool is_too_small = (is_ball || is_disc) && width < kFiveFit;
@@ -233,7 +238,7 @@ std::optional<GripOpening> GripOpenings::solved(const FingertipIk& ik, const Sta
   opening.width = width;
   opening.posture = solution.posture;
   opening.strain = solution.strain;
-  const PosedSkeleton posed = pose_skeleton(ik.hand().skeleton, solution.posture);
+  const hand::PosedSkeleton posed = hand::pose_skeleton(ik.hand().skeleton, solution.posture);
   for (std::size_t k = 0; k < fingertips_.size(); ++k) {
     const Vec3 tip = posed.segment[index_of(fingertips_[k].segment)] * fingertips_[k].point;
     if (k == 0) {
@@ -242,7 +247,7 @@ std::optional<GripOpening> GripOpenings::solved(const FingertipIk& ik, const Sta
       opening.others += tip / static_cast<double>(fingertips_.size() - 1);
     }
   }
-  const Rigid3 hand_from_thing = solution.product_from_hand.inverse();
+  const geometry::Rigid3 hand_from_thing = solution.product_from_hand.inverse();
   if (grip_ == Grip::kPrecisionDisk) {
     opening.others = hand_from_thing * Vec3(0.5 * width, 0.0, 0.0);
     opening.axis = hand_from_thing.rotation * Vec3::UnitZ();
@@ -260,9 +265,9 @@ std::optional<GripOpening> GripOpenings::solved(const FingertipIk& ik, const Sta
 GripOpenings::GripOpenings(const FingertipIk& ik, Grip grip)
     : grip_(grip), fingertips_(fingertips_of(ik.hand(), grip)) {
   if (grip == Grip::kWritingTripod) web_ = web_goal(ik.hand());
-  const Skeleton& skeleton = ik.hand().skeleton;
-  const Posture natural = natural_posture(skeleton, grip);
-  Posture from = natural;
+  const hand::Skeleton& skeleton = ik.hand().skeleton;
+  const hand::Posture natural = natural_posture(skeleton, grip);
+  hand::Posture from = natural;
   for (const double width : kWidths) {
     const Start start = start_for(skeleton, natural, from, width);
     if (start.problem.goals.empty()) continue;
@@ -282,4 +287,4 @@ const GripOpening& GripOpenings::at(double width) const {
                            });
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

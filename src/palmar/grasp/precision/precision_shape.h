@@ -9,7 +9,7 @@
 #include "palmar/grasp/grip.h"
 #include "palmar/grasp/precision/fingertip_ik.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Round a ball or a disc, fingers slide up to this far and touch with their sides.
 inline constexpr double kBallSlide = 8.0;   // mm
@@ -17,22 +17,22 @@ inline constexpr double kBallSquare = 0.9;  // rad
 
 /// The fingers that take part in a precision or lateral grip, thumb first, and what of them
 /// touches.
-std::vector<FingertipPoint> fingertips_of(const Hand& hand, Grip grip);
+std::vector<FingertipPoint> fingertips_of(const hand::Hand& hand, Grip grip);
 
 /// Where the long end of a pen leans in the writing tripod: the thumb's side of the index finger's
 /// root, over the web.
-FingertipGoal web_goal(const Hand& hand);
+FingertipGoal web_goal(const hand::Hand& hand);
 
 /// How a hand likes to hold by a grip: the posture that the others are measured against. From the
 /// stored postures (named_postures.h), with straighter end joints for a pinch of pads and spread
 /// fingers round a ball.
-Posture natural_posture(const Skeleton& skeleton, Grip grip);
+hand::Posture natural_posture(const hand::Skeleton& skeleton, Grip grip);
 
 /// A hand opened for a thing of some width between thumb and the other fingertips. Of a disc, the
 /// width is its diameter and `others` the place opposite to the thumb.
 struct GripOpening {
   double width = 0.0;  ///< mm
-  Posture posture;
+  hand::Posture posture;
   Vec3 thumb = Vec3::Zero();   ///< thumb's fingertip point, hand frame, mm
   Vec3 others = Vec3::Zero();  ///< mean of the others'
   double strain = 0.0;         ///< of the posture against natural_posture()
@@ -62,11 +62,12 @@ class GripOpenings {
   /// A hand with its fingertips about something of `width`, before they are put on it.
   struct Start {
     FingertipProblem problem;
-    DistanceFieldPtr thing;  ///< a ball, disc or pen; none: fingertips go to points in thin air
+    geometry::DistanceFieldPtr thing;  ///< a ball, disc or pen; none: fingertips go to points in
+                                       ///< thin air
   };
-  Start start_for(const Skeleton& skeleton, const Posture& natural, const Posture& start,
-                  double width) const;
+  Start start_for(const hand::Skeleton& skeleton, const hand::Posture& natural,
+                  const hand::Posture& start, double width) const;
   std::optional<GripOpening> solved(const FingertipIk& ik, const Start& start, double width) const;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -19,55 +19,57 @@
 #include "palmar/grasp/precision/fingertip_ik.h"
 #include "palmar/grasp/precision/opposing_points.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
-constexpr double kPlaceReached = 1.0;         // mm
-constexpr double kButtonOffSurface = 2.0;     // mm
-constexpr double kButtonPadOffset = 3.0;      // mm off the surface, where its distance is smooth
-constexpr double kMostTilt = 60.0 * kDegree;  // a pad pressed over its edge presses no more
-constexpr double kAwkwardTilt = 35.0 * kDegree;
-constexpr double kAwkwardMargin = 8.0 * kDegree;
-constexpr double kAwkwardBend = 25.0 * kDegree;  // of DIP from 2/3 PIP
+constexpr double kPlaceReached = 1.0;      // mm
+constexpr double kButtonOffSurface = 2.0;  // mm
+constexpr double kButtonPadOffset = 3.0;   // mm off the surface, where its distance is smooth
+constexpr double kMostTilt =
+    60.0 * geometry::kDegree;  // a pad pressed over its edge presses no more
+constexpr double kAwkwardTilt = 35.0 * geometry::kDegree;
+constexpr double kAwkwardMargin = 8.0 * geometry::kDegree;
+constexpr double kAwkwardBend = 25.0 * geometry::kDegree;  // of DIP from 2/3 PIP
 constexpr double kMostClash = 3.0;  // mm; deeper in product or neighbour is no way to be
 constexpr double kReachFar = 50.0;  // mm; who misses by more hasn't tried
-constexpr double kOpposed = 120.0 * kDegree;
+constexpr double kOpposed = 120.0 * geometry::kDegree;
 constexpr double kTouchRange = 5.0;  // mm
 
-std::string finger_words(Finger finger) {
-  return finger == Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
+std::string finger_words(hand::Finger finger) {
+  return finger == hand::Finger::kThumb ? "thumb" : std::string(name_of(finger)) + " finger";
 }
 
-std::vector<Dof> dofs_of(Finger finger) {
-  std::vector<Dof> dofs;
-  const int first = finger == Finger::kThumb ? static_cast<int>(Dof::kThumbCmcFlexion)
-                                             : static_cast<int>(Dof::kIndexMcpFlexion) +
-                                                   4 * (static_cast<int>(finger) - 1);
-  for (int d = first; d < first + 4; ++d) dofs.push_back(static_cast<Dof>(d));
+std::vector<hand::Dof> dofs_of(hand::Finger finger) {
+  std::vector<hand::Dof> dofs;
+  const int first = finger == hand::Finger::kThumb ? static_cast<int>(hand::Dof::kThumbCmcFlexion)
+                                                   : static_cast<int>(hand::Dof::kIndexMcpFlexion) +
+                                                         4 * (static_cast<int>(finger) - 1);
+  for (int d = first; d < first + 4; ++d) dofs.push_back(static_cast<hand::Dof>(d));
   return dofs;
 }
 
 /// One hand on one product: everything that doesn't depend on the button.
 class Reacher {
  public:
-  Reacher(const Hand& hand, const Product& product, const Grasp& grasp)
+  Reacher(const hand::Hand& hand, const product::Product& product, const Grasp& grasp)
       : hand_(&hand),
         product_(&product),
         grasp_(&grasp),
         ik_(hand),
         touching_(touching_segments(hand, product, grasp)) {
-    for (int f = 0; f < kFingerCount; ++f) {
-      const auto finger = static_cast<Finger>(f);
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      const auto finger = static_cast<hand::Finger>(f);
       pads_.push_back(fingertip_point(hand, finger, FingertipPart::kPad));
       // Whatever it does, a finger gets no farther from its root than it is long.
-      const auto segments = segments_of(finger);
-      const bool is_thumb = finger == Finger::kThumb;
+      const auto segments = hand::segments_of(finger);
+      const bool is_thumb = finger == hand::Finger::kThumb;
       const Vec3 root =
-          hand.skeleton.joint(is_thumb ? JointId::kThumbCmc : joint_of(*segments[0])).centre;
+          hand.skeleton.joint(is_thumb ? hand::JointId::kThumbCmc : hand::joint_of(*segments[0]))
+              .centre;
       double length = 0.0;
       Vec3 last = root;
       for (std::size_t level = 0; level < 3 && segments[level]; ++level) {
-        const Vec3& joint = hand.skeleton.joint(joint_of(*segments[level])).centre;
+        const Vec3& joint = hand.skeleton.joint(hand::joint_of(*segments[level])).centre;
         length += (joint - last).norm();
         last = joint;
       }
@@ -78,18 +80,18 @@ class Reacher {
   }
 
   /// Not tried where the finger's length alone leaves more than `hopeless` [mm].
-  FingerReach send(Finger finger, const Vec3& point, const Vec3& normal, const Vec3& force,
+  FingerReach send(hand::Finger finger, const Vec3& point, const Vec3& normal, const Vec3& force,
                    double hopeless) const;
 
-  bool may_leave(Finger finger, const Vec3& force) const {
+  bool may_leave(hand::Finger finger, const Vec3& force) const {
     return is_grip_kept_without(finger, touching_, force);
   }
 
  private:
-  std::vector<Posture> starts(Finger finger) const;
+  std::vector<hand::Posture> starts(hand::Finger finger) const;
 
-  const Hand* hand_;
-  const Product* product_;
+  const hand::Hand* hand_;
+  const product::Product* product_;
   const Grasp* grasp_;
   FingertipIk ik_;
   std::vector<TouchingSegment> touching_;
@@ -98,14 +100,14 @@ class Reacher {
   std::vector<double> lengths_;  ///< mm
 };
 
-std::vector<Posture> Reacher::starts(Finger finger) const {
-  std::vector<Posture> result = {grasp_->posture};
+std::vector<hand::Posture> Reacher::starts(hand::Finger finger) const {
+  std::vector<hand::Posture> result = {grasp_->posture};
   // Straight, half and well bent; shares of each joint's range.
   for (const double share : {0.25, 0.5, 0.75}) {
-    Posture posture = grasp_->posture;
-    for (const Dof d : dofs_of(finger)) {
-      const JointDof& dof = hand_->skeleton.dof(d);
-      const bool is_sideways = d == abduction_of(finger) && finger != Finger::kThumb;
+    hand::Posture posture = grasp_->posture;
+    for (const hand::Dof d : dofs_of(finger)) {
+      const hand::JointDof& dof = hand_->skeleton.dof(d);
+      const bool is_sideways = d == abduction_of(finger) && finger != hand::Finger::kThumb;
       posture[d] = dof.lower + (is_sideways ? 0.5 : share) * (dof.upper - dof.lower);
     }
     result.push_back(posture);
@@ -113,8 +115,8 @@ std::vector<Posture> Reacher::starts(Finger finger) const {
   return result;
 }
 
-FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal, const Vec3& force,
-                          double hopeless) const {
+FingerReach Reacher::send(hand::Finger finger, const Vec3& point, const Vec3& normal,
+                          const Vec3& force, double hopeless) const {
   const std::size_t f = index_of(finger);
   FingerReach best;
   best.finger = finger;
@@ -135,7 +137,7 @@ FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal, 
   goal.point = point;
   goal.normal = normal;
   problem.goals = {goal};
-  for (const Posture& start : starts(finger)) {
+  for (const hand::Posture& start : starts(finger)) {
     problem.start = start;
     // Near where the joints are halfway; the finger is no longer part of the grip.
     problem.natural = start;
@@ -145,8 +147,8 @@ FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal, 
     one.tilt = solution.tilt[0];
     one.posture = solution.posture;
     one.margin = std::numeric_limits<double>::infinity();
-    for (const Dof d : dofs_of(finger)) {
-      const JointDof& dof = hand_->skeleton.dof(d);
+    for (const hand::Dof d : dofs_of(finger)) {
+      const hand::JointDof& dof = hand_->skeleton.dof(d);
       const double q = solution.posture[d];
       const double margin = std::max(0.0, std::min(q - dof.lower, dof.upper - q));
       if (margin >= one.margin) continue;
@@ -155,7 +157,7 @@ FingerReach Reacher::send(Finger finger, const Vec3& point, const Vec3& normal, 
     }
     one.is_blocked = solution.clash > kMostClash;
     one.is_reached = one.miss <= kPlaceReached && one.tilt <= kMostTilt && !one.is_blocked;
-    const double bend = finger == Finger::kThumb
+    const double bend = finger == hand::Finger::kThumb
                             ? 0.0
                             : std::abs(solution.posture[flexion_of(finger, 2)] -
                                        2.0 / 3.0 * solution.posture[flexion_of(finger, 1)]);
@@ -179,7 +181,7 @@ std::string message_of(const ButtonReach& reach) {
     const FingerReach& best = reach.fingers[index_of(*reach.best)];
     return fmt::format("the {} reaches it{}, {:.0f} degrees from the end of its {}",
                        finger_words(*reach.best), best.is_awkward ? " awkwardly" : "",
-                       best.margin / kDegree, std::string(name_of(best.tightest)));
+                       best.margin / geometry::kDegree, std::string(name_of(best.tightest)));
   }
   const auto loses = std::find_if(reach.fingers.begin(), reach.fingers.end(),
                                   [](const FingerReach& one) { return one.is_reached; });
@@ -196,7 +198,7 @@ std::string message_of(const ButtonReach& reach) {
                              finger_words(nearest->finger))
                : fmt::format(
                      "the {} gets there, but not with its pad, which is tilted by {:.0f} degrees",
-                     finger_words(nearest->finger), nearest->tilt / kDegree);
+                     finger_words(nearest->finger), nearest->tilt / geometry::kDegree);
   }
   return fmt::format("no finger reaches it; the {} comes nearest and misses it by {:.1f} mm",
                      finger_words(nearest->finger), nearest->miss);
@@ -204,18 +206,19 @@ std::string message_of(const ButtonReach& reach) {
 
 }  // namespace
 
-std::vector<TouchingSegment> touching_segments(const Hand& hand, const Product& product,
+std::vector<TouchingSegment> touching_segments(const hand::Hand& hand,
+                                               const product::Product& product,
                                                const Grasp& grasp) {
   std::vector<int> vertices(hand.skin.vertices.size());
   std::iota(vertices.begin(), vertices.end(), 0);
   std::vector<Vec3> skin;
   PosableSkin(hand, std::move(vertices)).pose(grasp.posture, skin);
   for (Vec3& p : skin) p = grasp.product_from_hand * p;
-  std::vector<DistanceSample> samples(skin.size());
+  std::vector<geometry::DistanceSample> samples(skin.size());
   product.distance->sample(skin, kTouchRange, samples);
-  std::array<TouchingSegment, kSegmentCount> all;
-  std::array<double, kSegmentCount> weight{};
-  std::array<Vec3, kSegmentCount> normal;
+  std::array<TouchingSegment, hand::kSegmentCount> all;
+  std::array<double, hand::kSegmentCount> weight{};
+  std::array<Vec3, hand::kSegmentCount> normal;
   normal.fill(Vec3::Zero());
   for (std::size_t v = 0; v < skin.size(); ++v) {
     const double depth = -samples[v].distance;
@@ -230,7 +233,7 @@ std::vector<TouchingSegment> touching_segments(const Hand& hand, const Product& 
   std::vector<TouchingSegment> touching;
   for (std::size_t s = 0; s < all.size(); ++s) {
     if (!(weight[s] > 0.0) || normal[s].norm() < 1e-9) continue;
-    all[s].segment = static_cast<Segment>(s);
+    all[s].segment = static_cast<hand::Segment>(s);
     all[s].point /= weight[s];
     all[s].normal = normal[s].normalized();
     touching.push_back(all[s]);
@@ -238,25 +241,25 @@ std::vector<TouchingSegment> touching_segments(const Hand& hand, const Product& 
   return touching;
 }
 
-bool is_grip_kept_without(Finger finger, const std::vector<TouchingSegment>& touching,
+bool is_grip_kept_without(hand::Finger finger, const std::vector<TouchingSegment>& touching,
                           const Vec3& force) {
-  std::array<bool, kFingerCount + 1> part{};  // the last is the palm
+  std::array<bool, hand::kFingerCount + 1> part{};  // the last is the palm
   bool is_opposed = false, is_backed = false;
   for (const TouchingSegment& one : touching) {
-    const std::optional<Finger> owner = finger_of(one.segment);
+    const std::optional<hand::Finger> owner = hand::finger_of(one.segment);
     if (owner == finger) continue;
-    part[owner ? static_cast<std::size_t>(*owner) : kFingerCount] = true;
+    part[owner ? static_cast<std::size_t>(*owner) : hand::kFingerCount] = true;
     is_backed = is_backed || one.normal.dot(force) >= 0.0;
     for (const TouchingSegment& other : touching) {
-      if (finger_of(other.segment) == finger) continue;
+      if (hand::finger_of(other.segment) == finger) continue;
       is_opposed = is_opposed || one.normal.dot(other.normal) <= std::cos(kOpposed);
     }
   }
   return std::count(part.begin(), part.end(), true) >= 2 && is_opposed && is_backed;
 }
 
-std::vector<ButtonReach> reach_buttons(const Hand& hand, const Product& product, const Grasp& grasp,
-                                       const std::vector<Button>& buttons,
+std::vector<ButtonReach> reach_buttons(const hand::Hand& hand, const product::Product& product,
+                                       const Grasp& grasp, const std::vector<Button>& buttons,
                                        const Progress& progress) {
   struct Place {
     Vec3 point, normal, force;
@@ -267,7 +270,7 @@ std::vector<ButtonReach> reach_buttons(const Hand& hand, const Product& product,
       throw UsageError(
           fmt::format("button \"{}\": point and force must be finite numbers", button.name));
     }
-    const DistanceSample sample = product.distance->at(button.point);
+    const geometry::DistanceSample sample = product.distance->at(button.point);
     if (std::abs(sample.distance) > kButtonOffSurface) {
       throw UsageError(fmt::format(
           "button \"{}\" ({:g}, {:g}, {:g} mm) is {:.1f} mm {} the surface of {}; at most {:g} mm "
@@ -287,8 +290,8 @@ std::vector<ButtonReach> reach_buttons(const Hand& hand, const Product& product,
     progress.throw_if_cancelled();
     ButtonReach reach;
     reach.button = buttons[i];
-    for (int f = 0; f < kFingerCount; ++f) {
-      reach.fingers.push_back(reacher.send(static_cast<Finger>(f), places[i].point,
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      reach.fingers.push_back(reacher.send(static_cast<hand::Finger>(f), places[i].point,
                                            places[i].normal, places[i].force, kReachFar));
     }
     for (const FingerReach& one : reach.fingers) {
@@ -304,8 +307,8 @@ std::vector<ButtonReach> reach_buttons(const Hand& hand, const Product& product,
   return result;
 }
 
-ReachMap map_reach(const Hand& hand, const Product& product, const Grasp& grasp, int points,
-                   const Progress& progress) {
+ReachMap map_reach(const hand::Hand& hand, const product::Product& product, const Grasp& grasp,
+                   int points, const Progress& progress) {
   if (points < 1 || points > 100'000) {
     throw UsageError(fmt::format("reach map: {} points; 1 to 100000 is allowed", points));
   }
@@ -321,8 +324,8 @@ ReachMap map_reach(const Hand& hand, const Product& product, const Grasp& grasp,
     if (progress.is_cancelled()) return;
     Value& value = values[place];
     std::optional<FingerReach> best;
-    for (int f = 0; f < kFingerCount; ++f) {
-      const auto finger = static_cast<Finger>(f);
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      const auto finger = static_cast<hand::Finger>(f);
       if (!reacher.may_leave(finger, -places[place].normal)) continue;
       const FingerReach one = reacher.send(finger, places[place].point, places[place].normal,
                                            -places[place].normal, kPlaceReached);
@@ -335,8 +338,8 @@ ReachMap map_reach(const Hand& hand, const Product& product, const Grasp& grasp,
   progress.throw_if_cancelled();
   ReachMap map;
   map.points = static_cast<int>(places.size());
-  const std::vector<Vec3> normals = vertex_normals(product.mesh);
-  const std::vector<double> areas = vertex_areas(product.mesh);
+  const std::vector<Vec3> normals = geometry::vertex_normals(product.mesh);
+  const std::vector<double> areas = geometry::vertex_areas(product.mesh);
   for (std::size_t v = 0; v < product.mesh.vertices.size(); ++v) {
     double nearest = std::numeric_limits<double>::infinity();
     Value value;
@@ -355,4 +358,4 @@ ReachMap map_reach(const Hand& hand, const Product& product, const Grasp& grasp,
   return map;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

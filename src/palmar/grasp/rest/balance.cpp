@@ -10,16 +10,16 @@
 #include "palmar/grasp/rest/press_down.h"
 #include "palmar/grasp/rest/settling.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kShifted = 5.0;  // mm; a precision grip in which the product shifts more is poor
 
 /// A precision grip comes to rest; if it doesn't where fingertips were first put, people put them
 /// elsewhere: where the search found the next best places.
-Balance settle_precision(const PreparedHand& hand, const Product& product, Grasp& grasp,
-                         const BalanceOptions& options, const ContactOptions& contact,
-                         const Progress& progress) {
+Balance settle_precision(const contact::PreparedHand& hand, const product::Product& product,
+                         Grasp& grasp, const BalanceOptions& options,
+                         const contact::ContactOptions& contact, const Progress& progress) {
   const std::size_t others = grasp.status == GraspStatus::kHeld ? grasp.runners_up.size() : 0;
   Balance first;
   Grasp nearest = grasp;  // where it is at rest or the first comes near to that
@@ -54,13 +54,13 @@ Balance settle_precision(const PreparedHand& hand, const Product& product, Grasp
 
 }  // namespace
 
-Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& grasp,
-                      const BalanceOptions& options, const ContactOptions& contact,
-                      const Progress& progress) {
+Balance balance_grasp(const contact::PreparedHand& hand, const product::Product& product,
+                      Grasp& grasp, const BalanceOptions& options,
+                      const contact::ContactOptions& contact, const Progress& progress) {
   options.check();
   contact.check();
   if (!options.is_on) return {};
-  ContactOptions plain = contact;
+  contact::ContactOptions plain = contact;
   plain.error_band = false;
   if (is_non_prehensile(grasp.grip)) {
     return press_down(hand, product, grasp, options, plain, progress);
@@ -101,4 +101,4 @@ Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& g
   return balance;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

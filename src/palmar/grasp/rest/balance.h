@@ -15,7 +15,7 @@
 #include "palmar/hand/tendons/hand_muscles.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// What a relaxed hand puts on what it lies on [N], the same for all hands of a comparison: its own
 /// weight and, the forearm hanging between it and the elbow, the forearm's share,
@@ -33,7 +33,7 @@ struct BalanceOptions {
   /// Of skin on product while they settle; 0: none. 0.5: skin on usual products (Derler & Gerhardt
   /// 2012, Tribol Lett 45:1-27: mean 0.46, SD 0.15).
   double friction = 0.5;
-  ProductLoad load;  ///< weight and further forces; none by default
+  contact::ProductLoad load;  ///< weight and further forces; none by default
   // How firmly; at most one of the two. None: as firm as it was closed.
   std::optional<double> grip_force;  ///< N, as grip_force()
   std::optional<ShareOfStrength> share_of_strength;
@@ -42,7 +42,7 @@ struct BalanceOptions {
   std::optional<double> activation;
   /// Largest activation: the person's muscles over those of HandMuscles.
   double strength = 1.0;
-  WristPosture wrist{};  ///< of a power grip; changes what muscles can, not the picture
+  hand::WristPosture wrist{};  ///< of a power grip; changes what muscles can, not the picture
   /// Share of the grip force that forces and moments may leave over when settling ends; 0.01 counts
   /// as balanced.
   double aim = 0.002;
@@ -87,14 +87,14 @@ struct Balance {
   bool is_overloaded = false;
   /// Moments about the angles of the digits of contact forces, friction and of thumb and fingers on
   /// each other, and of the load about the wrist, of the grasp at rest.
-  std::optional<HandLoad> joint_load;
+  std::optional<hand::HandLoad> joint_load;
   double moved = 0.0;                ///< of the product in the hand since it was closed, mm
   double turned = 0.0;               ///< rad
   std::optional<Vec3> slip;          ///< kSlipsOut: unit direction, hand frame
   std::vector<Vec3> friction_force;  ///< per skin vertex, of the skin on the product, product
                                      ///< frame, N
   int iterations = 0;
-  ContactFallbacks fallbacks;  ///< of all contacts that were solved on the way
+  contact::ContactFallbacks fallbacks;  ///< of all contacts that were solved on the way
 };
 
 /// Lets product (6 degrees of freedom) and fingers come to rest against each other: contact forces,
@@ -113,8 +113,8 @@ struct Balance {
 /// A hand that rests on the product or pushes it is only brought to its force: press_down.h.
 ///
 /// Not coming to rest is a status, never an exception. Throws UsageError on bad options, Cancelled.
-Balance balance_grasp(const PreparedHand& hand, const Product& product, Grasp& grasp,
-                      const BalanceOptions& options = {}, const ContactOptions& contact = {},
-                      const Progress& progress = {});
+Balance balance_grasp(const contact::PreparedHand& hand, const product::Product& product,
+                      Grasp& grasp, const BalanceOptions& options = {},
+                      const contact::ContactOptions& contact = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -5,7 +5,7 @@
 #include "palmar/core/error.h"
 #include "palmar/grasp/rest/balance.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kLargestAim = 0.01;  // residual over grip force that counts as balanced
@@ -61,7 +61,7 @@ void BalanceOptions::check() const {
   if (!(aim >= 1e-4 && aim <= kLargestAim)) {
     throw UsageError(fmt::format("balance: aim is {:g}; 0.0001 to 0.01 is allowed", aim));
   }
-  FrictionOptions with_load;
+  contact::FrictionOptions with_load;
   with_load.coefficient = 1.0;
   with_load.load = load;
   with_load.check();
@@ -87,4 +87,4 @@ std::string_view name_of(BalanceStatus status) {
   return "unknown";
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 /// Least squares over the columns in `active` alone.
@@ -77,4 +77,4 @@ ConeProjection project_on_cone(const Eigen::MatrixXd& A, const Eigen::VectorXd& 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

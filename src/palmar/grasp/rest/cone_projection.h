@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Nearest point to b of the cone of all combinations of the columns of A with factors x >= 0.
 struct ConeProjection {
@@ -19,4 +19,4 @@ struct ConeProjection {
 /// chapter 23.
 ConeProjection project_on_cone(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 TEST(ConeProjection, FirstQuadrantKeepsWhatIsPositive) {
@@ -43,4 +43,4 @@ TEST(ConeProjection, SatisfiesItsConditionsOnRandomCones) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -10,7 +10,7 @@
 #include "palmar/grasp/power/skin_advance.h"
 #include "palmar/grasp/precision/precision_shape.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kDamping = 2.0;         // mm
@@ -21,7 +21,7 @@ constexpr double kLeastNormal = 0.5;     // of a unit vector; a fingertip withou
 
 }  // namespace
 
-FingertipClosing::FingertipClosing(const Hand& hand, const Grasp& grasp) : hand_(&hand) {
+FingertipClosing::FingertipClosing(const hand::Hand& hand, const Grasp& grasp) : hand_(&hand) {
   if (grasp.fingertips.empty()) return;
   for (const FingertipPoint& tip : fingertips_of(hand, grasp.grip)) {
     for (const FingertipContact& contact : grasp.fingertips) {
@@ -31,12 +31,12 @@ FingertipClosing::FingertipClosing(const Hand& hand, const Grasp& grasp) : hand_
   }
 }
 
-Posture FingertipClosing::rate(const Posture& posture, const Rigid3& product_from_hand,
-                               double sign) const {
-  Posture result;
-  const Skeleton& skeleton = hand_->skeleton;
+hand::Posture FingertipClosing::rate(const hand::Posture& posture,
+                                     const geometry::Rigid3& product_from_hand, double sign) const {
+  hand::Posture result;
+  const hand::Skeleton& skeleton = hand_->skeleton;
   const FingerMotion motion(skeleton, posture);
-  const Rigid3 hand_from_product = product_from_hand.inverse();
+  const geometry::Rigid3 hand_from_product = product_from_hand.inverse();
   for (const Tip& tip : tips_) {
     const Vec3 x = hand_from_product * tip.point;
     const Vec3 n = hand_from_product.rotation * tip.normal;
@@ -50,8 +50,8 @@ Posture FingertipClosing::rate(const Posture& posture, const Rigid3& product_fro
       Eigen::MatrixXd system = jacobian.transpose() * jacobian;
       system.diagonal().array() += kDamping * kDamping;
       for (Eigen::Index i = 0; i + 1 < m; ++i) {
-        const Finger finger = *finger_of(tip.segment);
-        if (finger == Finger::kThumb || moving[i].dof != flexion_of(finger, 1)) continue;
+        const hand::Finger finger = *hand::finger_of(tip.segment);
+        if (finger == hand::Finger::kThumb || moving[i].dof != flexion_of(finger, 1)) continue;
         if (moving[i + 1].dof != flexion_of(finger, 2)) continue;
         Eigen::VectorXd row = Eigen::VectorXd::Zero(m);
         row[i] = -kDipOfPip * kDepthCoupling;
@@ -60,7 +60,7 @@ Posture FingertipClosing::rate(const Posture& posture, const Rigid3& product_fro
       }
       const Eigen::VectorXd q = system.ldlt().solve(Eigen::VectorXd(-jacobian.transpose() * n));
       const auto leaves = [&](const DofMotion& one) {
-        const JointDof& dof = skeleton.dof(one.dof);
+        const hand::JointDof& dof = skeleton.dof(one.dof);
         const double way = sign * q[&one - moving.data()];
         return (way > 0.0 && posture[one.dof] >= dof.upper - kAtEndOfRange) ||
                (way < 0.0 && posture[one.dof] <= dof.lower + kAtEndOfRange);
@@ -77,4 +77,4 @@ Posture FingertipClosing::rate(const Posture& posture, const Rigid3& product_fro
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -8,7 +8,7 @@
 #include "palmar/grasp/grasp.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// How the joints of a precision grip press: each fingertip goes straight into the product. For a
 /// finger whose fingertip is at x and meets the product's normal n, the rates q of its joints
@@ -22,21 +22,22 @@ namespace palmar {
 class FingertipClosing {
  public:
   /// Keeps references to the hand. Takes fingers and places from grasp.fingertips.
-  FingertipClosing(const Hand& hand, const Grasp& grasp);
+  FingertipClosing(const hand::Hand& hand, const Grasp& grasp);
 
   bool is_empty() const { return tips_.empty(); }
 
   /// Joint rates, rad per mm that every fingertip goes into the product; `sign` is -1 where the
   /// hand opens.
-  Posture rate(const Posture& posture, const Rigid3& product_from_hand, double sign) const;
+  hand::Posture rate(const hand::Posture& posture, const geometry::Rigid3& product_from_hand,
+                     double sign) const;
 
  private:
   struct Tip {
-    Segment segment{};
+    hand::Segment segment{};
     Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  ///< of the product, product frame
   };
-  const Hand* hand_;
+  const hand::Hand* hand_;
   std::vector<Tip> tips_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

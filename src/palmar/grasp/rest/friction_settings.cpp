@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/product/mass.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kMostAcceleration = 100.0;  // standard gravities; a blow with a hammer
@@ -50,12 +50,12 @@ void FrictionSettings::check() const {
   }
 }
 
-FrictionOptions FrictionSettings::options() const {
+contact::FrictionOptions FrictionSettings::options() const {
   check();
-  FrictionOptions result;
+  contact::FrictionOptions result;
   result.coefficient = friction.value_or(has_load() ? kUsualFriction : 0.0);
-  ProductLoad& load = result.load;
-  if (mass) load.weight = kStandardGravity * *mass;
+  contact::ProductLoad& load = result.load;
+  if (mass) load.weight = product::kStandardGravity * *mass;
   if (weight) load.weight = *weight;
   load.weight *= 1.0 + acceleration.value_or(0.0);
   load.gravity = gravity;
@@ -67,15 +67,16 @@ FrictionOptions FrictionSettings::options() const {
   return result;
 }
 
-FrictionOptions FrictionSettings::options_for(const Product& product) const {
-  FrictionOptions result = options();
+contact::FrictionOptions FrictionSettings::options_for(const product::Product& product) const {
+  contact::FrictionOptions result = options();
   if (density || (has_weight() && !mass_centre)) {
-    const MassProperties solid = mass_properties(product);
+    const product::MassProperties solid = product::mass_properties(product);
     if (density) {
-      result.load.weight = (1.0 + acceleration.value_or(0.0)) * weight_of(solid.volume, *density);
+      result.load.weight =
+          (1.0 + acceleration.value_or(0.0)) * product::weight_of(solid.volume, *density);
     }
   }
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -7,7 +7,7 @@
 #include "palmar/contact/friction/friction.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Friction of skin on usual products (Derler & Gerhardt 2012, Tribol Lett 45:1-27: mean 0.46, SD
 /// 0.15): what is taken where none is given and some is needed.
@@ -35,10 +35,10 @@ struct FrictionSettings {
   void check() const;  ///< throws UsageError: setting, value, allowed range
 
   /// Without the weight that a density gives. Throws UsageError as check().
-  FrictionOptions options() const;
+  contact::FrictionOptions options() const;
   /// With it. Throws InputError if the weight or where it acts need a volume that the product
   /// doesn't have.
-  FrictionOptions options_for(const Product& product) const;
+  contact::FrictionOptions options_for(const product::Product& product) const;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

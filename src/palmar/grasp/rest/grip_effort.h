@@ -10,7 +10,7 @@
 #include "palmar/grasp/rest/thumb_meeting.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// The activations of all muscles of a hand that holds a product, one problem in every step of the
 /// search for rest:
@@ -32,11 +32,12 @@ class GripEffort {
  public:
   /// `limit`: largest activation, times the muscles of HandMuscles.
   /// `closed`: the posture from which held angles give way and to which they come back.
-  GripEffort(const Hand& hand, double limit, const Posture& closed, const WristPosture& wrist = {});
+  GripEffort(const hand::Hand& hand, double limit, const hand::Posture& closed,
+             const hand::WristPosture& wrist = {});
 
   /// Muscles and passive moments of the loaded digits in a posture; `wrist`: moment of the load
   /// in the sense of the wrist's flexion, N mm.
-  void look(const Posture& posture, const std::array<bool, kGripJoints>& is_loaded,
+  void look(const hand::Posture& posture, const std::array<bool, kGripJoints>& is_loaded,
             std::vector<ThumbPress> presses = {}, double wrist = 0.0);
 
   /// Moments of ligaments, of slack muscles and of thumb and fingers on each other, onto forces and
@@ -51,7 +52,7 @@ class GripEffort {
   bool is_judged(int joint) const;
   /// An angle that muscles and product turn; else it is held.
   static bool is_free(int joint) {
-    return grip_finger(joint) != Finger::kThumb && joint % kDigitDofs != 1;
+    return grip_finger(joint) != hand::Finger::kThumb && joint % hand::kDigitDofs != 1;
   }
 
   struct Step {
@@ -67,7 +68,7 @@ class GripEffort {
     double share =
         0.0;  ///< least share of `limit` (least_strength_share()); infinite if none could
     bool is_by_wrist = false;  ///< the fingers alone would need less
-    HandLoad load;             ///< of contact, of thumb and fingers on each other, on the wrist
+    hand::HandLoad load;       ///< of contact, of thumb and fingers on each other, on the wrist
   };
   Strength strength_of(const GripVector& contact_force) const;
 
@@ -80,12 +81,13 @@ class GripEffort {
   void set(const Activations& activations) { now_ = activations; }
 
  private:
-  void stretch(const Posture& posture, Eigen::Index first_muscle, DigitMuscles& digit);
+  void stretch(const hand::Posture& posture, Eigen::Index first_muscle, hand::DigitMuscles& digit);
 
-  HandMuscles muscles_;
-  Posture closed_;
+  hand::HandMuscles muscles_;
+  hand::Posture closed_;
   double limit_;
-  std::array<std::optional<DigitMuscles>, kFingerCount> digits_;  ///< those that take part
+  std::array<std::optional<hand::DigitMuscles>, hand::kFingerCount>
+      digits_;  ///< those that take part
   std::array<bool, kGripJoints> is_loaded_{};
   std::vector<ThumbPress> presses_;
   double wrist_load_ = 0.0;
@@ -98,4 +100,4 @@ class GripEffort {
   Activations now_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

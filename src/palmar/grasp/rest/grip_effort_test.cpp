@@ -11,22 +11,22 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
-constexpr int kMiddleFirst = kDigitDofs * static_cast<int>(Finger::kMiddle);
+constexpr int kMiddleFirst = hand::kDigitDofs * static_cast<int>(hand::Finger::kMiddle);
 
-const Hand& hand() {
-  static const Hand made = effort_test::plain_hand();
+const hand::Hand& hand() {
+  static const hand::Hand made = hand::effort_test::plain_hand();
   return made;
 }
 
-Posture bent() {
-  Posture posture = reference_posture(hand().skeleton);
-  posture[Dof::kMiddleMcpFlexion] = 50 * kDegree;
-  posture[Dof::kMiddlePipFlexion] = 45 * kDegree;
-  posture[Dof::kMiddleDipFlexion] = 30 * kDegree;
-  posture[Dof::kThumbIpFlexion] = 40 * kDegree;
+hand::Posture bent() {
+  hand::Posture posture = hand::reference_posture(hand().skeleton);
+  posture[hand::Dof::kMiddleMcpFlexion] = 50 * geometry::kDegree;
+  posture[hand::Dof::kMiddlePipFlexion] = 45 * geometry::kDegree;
+  posture[hand::Dof::kMiddleDipFlexion] = 30 * geometry::kDegree;
+  posture[hand::Dof::kThumbIpFlexion] = 40 * geometry::kDegree;
   return posture;
 }
 
@@ -53,7 +53,7 @@ TEST(GripEffort, ActivationOfTheOnlyMuscleIsMomentOverStrengthTimesArm) {
   GripEffort effort(hand(), 1.0, bent());
   const int dip = kMiddleFirst + 3;
   effort.look(bent(), loaded({dip}));
-  const DigitMuscles digit = HandMuscles(hand()).in(Finger::kMiddle, bent());
+  const hand::DigitMuscles digit = hand::HandMuscles(hand()).in(hand::Finger::kMiddle, bent());
   GripVector force = GripVector::Zero();
   force[dip] = -150.0;  // N mm, opens it
   GripMatrix stiffness = GripMatrix::Zero();
@@ -103,7 +103,7 @@ TEST(GripEffort, SqueezeIsMissedWhereMusclesAreTooWeak) {
                                               .squeeze = squeeze,
                                               .missing = 50.0});
   EXPECT_TRUE(step.is_short);
-  const DigitMuscles digit = HandMuscles(hand()).in(Finger::kMiddle, bent());
+  const hand::DigitMuscles digit = hand::HandMuscles(hand()).in(hand::Finger::kMiddle, bent());
   EXPECT_LT(30.0 * step.way[dip], 50.0);
   EXPECT_NEAR(effort.moments()[dip], 0.1 * digit.strength[0] * digit.arm[0][3],
               0.01 * effort.moments()[dip]);
@@ -114,8 +114,8 @@ constexpr int kThumbIp = 3;
 /// The thumb's end has given way by `way` to a spring of 2000 N mm/rad, which now pushes with
 /// `force`; how far it goes in the next step.
 double way_of_thumb(double force, double way) {
-  Posture posture = bent();
-  posture[Dof::kThumbIpFlexion] += way;
+  hand::Posture posture = bent();
+  posture[hand::Dof::kThumbIpFlexion] += way;
   GripEffort effort(hand(), 0.5, bent());
   effort.look(posture, loaded({kThumbIp, kMiddleFirst + 3}));
   GripVector on = GripVector::Zero();
@@ -135,9 +135,9 @@ double way_of_thumb(double force, double way) {
 
 /// What flexes the thumb's end, at half activation, stretched by `way` [rad] times its arm.
 double most_of_thumb(double way) {
-  Posture posture = bent();
-  posture[Dof::kThumbIpFlexion] += way;
-  const DigitMuscles thumb = HandMuscles(hand()).in(Finger::kThumb, posture);
+  hand::Posture posture = bent();
+  posture[hand::Dof::kThumbIpFlexion] += way;
+  const hand::DigitMuscles thumb = hand::HandMuscles(hand()).in(hand::Finger::kThumb, posture);
   double most = 0.0;
   for (std::size_t t = 0; t < thumb.arm.size(); ++t) {
     const double arm = thumb.arm[t][kThumbIp];
@@ -163,9 +163,9 @@ TEST(GripEffort, AStretchedThumbHoldsThreeTenthsMoreAtMost) {
   EXPECT_NEAR(way_of_thumb(rest - 1.0, 0.0), 0.0, 1e-9);
   EXPECT_LT(way_of_thumb(rest + 20.0, 0.0), -0.005);
   // Stretched by 0.2 rad it holds 1.3 times the force that it has there.
-  const DigitMuscles there = HandMuscles(hand()).in(Finger::kThumb, [] {
-    Posture posture = bent();
-    posture[Dof::kThumbIpFlexion] -= 0.2;
+  const hand::DigitMuscles there = hand::HandMuscles(hand()).in(hand::Finger::kThumb, [] {
+    hand::Posture posture = bent();
+    posture[hand::Dof::kThumbIpFlexion] -= 0.2;
     return posture;
   }());
   double isometric = 0.0;
@@ -223,31 +223,31 @@ TEST(GripEffort, ALoadAtALeverIsHeldByTheWrist) {
 }
 
 /// The thumb and the index finger, straight.
-std::pair<RoundCone, RoundCone> thumb_and_index(const Posture& posture) {
+std::pair<RoundCone, RoundCone> thumb_and_index(const hand::Posture& posture) {
   RoundCone thumb, index;
   for (const RoundCone& cone : FingerCones(hand()).posed(hand().skeleton, posture)) {
-    if (cone.finger == Finger::kThumb && cone.level == 2) thumb = cone;
-    if (cone.finger == Finger::kIndex && cone.level == 1) index = cone;
+    if (cone.finger == hand::Finger::kThumb && cone.level == 2) thumb = cone;
+    if (cone.finger == hand::Finger::kIndex && cone.level == 1) index = cone;
   }
   return {thumb, index};
 }
 
 TEST(ThumbPress, IsTheForceTimesThePathOfItsPointsOnBothDigits) {
-  const Posture posture = reference_posture(hand().skeleton);
-  const auto overlap_at = [&](const Posture& there) {
+  const hand::Posture posture = hand::reference_posture(hand().skeleton);
+  const auto overlap_at = [&](const hand::Posture& there) {
     const auto [thumb, index] = thumb_and_index(there);
     return overlap(thumb, index);
   };
   const auto [thumb, index] = thumb_and_index(posture);
   const ThumbPress press = thumb_press(hand().skeleton, posture, thumb, index, 4.0);
-  EXPECT_EQ(press.finger, Finger::kIndex);
+  EXPECT_EQ(press.finger, hand::Finger::kIndex);
   EXPECT_NEAR(press.force, 2.0, 1e-12);  // two pulps, 2 mm each
   EXPECT_NEAR(press.stiffness, 2.0, 1e-12);
   EXPECT_EQ(thumb_press(hand().skeleton, posture, thumb, index, -1.0).force, 0.0);
   // Virtual work: an angle that deepens the overlap works against the force.
   constexpr double kStep = 1e-4;
   for (int joint = 0; joint < kGripJoints; ++joint) {
-    Posture plus = posture, minus = posture;
+    hand::Posture plus = posture, minus = posture;
     plus[grip_dof(joint)] += kStep;
     minus[grip_dof(joint)] -= kStep;
     const double rate = (overlap_at(plus) - overlap_at(minus)) / (2.0 * kStep);
@@ -260,7 +260,7 @@ TEST(ThumbPress, IsTheForceTimesThePathOfItsPointsOnBothDigits) {
 TEST(ThumbPress, CountsTheFingerThatMetTheThumb) {
   // What the product does to the digits and what they do to each other add up to nothing: no
   // strength is needed. Without their force on each other it would be.
-  const Posture posture = reference_posture(hand().skeleton);
+  const hand::Posture posture = hand::reference_posture(hand().skeleton);
   const auto [thumb, index] = thumb_and_index(posture);
   const ThumbPress press = thumb_press(hand().skeleton, posture, thumb, index, 8.0);
   const GripVector outside = -press.force * press.moment;
@@ -269,7 +269,7 @@ TEST(ThumbPress, CountsTheFingerThatMetTheThumb) {
   const GripEffort::Strength met = effort.strength_of(outside);
   EXPECT_LT(met.share, 0.01);
   for (int j = 0; j < kGripJoints; ++j) {
-    EXPECT_NEAR(met.load.digit[j / kDigitDofs][j % kDigitDofs], 0.0, 1e-9);
+    EXPECT_NEAR(met.load.digit[j / hand::kDigitDofs][j % hand::kDigitDofs], 0.0, 1e-9);
   }
   ThumbPress none = press;
   none.force = 0.0;
@@ -278,4 +278,4 @@ TEST(ThumbPress, CountsTheFingerThatMetTheThumb) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

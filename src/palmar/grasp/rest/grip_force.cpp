@@ -7,7 +7,7 @@
 
 #include "palmar/contact/contact_normals.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 namespace {
 
@@ -120,13 +120,13 @@ Squeeze grip_force(const std::vector<Vec3>& forces) {
   return best;
 }
 
-Squeeze grip_force(const ContactResult& contact, const DistanceField& product) {
-  const std::vector<int> loaded = loaded_vertices(contact);
-  std::vector<Vec3> forces = contact_normals(contact, product, loaded);
+Squeeze grip_force(const contact::ContactResult& contact, const geometry::DistanceField& product) {
+  const std::vector<int> loaded = contact::loaded_vertices(contact);
+  std::vector<Vec3> forces = contact::contact_normals(contact, product, loaded);
   for (std::size_t k = 0; k < loaded.size(); ++k) {
     forces[k] *= -contact.force[loaded[k]];
   }
   return grip_force(forces);
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -7,7 +7,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// How hard a product is squeezed.
 struct Squeeze {
@@ -24,6 +24,6 @@ struct Squeeze {
 Squeeze grip_force(const std::vector<Vec3>& forces);
 
 /// Of the normal forces of a solved contact, product frame.
-Squeeze grip_force(const ContactResult& contact, const DistanceField& product);
+Squeeze grip_force(const contact::ContactResult& contact, const geometry::DistanceField& product);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

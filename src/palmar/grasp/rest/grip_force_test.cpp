@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 TEST(GripForce, OfTwoOpposedFingersIsTheirForce) {
@@ -68,4 +68,4 @@ TEST(GripForce, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -9,7 +9,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kPower = 2.0;           // of depth, with which forces grow
@@ -17,42 +17,44 @@ constexpr double kTangential = 2.0 / 3;  // tangential over normal stiffness; Mi
 constexpr double kLeastDepth = 0.3;      // mm; shallower contacts count as that deep
 constexpr double kTurn = 1e-3;           // rad; of the differences
 
-JointId grip_joint_id(int joint) {
-  const auto segments = segments_of(grip_finger(joint));
-  if (grip_finger(joint) == Finger::kThumb) {
-    return std::array{JointId::kThumbCmc, JointId::kThumbCmc, JointId::kThumbMp,
-                      JointId::kThumbIp}[static_cast<std::size_t>(joint)];
+hand::JointId grip_joint_id(int joint) {
+  const auto segments = hand::segments_of(grip_finger(joint));
+  if (grip_finger(joint) == hand::Finger::kThumb) {
+    return std::array{hand::JointId::kThumbCmc, hand::JointId::kThumbCmc, hand::JointId::kThumbMp,
+                      hand::JointId::kThumbIp}[static_cast<std::size_t>(joint)];
   }
   // MCP has the first two angles.
-  return joint_of(*segments[static_cast<std::size_t>(std::max(0, joint % kDigitDofs - 1))]);
+  return hand::joint_of(
+      *segments[static_cast<std::size_t>(std::max(0, joint % hand::kDigitDofs - 1))]);
 }
 
 }  // namespace
 
-Dof grip_dof(int joint) {
-  return digit_dofs(grip_finger(joint))[static_cast<std::size_t>(joint % kDigitDofs)];
+hand::Dof grip_dof(int joint) {
+  return hand::digit_dofs(grip_finger(joint))[static_cast<std::size_t>(joint % hand::kDigitDofs)];
 }
 
-GripMechanics::GripMechanics(const PreparedHand& hand, const Product& product,
-                             const ContactOptions& options, double friction, const GripState& start)
+GripMechanics::GripMechanics(const contact::PreparedHand& hand, const product::Product& product,
+                             const contact::ContactOptions& options, double friction,
+                             const GripState& start)
     : hand_(&hand), product_(&product), friction_(friction), solver_(hand, options) {
-  const Hand& h = hand.hand();
+  const hand::Hand& h = hand.hand();
   for (int j = 0; j < kGripJoints; ++j) {
     is_moved_[j].assign(h.skin.vertices.size(), 0);
-    const JointId id = grip_joint_id(j);
-    for (const JointWeights& weights : h.weights) {
+    const hand::JointId id = grip_joint_id(j);
+    for (const hand::JointWeights& weights : h.weights) {
       if (weights.joint != id) continue;
       for (const int v : weights.vertex) is_moved_[j][v] = 1;
     }
     // The correction of the thumb's ball goes with the CMC joint.
-    if (id != JointId::kThumbCmc) continue;
+    if (id != hand::JointId::kThumbCmc) continue;
     for (const int v : h.thumb_ball.vertex) is_moved_[j][v] = 1;
   }
-  anchor_ = pose_skin(h, start.posture);
+  anchor_ = hand::pose_skin(h, start.posture);
   for (Vec3& point : anchor_) point = start.product_from_hand * point;
 }
 
-GripMechanics::Column GripMechanics::column(const Posture& posture, int joint,
+GripMechanics::Column GripMechanics::column(const hand::Posture& posture, int joint,
                                             const std::vector<int>& vertices) const {
   Column result;
   std::vector<int> moved;
@@ -62,9 +64,9 @@ GripMechanics::Column GripMechanics::column(const Posture& posture, int joint,
     moved.push_back(vertices[k]);
   }
   if (moved.empty()) return result;
-  Posture turned = posture;
+  hand::Posture turned = posture;
   turned[grip_dof(joint)] += kTurn;
-  result.speed = pose_skin_vertices(hand_->hand(), turned, moved);
+  result.speed = hand::pose_skin_vertices(hand_->hand(), turned, moved);
   for (std::size_t i = 0; i < moved.size(); ++i) {
     result.speed[i] = (result.speed[i] - posed_[moved[i]]) / kTurn;
   }
@@ -72,15 +74,15 @@ GripMechanics::Column GripMechanics::column(const Posture& posture, int joint,
 }
 
 /// Forces of skin on skin, and how they stiffen the angles.
-void GripMechanics::add_touches(const Posture& posture) {
-  const std::vector<SkinTouch>& touches = contact_.skin_touch;
+void GripMechanics::add_touches(const hand::Posture& posture) {
+  const std::vector<contact::SkinTouch>& touches = contact_.skin_touch;
   if (touches.empty()) return;
   constexpr std::size_t kCorners = 4;
   std::vector<int> corners;
-  std::array<double, kRegionCount> depth;
+  std::array<double, hand::kRegionCount> depth;
   depth.fill(kLeastDepth);
-  for (const SkinTouch& touch : touches) {
-    const SkinMeeting& at = touch.meeting;
+  for (const contact::SkinTouch& touch : touches) {
+    const contact::SkinMeeting& at = touch.meeting;
     corners.insert(corners.end(), {at.vertex, at.on[0], at.on[1], at.on[2]});
     double& d = depth[index_of(hand_->hand().region[at.vertex])];
     d = std::max(d, -at.distance);
@@ -91,7 +93,7 @@ void GripMechanics::add_touches(const Posture& posture) {
     for (std::size_t i = 0; i < one.row.size(); ++i) {
       const std::size_t k = static_cast<std::size_t>(one.row[i]) / kCorners;
       const std::size_t corner = static_cast<std::size_t>(one.row[i]) % kCorners;
-      const SkinMeeting& at = touches[k].meeting;
+      const contact::SkinMeeting& at = touches[k].meeting;
       const double weight = corner == 0 ? 1.0 : -at.weight[corner - 1];
       opening[k][j] += weight * one.speed[i].dot(hand_from_product_ * at.normal);
     }
@@ -107,8 +109,8 @@ void GripMechanics::add_touches(const Posture& posture) {
 }
 
 bool GripMechanics::look(const GripState& state, double accuracy) {
-  const Hand& hand = hand_->hand();
-  posed_ = pose_skin(hand, state.posture);
+  const hand::Hand& hand = hand_->hand();
+  posed_ = hand::pose_skin(hand, state.posture);
   solver_.solve_forces(posed_, state.product_from_hand, *product_->distance, accuracy, contact_);
   fallbacks_ += contact_.fallbacks;
   force_.setZero();
@@ -121,18 +123,18 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
   drag_.clear();
   friction_use_ = 0.0;
   grip_ = {};
-  if (contact_.status == ContactStatus::kNotConverged) return false;
-  loaded_ = loaded_vertices(contact_);
+  if (contact_.status == contact::ContactStatus::kNotConverged) return false;
+  loaded_ = contact::loaded_vertices(contact_);
   if (loaded_.empty()) return true;
   hand_from_product_ = state.product_from_hand.rotation.conjugate();
 
-  std::array<double, kRegionCount> depth;
+  std::array<double, hand::kRegionCount> depth;
   depth.fill(kLeastDepth);
-  for (const RegionContact& region : contact_.regions) {
+  for (const contact::RegionContact& region : contact_.regions) {
     double& d = depth[index_of(region.region)];
     d = std::max(d, region.max_penetration);
   }
-  normal_ = contact_normals(contact_, *product_->distance, loaded_);
+  normal_ = contact::contact_normals(contact_, *product_->distance, loaded_);
   double sum = 0.0;
   centre_ = Vec3::Zero();
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
@@ -208,15 +210,16 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
   return true;
 }
 
-GripMechanics::Closing GripMechanics::closing(const Posture& posture, const Posture& rate) const {
+GripMechanics::Closing GripMechanics::closing(const hand::Posture& posture,
+                                              const hand::Posture& rate) const {
   Closing result;
   double largest = 0.0;
   for (const double r : rate.angle) largest = std::max(largest, std::abs(r));
   if (largest == 0.0 || loaded_.empty()) return result;
   const double step = kTurn / largest;
-  Posture moved = posture;
+  hand::Posture moved = posture;
   for (std::size_t d = 0; d < moved.angle.size(); ++d) moved.angle[d] += step * rate.angle[d];
-  const std::vector<Vec3> there = pose_skin_vertices(hand_->hand(), moved, loaded_);
+  const std::vector<Vec3> there = hand::pose_skin_vertices(hand_->hand(), moved, loaded_);
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
     const Vec3& n = normal_[k];
     const Vec3 speed = (there[k] - posed_[loaded_[k]]) / step;
@@ -238,11 +241,11 @@ Squeeze GripMechanics::squeeze_of_normals() const {
   return grip_force(forces);
 }
 
-Eigen::Matrix<double, 6, 1> GripMechanics::wrench_of(std::optional<Finger> finger) const {
+Eigen::Matrix<double, 6, 1> GripMechanics::wrench_of(std::optional<hand::Finger> finger) const {
   Eigen::Matrix<double, 6, 1> wrench = Eigen::Matrix<double, 6, 1>::Zero();
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
     const int v = loaded_[k];
-    if (finger_of(hand_->hand().segment[v]) != finger) continue;
+    if (hand::finger_of(hand_->hand().segment[v]) != finger) continue;
     const Vec3 force = -contact_.force[v] * normal_[k];
     wrench.head<3>() += force;
     wrench.tail<3>() += (posed_[v] - centre_).cross(force);
@@ -259,4 +262,4 @@ std::vector<Vec3> GripMechanics::friction_force() const {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

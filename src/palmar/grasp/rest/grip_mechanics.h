@@ -12,12 +12,14 @@
 #include "palmar/hand/tendons/digit_pose.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Angles of the digits, digit by digit in the order of digit_dofs().
-inline constexpr int kGripJoints = kFingerCount * kDigitDofs;
-Dof grip_dof(int joint);
-inline Finger grip_finger(int joint) { return static_cast<Finger>(joint / kDigitDofs); }
+inline constexpr int kGripJoints = hand::kFingerCount * hand::kDigitDofs;
+hand::Dof grip_dof(int joint);
+inline hand::Finger grip_finger(int joint) {
+  return static_cast<hand::Finger>(joint / hand::kDigitDofs);
+}
 /// Generalised coordinates of a grasp: the angles [rad], then the product's motion in the hand
 /// frame: translation of the centre of contact [mm] and rotation about it [rad].
 inline constexpr int kGripCoordinates = kGripJoints + 6;
@@ -28,8 +30,8 @@ inline constexpr double kNoWay = 1e-6;           ///< rad; less is none
 inline constexpr double kForcesAccuracy = 5e-4;  ///< relative; of what is reported. Our choice
 
 struct GripState {
-  Posture posture;
-  Rigid3 product_from_hand;
+  hand::Posture posture;
+  geometry::Rigid3 product_from_hand;
 };
 
 /// Contact and friction of a hand and a product in one state, in generalised coordinates.
@@ -50,8 +52,8 @@ struct GripState {
 class GripMechanics {
  public:
   /// Keeps references; skin sticks where it is in `start`.
-  GripMechanics(const PreparedHand& hand, const Product& product, const ContactOptions& options,
-                double friction, const GripState& start);
+  GripMechanics(const contact::PreparedHand& hand, const product::Product& product,
+                const contact::ContactOptions& options, double friction, const GripState& start);
 
   /// Solves the contact of a state, on bone to `accuracy` of the forces, and fills what follows.
   /// False if it can't be solved.
@@ -63,11 +65,11 @@ class GripMechanics {
     /// Change of the contact's force and moment on the product's coordinates, N/mm and N.
     Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
   };
-  Closing closing(const Posture& posture, const Posture& rate) const;
+  Closing closing(const hand::Posture& posture, const hand::Posture& rate) const;
 
-  const ContactResult& contact() const { return contact_; }
+  const contact::ContactResult& contact() const { return contact_; }
   /// Of all contacts solved so far.
-  const ContactFallbacks& fallbacks() const { return fallbacks_; }
+  const contact::ContactFallbacks& fallbacks() const { return fallbacks_; }
   const GripVector& force() const { return force_; }  ///< of the contact on the coordinates
   /// Forces that coordinates (columns) take from coordinates (rows) per mm and rad.
   const GripMatrix& stiffness() const { return stiffness_; }
@@ -81,7 +83,7 @@ class GripMechanics {
   const Squeeze& grip() const { return grip_; }
   /// Wrench on the product of the normal forces of one digit's phalanges; about the centre, hand
   /// frame, N and N mm. Nothing: of the palm (and all else).
-  Eigen::Matrix<double, 6, 1> wrench_of(std::optional<Finger> finger) const;
+  Eigen::Matrix<double, 6, 1> wrench_of(std::optional<hand::Finger> finger) const;
   /// Of the skin on the product, per skin vertex, product frame, N.
   std::vector<Vec3> friction_force() const;
 
@@ -91,16 +93,16 @@ class GripMechanics {
     std::vector<int> row;     ///< index into the vertices
     std::vector<Vec3> speed;  ///< mm/rad
   };
-  Column column(const Posture& posture, int joint, const std::vector<int>& vertices) const;
-  void add_touches(const Posture& posture);
+  Column column(const hand::Posture& posture, int joint, const std::vector<int>& vertices) const;
+  void add_touches(const hand::Posture& posture);
   Squeeze squeeze_of_normals() const;
 
-  const PreparedHand* hand_;
-  const Product* product_;
+  const contact::PreparedHand* hand_;
+  const product::Product* product_;
   double friction_ = 0.0;
-  ContactSolver::Impl solver_;
-  ContactResult contact_;
-  ContactFallbacks fallbacks_;
+  contact::ContactSolver::Impl solver_;
+  contact::ContactResult contact_;
+  contact::ContactFallbacks fallbacks_;
   std::vector<Vec3> posed_;
   std::array<std::vector<char>, kGripJoints> is_moved_;  ///< per joint and skin vertex
   std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm
@@ -116,4 +118,4 @@ class GripMechanics {
   Squeeze grip_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

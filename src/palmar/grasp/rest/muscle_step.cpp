@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kHeldPrice = 0.01;    // of what is missing, against that of the squeeze
@@ -88,7 +88,7 @@ void MuscleStep::balance() {
   if (e.moved != nullptr) {
     problem_.required.tail<3>() = -*e.moved - moved_by_force_.segment<3>(free_count_ - 6);
   }
-  solution_ = balance_muscles(problem_);
+  solution_ = hand::balance_muscles(problem_);
 }
 
 /// Held angles that their muscles leave short go so far that these suffice. False if there are
@@ -112,7 +112,7 @@ bool MuscleStep::give_way() {
 /// Held angles go `back`, or the part of that way on which their muscles bring them; if there is
 /// none, the step stays as it was.
 void MuscleStep::come_back(Eigen::VectorXd back) {
-  const MuscleSolution here = solution_;
+  const hand::MuscleSolution here = solution_;
   for (Eigen::Index i = 0; i < held_count_; ++i) {
     if (back[i] * problem_.stop[i] > 0.0) problem_.stop[i] = 0;  // leaves its stop
   }
@@ -158,4 +158,4 @@ GripVector MuscleStep::way() const {
   return way;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -9,7 +9,7 @@
 #include "palmar/grasp/rest/grip_mechanics.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Forces of a grip, linear in its coordinates about a state, and what a step is to reach. Holds
 /// references: what it is made of has to outlive it.
@@ -64,10 +64,10 @@ class MuscleStep {
   Eigen::VectorXd by_force_;   ///< what the forces as they are move them
   Eigen::MatrixXd between_;    ///< stiffness, held x free
   Eigen::MatrixXd follow_;  ///< how the free follow the held angles, with the sign of a stiffness
-  MuscleProblem problem_;   ///< rows: held angles, the squeeze, the wrist, the product's place
-  Eigen::VectorXd giving_;  ///< way of the held angles, rad
+  hand::MuscleProblem problem_;  ///< rows: held angles, the squeeze, the wrist, the product's place
+  Eigen::VectorXd giving_;       ///< way of the held angles, rad
   Eigen::VectorXd moved_by_force_;  ///< of the free coordinates, with that way
-  MuscleSolution solution_;
+  hand::MuscleSolution solution_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

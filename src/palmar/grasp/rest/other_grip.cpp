@@ -9,7 +9,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/grasp/precision/precision_shape.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 /// In the order in which they are tried among those with as many fingers.
@@ -17,8 +17,9 @@ constexpr std::array kOtherGrips = {
     Grip::kWritingTripod, Grip::kPalmarPinch,     Grip::kLateral,      Grip::kTipPinch,
     Grip::kTripod,        Grip::kPrecisionSphere, Grip::kPrecisionDisk};
 
-bool holds(const PreparedHand& hand, const Product& product, const GraspOptions& options,
-           const BalanceOptions& balance, const ContactOptions& contact, const Progress& progress) {
+bool holds(const contact::PreparedHand& hand, const product::Product& product,
+           const GraspOptions& options, const BalanceOptions& balance,
+           const contact::ContactOptions& contact, const Progress& progress) {
   Grasp grasp = find_grasp(hand.hand(), product, options, progress);
   if (grasp.status != GraspStatus::kHeld) return false;
   if (!balance.is_on) return true;
@@ -30,9 +31,11 @@ bool holds(const PreparedHand& hand, const Product& product, const GraspOptions&
 
 }  // namespace
 
-std::optional<Grip> other_grip_that_holds(const PreparedHand& hand, const Product& product,
+std::optional<Grip> other_grip_that_holds(const contact::PreparedHand& hand,
+                                          const product::Product& product,
                                           const GraspOptions& asked, const BalanceOptions& balance,
-                                          const ContactOptions& contact, const Progress& progress) {
+                                          const contact::ContactOptions& contact,
+                                          const Progress& progress) {
   const auto fingers = [&](Grip grip) {
     return static_cast<int>(fingertips_of(hand.hand(), grip).size());
   };
@@ -69,4 +72,4 @@ std::optional<Grip> other_grip_that_holds(const PreparedHand& hand, const Produc
   return std::nullopt;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

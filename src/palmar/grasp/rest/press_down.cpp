@@ -9,7 +9,7 @@
 
 #include "palmar/grasp/rest/grip_mechanics.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kPressStep = 1.0;        // mm
@@ -19,8 +19,8 @@ constexpr int kPressHalvings = 24;
 
 }  // namespace
 
-Balance press_down(const PreparedHand& hand, const Product& product, Grasp& grasp,
-                   const BalanceOptions& options, const ContactOptions& contact,
+Balance press_down(const contact::PreparedHand& hand, const product::Product& product, Grasp& grasp,
+                   const BalanceOptions& options, const contact::ContactOptions& contact,
                    const Progress& progress) {
   Balance balance;
   balance.friction = options.friction;
@@ -38,10 +38,11 @@ Balance press_down(const PreparedHand& hand, const Product& product, Grasp& gras
     ++balance.iterations;
     if (!mechanics.look(state)) return false;
     normals = 0.0;
-    for (const RegionContact& region : mechanics.contact().regions) normals += region.force;
+    for (const contact::RegionContact& region : mechanics.contact().regions)
+      normals += region.force;
     Vec3 sum = mechanics.wrench_of(std::nullopt).head<3>();
-    for (int f = 0; f < kFingerCount; ++f) {
-      sum += mechanics.wrench_of(static_cast<Finger>(f)).head<3>();
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      sum += mechanics.wrench_of(static_cast<hand::Finger>(f)).head<3>();
     }
     pressed = way.dot(state.product_from_hand.rotation * sum);
     return true;
@@ -95,4 +96,4 @@ Balance press_down(const PreparedHand& hand, const Product& product, Grasp& gras
   return finish(moved, BalanceStatus::kSupported);
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/grasp/rest/friction_settings.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 std::string person_words(const PersonOfAge& person) {
@@ -60,7 +60,7 @@ void RestSettings::check() const {
         fmt::format("setting \"strength share\" is {}; more than 0 and at most 1 is required",
                     *strength_share));
   }
-  if (person && !palmar::grip_strength(person->sex, person->age)) {
+  if (person && !grasp::grip_strength(person->sex, person->age)) {
     throw UsageError(
         fmt::format("setting \"person\": no grip strength is known for {:g} years; 17 to 90 is "
                     "allowed, or give setting \"strength\"",
@@ -78,7 +78,7 @@ BalanceOptions RestSettings::options(std::optional<double> friction,
   if (strength_share) {
     ShareOfStrength& share = result.share_of_strength.emplace();
     share.share = *strength_share;
-    share.strength = strength ? *strength : *palmar::grip_strength(person->sex, person->age);
+    share.strength = strength ? *strength : *grasp::grip_strength(person->sex, person->age);
     if (person) share.whose = person_words(*person);
     result.strength = std::clamp(share.strength / usual_grip_strength(), 0.01, 10.0);
   } else if (is_usual()) {
@@ -88,4 +88,4 @@ BalanceOptions RestSettings::options(std::optional<double> friction,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

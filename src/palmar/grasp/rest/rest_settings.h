@@ -8,7 +8,7 @@
 #include "palmar/grasp/rest/balance.h"
 #include "palmar/grasp/task_force.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// Sex and age, from which grip_strength() says how strong a person is.
 struct PersonOfAge {
@@ -40,4 +40,4 @@ struct RestSettings {
   BalanceOptions options(std::optional<double> friction, const HeaviestLoad& heaviest = {}) const;
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -11,7 +11,7 @@
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 using testing::HasSubstr;
@@ -35,12 +35,13 @@ TEST(FrictionSettings, KilogramWeighsWhatStandardGravitySays) {
 TEST(FrictionSettings, DensityTimesVolumeIsTheWeight) {
   FrictionSettings settings;
   settings.density = 1.0;  // g/cm^3: water
-  CylinderProductOptions cylinder;
+  product::CylinderProductOptions cylinder;
   cylinder.diameter = 100.0;
   cylinder.length = 100.0;
   cylinder.fineness.chordal_error = 0.01;
   const double litres = std::numbers::pi / 4.0;
-  EXPECT_NEAR(settings.options_for(make_cylinder_product(cylinder)).load.weight, litres * 9.80665,
+  EXPECT_NEAR(settings.options_for(product::make_cylinder_product(cylinder)).load.weight,
+              litres * 9.80665,
               0.005);  // N; the mesh lies inside the cylinder
 }
 
@@ -213,4 +214,4 @@ TEST(GraspSettings, WhatIsSaidOfTheHoldReachesTheSearch) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -14,13 +14,14 @@
 #include "palmar/grasp/rest/way_words.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kBalanced = 0.01;  // residual over grip force; what counts as balanced
-constexpr double kJointAim = kNegligibleMoment;  // residual moment over the strongest muscle moment
-constexpr double kJointSaid = 0.05;              // the same; more is reported
-constexpr double kLevelAim = 0.005;              // of the grip force asked for
+constexpr double kJointAim =
+    hand::kNegligibleMoment;         // residual moment over the strongest muscle moment
+constexpr double kJointSaid = 0.05;  // the same; more is reported
+constexpr double kLevelAim = 0.005;  // of the grip force asked for
 constexpr int kMostSettlingSteps = 120;
 constexpr int kUsualSteps = 60;   // not there by then, the search goes on only while it gets nearer
 constexpr int kVainSteps = 25;    // without getting nearer: it goes round in circles
@@ -36,8 +37,9 @@ constexpr double kLostShare = 0.05;  // of the grip force at the start; less is 
 
 }  // namespace
 
-Settling::Settling(const PreparedHand& hand, const Product& product, const Grasp& grasp,
-                   const BalanceOptions& options, const ContactOptions& contact, SettlingWay way)
+Settling::Settling(const contact::PreparedHand& hand, const product::Product& product,
+                   const Grasp& grasp, const BalanceOptions& options,
+                   const contact::ContactOptions& contact, SettlingWay way)
     : hand_(&hand.hand()),
       options_(&options),
       way_(way),
@@ -55,8 +57,8 @@ Settling::Settling(const PreparedHand& hand, const Product& product, const Grasp
               options.wrist) {
   const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
   has_load_ = needs_centre || !options.load.torque.isZero(0.0);
-  load_ =
-      wrench_of(options.load, needs_centre ? centre_of_volume(product.mesh) : Vec3(Vec3::Zero()));
+  load_ = contact::wrench_of(
+      options.load, needs_centre ? geometry::centre_of_volume(product.mesh) : Vec3(Vec3::Zero()));
   // Hooked fingers carry what pulls at them; they don't squeeze.
   const bool is_hook = grasp.grip == Grip::kFixedHook;
   has_level_ = !is_hook && !options.activation && (has_level_ || extra_grip() > 0.0);
@@ -68,7 +70,7 @@ bool Settling::Misfit::is_near() const {
 
 void Settling::add_load(GripVector& residual) const {
   // From the origin of the product frame to the centre of contact in the hand frame.
-  const Rigid3 hand_from_product = state_.product_from_hand.inverse();
+  const geometry::Rigid3 hand_from_product = state_.product_from_hand.inverse();
   const Vec3 centre = state_.product_from_hand * mechanics_.centre();
   residual.segment<3>(kGripJoints) += load_share_ * (hand_from_product.rotation * load_.force);
   residual.tail<3>() +=
@@ -83,10 +85,10 @@ std::vector<ThumbPress> Settling::presses() const {
 /// Moment of the load about the wrist: what the grip itself does there adds up to nothing.
 double Settling::wrist_load() const {
   if (!has_load_) return 0.0;
-  const Rigid3 hand_from_product = state_.product_from_hand.inverse();
-  return load_share_ * wrist_moment(*hand_, hand_from_product.rotation * load_.force,
-                                    hand_from_product.translation,
-                                    hand_from_product.rotation * load_.moment);
+  const geometry::Rigid3 hand_from_product = state_.product_from_hand.inverse();
+  return load_share_ * hand::wrist_moment(*hand_, hand_from_product.rotation * load_.force,
+                                          hand_from_product.translation,
+                                          hand_from_product.rotation * load_.moment);
 }
 
 /// People press the harder the heavier a thing is: by what two opposed contacts need to hold the
@@ -97,9 +99,9 @@ double Settling::extra_grip() const {
 
 /// As far as the joint goes and pushed against it.
 bool Settling::is_stuck(int joint, double residual) const {
-  const JointDof& dof = hand_->skeleton.dof(grip_dof(joint));
+  const hand::JointDof& dof = hand_->skeleton.dof(grip_dof(joint));
   const double angle = state_.posture[dof.dof];
-  const double upper = dof.upper + (GripEffort::is_free(joint) ? kPassiveRange : 0.0);
+  const double upper = dof.upper + (GripEffort::is_free(joint) ? hand::kPassiveRange : 0.0);
   return (angle >= upper - 1e-9 && residual > 0.0) || (angle <= dof.lower + 1e-9 && residual < 0.0);
 }
 
@@ -127,7 +129,7 @@ Settling::Misfit Settling::misfit(double grip) const {
 }
 
 bool Settling::judge_way(Balance& balance) const {
-  const Rigid3 motion = state_.product_from_hand.inverse() * start_.product_from_hand;
+  const geometry::Rigid3 motion = state_.product_from_hand.inverse() * start_.product_from_hand;
   balance.turned = Eigen::AngleAxisd(motion.rotation).angle();
   balance.moved = moved_.norm();
   const double out = way_ == SettlingWay::kLeastEffort ? kWandered : kOut;
@@ -152,9 +154,9 @@ void Settling::finish(Balance& balance) {
     balance.is_overloaded = !(share <= 1.0 + (is_by_muscles_ ? kJointSaid : 0.0));
     balance.joint_load = strength.load;
   } else {
-    HandLoad& load = balance.joint_load.emplace();
+    hand::HandLoad& load = balance.joint_load.emplace();
     for (int j = 0; j < kGripJoints; ++j) {
-      load.digit[j / kDigitDofs][j % kDigitDofs] = mechanics_.force()[j];
+      load.digit[j / hand::kDigitDofs][j % hand::kDigitDofs] = mechanics_.force()[j];
     }
     load.wrist = wrist_load();
   }
@@ -203,7 +205,7 @@ Balance Settling::run(const Progress& progress) {
       balance.slip = moved_.norm() > 0.0 ? Vec3(moved_.normalized()) : Vec3(Vec3::UnitY());
       balance.message = balance.turned > kOutTurn && balance.moved < kOut
                             ? fmt::format("turns by more than {:.0f} degrees in the hand",
-                                          kOutTurn * kDegreesPerRadian)
+                                          kOutTurn * geometry::kDegreesPerRadian)
                             : "slips out, towards " + way_words(*hand_, *balance.slip);
       break;
     }
@@ -272,4 +274,4 @@ Balance Settling::run(const Progress& progress) {
   return balance;
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

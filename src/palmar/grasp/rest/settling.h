@@ -12,7 +12,7 @@
 #include "palmar/grasp/rest/grip_mechanics.h"
 #include "palmar/grasp/rest/thumb_meeting.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// How a grasp is brought to rest.
 enum class SettlingWay {
@@ -25,8 +25,8 @@ enum class SettlingWay {
 class Settling {
  public:
   /// Keeps references. Skin sticks where it is in `grasp`.
-  Settling(const PreparedHand& hand, const Product& product, const Grasp& grasp,
-           const BalanceOptions& options, const ContactOptions& contact, SettlingWay way);
+  Settling(const contact::PreparedHand& hand, const product::Product& product, const Grasp& grasp,
+           const BalanceOptions& options, const contact::ContactOptions& contact, SettlingWay way);
 
   Balance run(const Progress& progress);
   const GripState& state() const { return state_; }
@@ -62,7 +62,7 @@ class Settling {
   void finish(Balance& balance);
   bool judge_way(Balance& balance) const;
 
-  const Hand* hand_;
+  const hand::Hand* hand_;
   const BalanceOptions* options_;
   SettlingWay way_;
   bool is_by_muscles_;
@@ -75,7 +75,7 @@ class Settling {
   bool has_skin_on_skin_;     // what fingers do to each other is in the contact
   FingertipClosing closing_;  // how a precision grip presses
   GripMechanics mechanics_;
-  Wrench load_;  // product frame
+  contact::Wrench load_;  // product frame
   bool has_load_ = false;
   double target_ = 0.0;  // grip force, N
   GripEffort effort_;
@@ -85,4 +85,4 @@ class Settling {
   Vec3 moved_ = Vec3::Zero();  // of the product, hand frame, mm
 };
 
-}  // namespace palmar
+}  // namespace palmar::grasp

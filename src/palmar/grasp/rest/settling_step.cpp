@@ -10,7 +10,7 @@
 #include "palmar/grasp/rest/settling.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::grasp {
 namespace {
 
 constexpr double kLongestStep = 4.0;  // mm, of any skin or of the product
@@ -55,11 +55,11 @@ void Settling::step(const Misfit& misfit, double missing) {
   for (int j = 0; j < kGripJoints; ++j) longest = std::max(longest, kReach * std::abs(way[j]));
   way *= share_of(way, longest);
 
-  Posture turned = state_.posture;
+  hand::Posture turned = state_.posture;
   for (int j = 0; j < kGripJoints; ++j) {
-    const JointDof& dof = hand_->skeleton.dof(grip_dof(j));
+    const hand::JointDof& dof = hand_->skeleton.dof(grip_dof(j));
     const double angle = state_.posture[dof.dof];
-    const double upper = dof.upper + (GripEffort::is_free(j) ? kPassiveRange : 0.0);
+    const double upper = dof.upper + (GripEffort::is_free(j) ? hand::kPassiveRange : 0.0);
     turned[dof.dof] =
         std::clamp(angle + way[j], std::min(dof.lower, angle), std::max(upper, angle));
   }
@@ -100,12 +100,12 @@ GripVector Settling::step_stiff(const Misfit& misfit, const std::vector<int>& fr
   GripVector way = solved(misfit.residual);
   if (!has_level_) return way;
   GripVector closing = GripVector::Zero();
-  std::array<bool, kFingerCount> has_met{};
+  std::array<bool, hand::kFingerCount> has_met{};
   for (const ThumbPress& press : meeting_.presses(state_.posture)) {
     if (press.overlap > kPulpGive) has_met[index_of(press.finger)] = true;
   }
   for (int j = 0; j < kGripJoints; ++j) {
-    const bool closes = is_flexion(grip_dof(j)) && mechanics_.is_loaded()[j];
+    const bool closes = hand::is_flexion(grip_dof(j)) && mechanics_.is_loaded()[j];
     if (closes && !has_met[index_of(grip_finger(j))]) closing[j] = 1.0;
   }
   const GripVector gain = solved(-(misfit.stiffness * closing)) + closing;
@@ -130,9 +130,9 @@ double Settling::share_of(const GripVector& way, double longest) {
 }
 
 void Settling::move_product(const Vec3& shift, const Vec3& turn) {
-  Rigid3 motion;
+  geometry::Rigid3 motion;
   if (turn.norm() > 0.0) {
-    motion = Rigid3::about_axis(turn.normalized(), mechanics_.centre(), turn.norm());
+    motion = geometry::Rigid3::about_axis(turn.normalized(), mechanics_.centre(), turn.norm());
   }
   motion.translation += shift;
   moved_ += shift;
@@ -151,7 +151,7 @@ void Settling::step_fingertips(const Misfit& misfit, double missing) {
   const Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>> factor(k);
   const Vector6 squeeze = mechanics_.squeeze().tail<6>();
   Vector6 force = misfit.residual.tail<6>();
-  Posture rate;
+  hand::Posture rate;
   double level = 0.0;
   if (has_level_) {
     rate = closing_.rate(state_.posture, state_.product_from_hand, missing > 0.0 ? 1.0 : -1.0);
@@ -173,8 +173,8 @@ void Settling::step_fingertips(const Misfit& misfit, double missing) {
   GripVector whole = GripVector::Zero();
   whole.tail<6>() = way;
   const double share = share_of(whole, std::max(way.head<3>().norm(), 1e-12));
-  for (int d = 0; d < kDofCount; ++d) {
-    const JointDof& dof = hand_->skeleton.dof(static_cast<Dof>(d));
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const hand::JointDof& dof = hand_->skeleton.dof(static_cast<hand::Dof>(d));
     double& angle = state_.posture[dof.dof];
     angle = std::clamp(angle + share * level * rate[dof.dof], std::min(dof.lower, angle),
                        std::max(dof.upper, angle));
@@ -182,4 +182,4 @@ void Settling::step_fingertips(const Misfit& misfit, double missing) {
   move_product(share * way.head<3>(), share * way.tail<3>());
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

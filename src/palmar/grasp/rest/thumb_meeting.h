@@ -7,12 +7,12 @@
 #include "palmar/grasp/power/finger_cones.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// A phalanx of a finger and one of the thumb that lie against each other and press with one force
 /// along the line between their bones. It does nothing to the product.
 struct ThumbPress {
-  Finger finger{};
+  hand::Finger finger{};
   double overlap = 0.0;                    ///< of their flesh beyond that at the start, mm
   double force = 0.0;                      ///< N
   double stiffness = 0.0;                  ///< of force against overlap, N/mm
@@ -29,19 +29,19 @@ struct ThumbPress {
 class ThumbMeeting {
  public:
   /// Keeps a reference to the hand.
-  ThumbMeeting(const Hand& hand, const Posture& start);
+  ThumbMeeting(const hand::Hand& hand, const hand::Posture& start);
 
   /// Of all phalanges that overlap with the thumb's.
-  std::vector<ThumbPress> presses(const Posture& posture) const;
+  std::vector<ThumbPress> presses(const hand::Posture& posture) const;
 
  private:
-  const Hand* hand_;
+  const hand::Hand* hand_;
   FingerCones cones_;
   std::vector<RoundCone> start_;
 };
 
 /// Force and moments of two cones of one hand that overlap by so much more than at the start.
-ThumbPress thumb_press(const Skeleton& skeleton, const Posture& posture, const RoundCone& thumb,
-                       const RoundCone& finger, double overlap);
+ThumbPress thumb_press(const hand::Skeleton& skeleton, const hand::Posture& posture,
+                       const RoundCone& thumb, const RoundCone& finger, double overlap);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

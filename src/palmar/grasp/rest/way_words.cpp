@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::grasp {
 
-std::string way_words(const Hand& hand, Vec3 way) {
-  if (hand.side == Side::kLeft) way.x() = -way.x();
+std::string way_words(const hand::Hand& hand, Vec3 way) {
+  if (hand.side == hand::Side::kLeft) way.x() = -way.x();
   int most = 0;
   for (int c = 1; c < 3; ++c) {
     if (std::abs(way[c]) > std::abs(way[most])) most = c;
@@ -19,4 +19,4 @@ std::string way_words(const Hand& hand, Vec3 way) {
   return kWords[static_cast<std::size_t>(2 * most + (way[most] < 0.0 ? 1 : 0))];
 }
 
-}  // namespace palmar
+}  // namespace palmar::grasp

@@ -6,9 +6,9 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::grasp {
 
 /// The main direction of a way in the hand frame, in words: "the fingertips", "the wrist".
-std::string way_words(const Hand& hand, Vec3 way);
+std::string way_words(const hand::Hand& hand, Vec3 way);
 
-}  // namespace palmar
+}  // namespace palmar::grasp

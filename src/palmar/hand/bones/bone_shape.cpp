@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 double smooth(double t) { return t * t * (3.0 - 2.0 * t); }
@@ -27,8 +27,8 @@ BoneStation station_at(const std::vector<BoneStation>& stations, double share) {
 
 }  // namespace
 
-TriangleMesh close_rings(std::vector<Vec3> vertices, int around) {
-  TriangleMesh mesh;
+geometry::TriangleMesh close_rings(std::vector<Vec3> vertices, int around) {
+  geometry::TriangleMesh mesh;
   mesh.vertices = std::move(vertices);
   const auto corner = [&](int ring, int k) { return 1 + ring * around + k % around; };
   const int last = mesh.vertex_count() - 1, rings = (last - 1) / around;
@@ -40,13 +40,13 @@ TriangleMesh close_rings(std::vector<Vec3> vertices, int around) {
     }
     mesh.triangles.push_back({last, corner(rings - 1, k), corner(rings - 1, k + 1)});
   }
-  if (signed_volume(mesh) < 0.0) {
+  if (geometry::signed_volume(mesh) < 0.0) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   }
   return mesh;
 }
 
-TriangleMesh bone_mesh(const BoneShape& shape) {
+geometry::TriangleMesh bone_mesh(const BoneShape& shape) {
   const double length = (shape.to - shape.from).norm();
   const Vec3 along = (shape.to - shape.from) / length;
   const Vec3 lateral = along.cross(shape.palmar).normalized();
@@ -87,8 +87,8 @@ TriangleMesh bone_mesh(const BoneShape& shape) {
   return close_rings(std::move(vertices), shape.around);
 }
 
-TriangleMesh ellipsoid_mesh(const Vec3& centre, const Eigen::Matrix3d& axes, const Vec3& half_axes,
-                            int rings, int around) {
+geometry::TriangleMesh ellipsoid_mesh(const Vec3& centre, const Eigen::Matrix3d& axes,
+                                      const Vec3& half_axes, int rings, int around) {
   const auto place = [&](double x, double y, double z) -> Vec3 {
     return centre + axes * Vec3(x * half_axes.x(), y * half_axes.y(), z * half_axes.z());
   };
@@ -105,4 +105,4 @@ TriangleMesh ellipsoid_mesh(const Vec3& centre, const Eigen::Matrix3d& axes, con
   return close_rings(std::move(vertices), around);
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Half width (lateral) and half depth (palmar-dorsal) of a bone at a share of its length.
 struct BoneStation {
@@ -27,14 +27,14 @@ struct BoneShape {
 };
 
 /// Closed mesh of rings * around + 2 vertices, triangles outward.
-TriangleMesh bone_mesh(const BoneShape& shape);
+geometry::TriangleMesh bone_mesh(const BoneShape& shape);
 
 /// Ellipsoid with half axes along the columns of `axes` (orthonormal), as rings and two poles.
-TriangleMesh ellipsoid_mesh(const Vec3& centre, const Eigen::Matrix3d& axes, const Vec3& half_axes,
-                            int rings, int around);
+geometry::TriangleMesh ellipsoid_mesh(const Vec3& centre, const Eigen::Matrix3d& axes,
+                                      const Vec3& half_axes, int rings, int around);
 
 /// Closed mesh of rings of `around` vertices between two poles, `vertices` from the first pole to
 /// the last; triangles outward.
-TriangleMesh close_rings(std::vector<Vec3> vertices, int around);
+geometry::TriangleMesh close_rings(std::vector<Vec3> vertices, int around);
 
-}  // namespace palmar
+}  // namespace palmar::hand

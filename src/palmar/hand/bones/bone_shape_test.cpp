@@ -10,7 +10,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/mesh/section.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 BoneShape phalanx() {
@@ -24,27 +24,27 @@ BoneShape phalanx() {
 }
 
 TEST(BoneMesh, IsClosedManifoldAndOutward) {
-  const TriangleMesh mesh = bone_mesh(phalanx());
-  const TopologyReport report = examine_topology(mesh);
+  const geometry::TriangleMesh mesh = bone_mesh(phalanx());
+  const geometry::TopologyReport report = geometry::examine_topology(mesh);
   EXPECT_TRUE(report.is_closed);
   EXPECT_TRUE(report.is_two_manifold);
   EXPECT_TRUE(report.is_oriented);
   EXPECT_EQ(report.euler_number, 2);
-  EXPECT_GT(signed_volume(mesh), 0.0);
+  EXPECT_GT(geometry::signed_volume(mesh), 0.0);
 }
 
 TEST(BoneMesh, FillsTheLengthAndTheWidthsAskedFor) {
-  const TriangleMesh mesh = bone_mesh(phalanx());
-  EXPECT_LE(extent(mesh.vertices, Vec3::UnitY()), 40.0);               // mm
-  EXPECT_GE(extent(mesh.vertices, Vec3::UnitY()), 40.0 - 0.8 - 1e-9);  // the groove
-  EXPECT_NEAR(extent(mesh.vertices, Vec3::UnitX()), 14.0, 0.3);        // base
-  const auto shaft = plane_section(mesh, {1.0, 24.0, 3.0}, Vec3::UnitY());
+  const geometry::TriangleMesh mesh = bone_mesh(phalanx());
+  EXPECT_LE(geometry::extent(mesh.vertices, Vec3::UnitY()), 40.0);               // mm
+  EXPECT_GE(geometry::extent(mesh.vertices, Vec3::UnitY()), 40.0 - 0.8 - 1e-9);  // the groove
+  EXPECT_NEAR(geometry::extent(mesh.vertices, Vec3::UnitX()), 14.0, 0.3);        // base
+  const auto shaft = geometry::plane_section(mesh, {1.0, 24.0, 3.0}, Vec3::UnitY());
   ASSERT_EQ(shaft.size(), 1u);
-  EXPECT_NEAR(extent(shaft[0].point, Vec3::UnitX()), 9.0, 0.2);
+  EXPECT_NEAR(geometry::extent(shaft[0].point, Vec3::UnitX()), 9.0, 0.2);
 }
 
 TEST(BoneMesh, HasTwoCondylesWithAGrooveBetween) {
-  const TriangleMesh mesh = bone_mesh(phalanx());
+  const geometry::TriangleMesh mesh = bone_mesh(phalanx());
   // Highest point along the axis, in the middle and at the sides.
   double middle = 0.0, side = 0.0;
   for (const Vec3& v : mesh.vertices) {
@@ -55,7 +55,7 @@ TEST(BoneMesh, HasTwoCondylesWithAGrooveBetween) {
   EXPECT_LT(middle, 42.0 - 0.6);
   EXPECT_LT(side, 42.0);
   // The palmar side is hollow where the dorsal side is round.
-  const auto head = plane_section(mesh, {1.0, 38.0, 3.0}, Vec3::UnitY());
+  const auto head = geometry::plane_section(mesh, {1.0, 38.0, 3.0}, Vec3::UnitY());
   ASSERT_EQ(head.size(), 1u);
   double palmar_middle = 0.0, dorsal_middle = 0.0;
   for (const Vec3& p : head[0].point) {
@@ -69,21 +69,22 @@ TEST(BoneMesh, HasTwoCondylesWithAGrooveBetween) {
 TEST(BoneMesh, MirrorsWithItsAxis) {
   BoneShape mirrored = phalanx();
   mirrored.from.x() = mirrored.to.x() = -1.0;
-  const TriangleMesh right = bone_mesh(phalanx());
-  const TriangleMesh left = bone_mesh(mirrored);
-  EXPECT_NEAR(signed_volume(left), signed_volume(right), 1e-9 * signed_volume(right));
+  const geometry::TriangleMesh right = bone_mesh(phalanx());
+  const geometry::TriangleMesh left = bone_mesh(mirrored);
+  EXPECT_NEAR(geometry::signed_volume(left), geometry::signed_volume(right),
+              1e-9 * geometry::signed_volume(right));
 }
 
 TEST(EllipsoidMesh, HasTheVolumeOfAnEllipsoidFromBelow) {
   const Vec3 half(5.0, 7.0, 6.0);
-  const TriangleMesh mesh =
+  const geometry::TriangleMesh mesh =
       ellipsoid_mesh({1.0, 2.0, 3.0}, Eigen::Matrix3d::Identity(), half, 40, 60);
   const double exact = 4.0 / 3.0 * std::numbers::pi * half.prod();
-  EXPECT_LT(signed_volume(mesh), exact);  // corners lie on the ellipsoid
-  EXPECT_NEAR(signed_volume(mesh), exact, 0.01 * exact);
-  EXPECT_TRUE(examine_topology(mesh).is_two_manifold);
-  EXPECT_TRUE(examine_topology(mesh).is_closed);
+  EXPECT_LT(geometry::signed_volume(mesh), exact);  // corners lie on the ellipsoid
+  EXPECT_NEAR(geometry::signed_volume(mesh), exact, 0.01 * exact);
+  EXPECT_TRUE(geometry::examine_topology(mesh).is_two_manifold);
+  EXPECT_TRUE(geometry::examine_topology(mesh).is_closed);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -15,7 +15,7 @@
 #include "palmar/hand/bones/bone_shape.h"
 #include "palmar/hand/skin/creases.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr double kJointGap = 1.2;            // mm, between the ends of two bones of a ray
@@ -30,7 +30,7 @@ struct Draft {
   std::vector<Vec3> core;
 };
 
-std::vector<Vec3> core_on_axis(const TriangleMesh& mesh, const Vec3& from, const Vec3& to,
+std::vector<Vec3> core_on_axis(const geometry::TriangleMesh& mesh, const Vec3& from, const Vec3& to,
                                double inset_from, double inset_to) {
   const Vec3 along = (to - from).normalized();
   const double length = (to - from).norm();
@@ -60,7 +60,7 @@ double allowed_share(const Vec3& core, const Vec3& vertex, const IsFree& is_free
 // bone gets slimmer instead of dented.
 template <typename IsFree>
 void draw_in(Draft& draft, const IsFree& is_free) {
-  TriangleMesh& mesh = draft.bone.mesh;
+  geometry::TriangleMesh& mesh = draft.bone.mesh;
   std::vector<double> share(mesh.vertices.size());
   for (std::size_t i = 0; i < share.size(); ++i) {
     share[i] = allowed_share(draft.core[i], mesh.vertices[i], is_free);
@@ -87,7 +87,7 @@ struct Surroundings {
 
 class BoneMaker {
  public:
-  BoneMaker(const TriangleMesh& skin, const Skeleton& skeleton)
+  BoneMaker(const geometry::TriangleMesh& skin, const Skeleton& skeleton)
       : skin_(skin), skeleton_(skeleton), creases_(skin, skeleton), distance_(skin) {
     const Vec3& wrist = skeleton.joint(JointId::kWrist).centre;
     scale_ = (skeleton.joint(JointId::kMiddleMcp).centre - wrist).norm() / kTypicalWristToMcp;
@@ -106,15 +106,15 @@ class BoneMaker {
   Surroundings look_round(const Vec3& point, const Vec3& along, const Vec3& palmar) const {
     const Vec3 across = along.cross(palmar).normalized();
     const Vec3 up = across.cross(along);
-    const std::vector<SectionCurve> curves = plane_section(skin_, point, along);
+    const std::vector<geometry::SectionCurve> curves = geometry::plane_section(skin_, point, along);
     Surroundings s;
     double best = std::numeric_limits<double>::max();
-    for (const SectionCurve& curve : curves) {
-      const double d = (curve_centre(curve) - point).norm();
+    for (const geometry::SectionCurve& curve : curves) {
+      const double d = (geometry::curve_centre(curve) - point).norm();
       if (d >= best) continue;
       best = d;
       s = {};
-      s.half_width = 0.5 * extent(curve.point, across);
+      s.half_width = 0.5 * geometry::extent(curve.point, across);
       for (const Vec3& p : curve.point) {
         s.palmar = std::max(s.palmar, up.dot(p - point));
         s.dorsal = std::max(s.dorsal, -up.dot(p - point));
@@ -139,7 +139,7 @@ class BoneMaker {
       draw_in(draft,
               [&](const Vec3& p) { return placed_distance_[i]->at(p).distance >= least_space; });
     }
-    placed_distance_.push_back(std::make_unique<MeshDistance>(draft.bone.mesh));
+    placed_distance_.push_back(std::make_unique<geometry::MeshDistance>(draft.bone.mesh));
     placed_.push_back(std::move(draft));
   }
 
@@ -149,13 +149,13 @@ class BoneMaker {
   Vec3 metacarpal_base(Finger finger, double head_radius) const;
   void place_ellipsoid(const std::string& name, const Vec3& centre, const Vec3& half_axes);
 
-  const TriangleMesh& skin_;
+  const geometry::TriangleMesh& skin_;
   const Skeleton& skeleton_;
   HandCreases creases_;
-  MeshDistance distance_;
+  geometry::MeshDistance distance_;
   double scale_ = 1.0;
   std::vector<Draft> placed_;
-  std::vector<std::unique_ptr<MeshDistance>> placed_distance_;
+  std::vector<std::unique_ptr<geometry::MeshDistance>> placed_distance_;
   std::array<Vec3, kFingerCount> base_;  ///< bases of the metacarpals
 };
 
@@ -350,8 +350,8 @@ void BoneMaker::make_forearm() {
 
 }  // namespace
 
-std::vector<Bone> make_bones(const TriangleMesh& skin, const Skeleton& skeleton) {
+std::vector<Bone> make_bones(const geometry::TriangleMesh& skin, const Skeleton& skeleton) {
   return BoneMaker(skin, skeleton).make();
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

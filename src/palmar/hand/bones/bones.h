@@ -6,7 +6,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Model bones for a hand that has none of its own: 14 phalanges, 5 metacarpals, 8 carpals, and the
 /// ends of radius and ulna in the stub of the forearm. Closed 2-manifold meshes with outward
@@ -28,9 +28,9 @@ namespace palmar {
 /// Bones sit nearer to the dorsal skin than to the palmar skin. Wherever a shape would come nearer
 /// to the skin than `kLeastSkinOverBone`, or to a bone before it than `kLeastJointSpace`, it is
 /// shrunk towards its axis.
-std::vector<Bone> make_bones(const TriangleMesh& skin, const Skeleton& skeleton);
+std::vector<Bone> make_bones(const geometry::TriangleMesh& skin, const Skeleton& skeleton);
 
 inline constexpr double kLeastSkinOverBone = 1.5;  ///< mm; nail bed 1.6 mm
 inline constexpr double kLeastJointSpace = 0.8;    ///< mm; cartilage of two bones
 
-}  // namespace palmar
+}  // namespace palmar::hand

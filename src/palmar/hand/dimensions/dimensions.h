@@ -5,7 +5,7 @@
 #include "palmar/hand/hand.h"
 #include "palmar/hand/skin/creases.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Measures a hand in its reference posture, from exact plane sections of the skin; mm.
 ///
@@ -32,9 +32,9 @@ namespace palmar {
 HandDimensions measure_hand(const Hand& hand);
 
 /// The same for a skin that is not yet part of a hand.
-HandDimensions measure_hand(const TriangleMesh& skin, const Skeleton& skeleton);
+HandDimensions measure_hand(const geometry::TriangleMesh& skin, const Skeleton& skeleton);
 /// The same from creases that were seen on the skin.
-HandDimensions measure_hand(const TriangleMesh& skin, const Skeleton& skeleton,
+HandDimensions measure_hand(const geometry::TriangleMesh& skin, const Skeleton& skeleton,
                             const HandCreases& creases);
 
-}  // namespace palmar
+}  // namespace palmar::hand

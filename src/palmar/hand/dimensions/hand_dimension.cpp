@@ -6,7 +6,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 SegmentDimensions& segment_of(HandDimensions& dimensions, HandDimension dimension) {
@@ -92,4 +92,4 @@ void set_value(HandDimensions& dimensions, HandDimension dimension, double value
   place_of(dimensions, dimension) = value;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -9,7 +9,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 enum class DimensionKind {
   kHandLength,
@@ -54,4 +54,4 @@ struct SizedDimension {
   double value = 0.0;  ///< mm
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -9,17 +9,17 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 // The curve round a point of the plane: of all curves the one whose centre lies nearest.
-SectionCurve curve_round(const TriangleMesh& skin, const Vec3& point, const Vec3& normal,
-                         const std::string& object) {
-  const std::vector<SectionCurve> curves = plane_section(skin, point, normal);
-  const SectionCurve* nearest = nullptr;
+geometry::SectionCurve curve_round(const geometry::TriangleMesh& skin, const Vec3& point,
+                                   const Vec3& normal, const std::string& object) {
+  const std::vector<geometry::SectionCurve> curves = geometry::plane_section(skin, point, normal);
+  const geometry::SectionCurve* nearest = nullptr;
   double best = std::numeric_limits<double>::max();
-  for (const SectionCurve& curve : curves) {
-    const double d = (curve_centre(curve) - point).norm();
+  for (const geometry::SectionCurve& curve : curves) {
+    const double d = (geometry::curve_centre(curve) - point).norm();
     if (d >= best) continue;
     best = d;
     nearest = &curve;
@@ -36,11 +36,11 @@ struct CreaseEnds {
 };
 
 // Middles of a crease on the palmar and the dorsal skin: straight palmar and dorsal of its centre.
-CreaseEnds crease_ends(const TriangleMesh& skin, const CreasePlane& crease, const Vec3& palmar,
-                       const std::string& object) {
+CreaseEnds crease_ends(const geometry::TriangleMesh& skin, const CreasePlane& crease,
+                       const Vec3& palmar, const std::string& object) {
   const Vec3 across = crease.normal.cross(palmar).normalized();
   const Vec3 outwards = across.cross(crease.normal);
-  const SectionCurve curve = curve_round(skin, crease.point, crease.normal, object);
+  const geometry::SectionCurve curve = curve_round(skin, crease.point, crease.normal, object);
   const Chord c = chord(curve, crease.point, outwards, across);
   if (!(c.highest >= c.lowest)) {
     throw InputError(object + ": the finger's axis leaves the skin at its proximal crease");
@@ -52,9 +52,10 @@ std::string object_of(Segment segment) {
   return "segment \"" + std::string(name_of(segment)) + "\"";
 }
 
-void section_wrist(const TriangleMesh& skin, const HandCreases& creases, HandSections& sections) {
+void section_wrist(const geometry::TriangleMesh& skin, const HandCreases& creases,
+                   HandSections& sections) {
   const CreasePlane& wrist = creases.wrist();
-  const SectionCurve curve = curve_round(skin, wrist.point, wrist.normal, "wrist crease");
+  const geometry::SectionCurve curve = curve_round(skin, wrist.point, wrist.normal, "wrist crease");
   double lowest = std::numeric_limits<double>::max(), highest = -lowest;
   for (const Vec3& p : curve.point) {
     lowest = std::min(lowest, p.x());
@@ -71,7 +72,8 @@ void section_wrist(const TriangleMesh& skin, const HandCreases& creases, HandSec
   sections.wrist_dorsal = sections.wrist_middle + c.lowest * outwards;
 }
 
-void section_heads(const TriangleMesh& skin, const Skeleton& skeleton, HandSections& sections) {
+void section_heads(const geometry::TriangleMesh& skin, const Skeleton& skeleton,
+                   HandSections& sections) {
   const Vec3& head2 = skeleton.joint(JointId::kIndexMcp).centre;
   const Vec3& head5 = skeleton.joint(JointId::kLittleMcp).centre;
   sections.radial = (head2 - head5).normalized();
@@ -80,8 +82,8 @@ void section_heads(const TriangleMesh& skin, const Skeleton& skeleton, HandSecti
   sections.heads = curve_round(skin, 0.5 * (head2 + head5), sections.normal, "metacarpal heads");
 }
 
-void section_finger(const TriangleMesh& skin, const Skeleton& skeleton, const HandCreases& creases,
-                    Finger finger, HandSections& sections) {
+void section_finger(const geometry::TriangleMesh& skin, const Skeleton& skeleton,
+                    const HandCreases& creases, Finger finger, HandSections& sections) {
   const auto chain = segments_of(finger);
   // Nodes of the finger's ray: the palmar direction turns at the joints.
   const int first_node = finger == Finger::kThumb ? 2 : 1;
@@ -116,7 +118,7 @@ void section_finger(const TriangleMesh& skin, const Skeleton& skeleton, const Ha
 
 }  // namespace
 
-Chord chord(const SectionCurve& curve, const Vec3& point, const Vec3& direction,
+Chord chord(const geometry::SectionCurve& curve, const Vec3& point, const Vec3& direction,
             const Vec3& across) {
   Chord result{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
   const std::size_t n = curve.point.size();
@@ -132,7 +134,7 @@ Chord chord(const SectionCurve& curve, const Vec3& point, const Vec3& direction,
   return result;
 }
 
-HandSections hand_sections(const TriangleMesh& skin, const Skeleton& skeleton,
+HandSections hand_sections(const geometry::TriangleMesh& skin, const Skeleton& skeleton,
                            const HandCreases& creases) {
   HandSections sections;
   section_wrist(skin, creases, sections);
@@ -143,4 +145,4 @@ HandSections hand_sections(const TriangleMesh& skin, const Skeleton& skeleton,
   return sections;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

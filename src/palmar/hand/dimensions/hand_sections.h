@@ -7,7 +7,7 @@
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/hand/skin/creases.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Where a phalanx is measured. Hand frame, reference posture, mm.
 struct SegmentSection {
@@ -17,7 +17,7 @@ struct SegmentSection {
   Vec3 palmar = Vec3::UnitZ();                  ///< unit, perpendicular to both
   Vec3 from_palmar, to_palmar;                  ///< middles of the creases on the palmar skin
   Vec3 from_dorsal, to_dorsal;                  ///< and straight dorsal of their centres
-  SectionCurve middle;                          ///< section half way, perpendicular to `along`
+  geometry::SectionCurve middle;                ///< section half way, perpendicular to `along`
 };
 
 /// Where the whole hand is measured.
@@ -27,13 +27,13 @@ struct HandSections {
   Vec3 radial = Vec3::UnitX();                        ///< unit, from metacarpal head V to II
   Vec3 palmar = Vec3::UnitZ();                        ///< unit, perpendicular to it and to `normal`
   Vec3 normal = Vec3::UnitY();                        ///< of the plane through the metacarpal heads
-  SectionCurve heads;                                 ///< round them, the thumb excluded
+  geometry::SectionCurve heads;                       ///< round them, the thumb excluded
   std::array<SegmentSection, kSegmentCount> segment;  ///< of the phalanges
 };
 
 /// Sections that dimensions.h and tape_measures.h measure. Throws InputError naming the segment if
 /// one misses the skin.
-HandSections hand_sections(const TriangleMesh& skin, const Skeleton& skeleton,
+HandSections hand_sections(const geometry::TriangleMesh& skin, const Skeleton& skeleton,
                            const HandCreases& creases);
 
 /// Where the line through `point` along `direction` leaves a curve on either side; `across` is
@@ -42,7 +42,7 @@ HandSections hand_sections(const TriangleMesh& skin, const Skeleton& skeleton,
 struct Chord {
   double lowest = 0.0, highest = -1.0;
 };
-Chord chord(const SectionCurve& curve, const Vec3& point, const Vec3& direction,
+Chord chord(const geometry::SectionCurve& curve, const Vec3& point, const Vec3& direction,
             const Vec3& across);
 
-}  // namespace palmar
+}  // namespace palmar::hand

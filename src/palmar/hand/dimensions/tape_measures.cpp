@@ -9,7 +9,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/dimensions/hand_sections.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -21,7 +21,7 @@ struct OnCurve {
   double distance = std::numeric_limits<double>::max();  ///< from what it was looked for
 };
 
-OnCurve nearest_on(const SectionCurve& curve, const Vec3& to) {
+OnCurve nearest_on(const geometry::SectionCurve& curve, const Vec3& to) {
   OnCurve best;
   const std::size_t n = curve.point.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -37,7 +37,8 @@ OnCurve nearest_on(const SectionCurve& curve, const Vec3& to) {
 }
 
 /// Corners from one point of a closed curve to another in the curve's own direction.
-std::vector<Vec3> part_between(const SectionCurve& curve, const OnCurve& from, const OnCurve& to) {
+std::vector<Vec3> part_between(const geometry::SectionCurve& curve, const OnCurve& from,
+                               const OnCurve& to) {
   std::vector<Vec3> part{from.point};
   const std::size_t n = curve.point.size();
   const bool is_behind = from.index == to.index && (from.point - curve.point[from.index]).norm() <=
@@ -93,13 +94,13 @@ double upper_hull_length(const std::vector<Vec3>& part, const Vec3& along, const
 
 /// A tape along the skin from a to b, in the plane that holds `over`; nothing if one curve doesn't
 /// pass both.
-std::optional<double> tape(const TriangleMesh& skin, const Vec3& a, const Vec3& b,
+std::optional<double> tape(const geometry::TriangleMesh& skin, const Vec3& a, const Vec3& b,
                            const Vec3& over) {
   const Vec3 normal = (b - a).cross(over).normalized();
   constexpr double kOn = 3.0;  // mm: fingertips may lie a little off a mesh that was smoothed
   double least = kOn;
   std::optional<double> length;
-  for (const SectionCurve& curve : plane_section(skin, a, normal)) {
+  for (const geometry::SectionCurve& curve : geometry::plane_section(skin, a, normal)) {
     const double off = std::max(nearest_on(curve, a).distance, nearest_on(curve, b).distance);
     if (off >= least) continue;
     least = off;
@@ -122,9 +123,10 @@ std::optional<double> along_middle_finger(const HandTape& tape,
 
 /// From the middle of one side of a section to that of the other, over the palmar side and over the
 /// dorsal one. (From one outermost point to the other wouldn't do: on a flat side they jump.)
-std::array<double, 2> widths(const SectionCurve& curve, const Vec3& across, const Vec3& palmar) {
+std::array<double, 2> widths(const geometry::SectionCurve& curve, const Vec3& across,
+                             const Vec3& palmar) {
   double low = std::numeric_limits<double>::max(), high = -low;
-  Vec3 middle = curve_centre(curve);
+  Vec3 middle = geometry::curve_centre(curve);
   for (const Vec3& p : curve.point) {
     low = std::min(low, palmar.dot(p));
     high = std::max(high, palmar.dot(p));
@@ -137,7 +139,8 @@ std::array<double, 2> widths(const SectionCurve& curve, const Vec3& across, cons
 
 }  // namespace
 
-double taut_length(const SectionCurve& curve, const Vec3& a, const Vec3& b, const Vec3& over) {
+double taut_length(const geometry::SectionCurve& curve, const Vec3& a, const Vec3& b,
+                   const Vec3& over) {
   if (curve.point.size() < 3) return 0.0;
   const OnCurve from = nearest_on(curve, a), to = nearest_on(curve, b);
   const Vec3 chord = to.point - from.point;
@@ -158,7 +161,7 @@ std::optional<double> HandTape::dorsal_hand_length() const {
   return along_middle_finger(*this, &SegmentTape::dorsal_length);
 }
 
-HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
+HandTape measure_with_tape(const geometry::TriangleMesh& skin, const Skeleton& skeleton,
                            const HandCreases& creases) {
   const HandSections sections = hand_sections(skin, skeleton, creases);
   HandTape result;
@@ -166,7 +169,7 @@ HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
   const SegmentSection& base = sections.segment[index_of(Segment::kMiddleProximal)];
   const auto over_heads = widths(sections.heads, sections.radial, sections.palmar);
   result.segment[index_of(Segment::kPalm)] = {
-      .girth = girth(sections.heads.point, sections.normal),
+      .girth = geometry::girth(sections.heads.point, sections.normal),
       .palmar_length = tape(skin, sections.wrist_palmar, base.from_palmar, palmar),
       .dorsal_length = tape(skin, sections.wrist_dorsal, base.from_dorsal, -palmar),
       .palmar_width = over_heads[0],
@@ -174,7 +177,7 @@ HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
   for (int k = 1; k < kSegmentCount; ++k) {
     const SegmentSection& s = sections.segment[k];
     const auto half_way = widths(s.middle, s.across, s.palmar);
-    result.segment[k] = {.girth = girth(s.middle.point, s.along),
+    result.segment[k] = {.girth = geometry::girth(s.middle.point, s.along),
                          .palmar_length = tape(skin, s.from_palmar, s.to_palmar, s.palmar),
                          .dorsal_length = tape(skin, s.from_dorsal, s.to_dorsal, -s.palmar),
                          .palmar_width = half_way[0],
@@ -203,4 +206,4 @@ std::vector<TapeValue> values_of(const HandTape& tape) {
   return values;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -11,7 +11,7 @@
 #include "palmar/hand/hand.h"
 #include "palmar/hand/skin/creases.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// What a tape measures along the skin, mm. A tape is taut: it follows what bulges and spans
 /// hollows, so it is no shorter than the straight line, and the skin's roughness hardly counts.
@@ -37,14 +37,15 @@ struct HandTape {
 /// fingertip (dorsal ends: straight dorsal of the creases' centres); widths in the same sections as
 /// those. Thickness has no tape. `creases`: as for measure_hand(). Throws InputError naming the
 /// segment if a section misses the skin.
-HandTape measure_with_tape(const TriangleMesh& skin, const Skeleton& skeleton,
+HandTape measure_with_tape(const geometry::TriangleMesh& skin, const Skeleton& skeleton,
                            const HandCreases& creases);
 
 /// Length of a tape held taut over a closed curve, from its point nearest to `a` to that nearest to
 /// `b`, on the side that unit vector `over` points to: upper convex hull of the curve's part there,
 /// seen along the line a b. `over` lies in the plane of the curve. 0 for a curve of fewer than
 /// three points, or if a and b are the same.
-double taut_length(const SectionCurve& curve, const Vec3& a, const Vec3& b, const Vec3& over);
+double taut_length(const geometry::SectionCurve& curve, const Vec3& a, const Vec3& b,
+                   const Vec3& over);
 
 /// A value with its name and, for those of segments, the segment: as in tables, in their order:
 /// "hand_length_palmar", "length_dorsal", "girth" ...
@@ -55,4 +56,4 @@ struct TapeValue {
 };
 std::vector<TapeValue> values_of(const HandTape& tape);
 
-}  // namespace palmar
+}  // namespace palmar::hand

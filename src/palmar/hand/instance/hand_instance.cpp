@@ -14,7 +14,7 @@
 #include "palmar/geometry/repair/self_intersection.h"
 #include "palmar/hand/instance/instance_problem.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr double kAllowedMiss = 0.1;  // mm
@@ -142,7 +142,7 @@ HandInstance HandInstanceMaker::make(const std::vector<SizedDimension>& targets)
   }
   instance.hand = shape.scaling().hand(found.scales);
   instance.hand.dimensions = found.measured;
-  if (!crowded.empty() && !find_self_crossings(instance.hand.skin).empty()) {
+  if (!crowded.empty() && !geometry::find_self_crossings(instance.hand.skin).empty()) {
     throw UsageError(object + "the skin crosses itself: " + crowded);
   }
   if (!targets.empty()) instance.hand.provenance += "; " + asked.summary();
@@ -153,4 +153,4 @@ HandInstance make_hand_instance(const Hand& base, const std::vector<SizedDimensi
   return HandInstanceMaker(base).make(targets);
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

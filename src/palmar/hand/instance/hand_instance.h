@@ -8,7 +8,7 @@
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// A driven dimension and what the instance's skin measures.
 struct MetDimension {
@@ -63,4 +63,4 @@ class HandInstanceMaker {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 Vec3 mapped_displacement(const CmcLimit& limit, const Eigen::Matrix3d& stretch) {
@@ -77,4 +77,4 @@ Hand mapped(const Hand& hand, const HandMap& map) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,7 +7,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// How a hand of another size comes from a hand, in the reference posture: where points of its
 /// parts go [mm], and how short vectors there stretch (3 x 3, hand frame). Callers choose among
@@ -35,4 +35,4 @@ Skeleton mapped_skeleton(const Skeleton& skeleton, const HandMap& map);
 /// weights, tissue, dimensions and provenance stay as they are.
 Hand mapped(const Hand& hand, const HandMap& map);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -13,7 +13,7 @@
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/hand/dimensions/dimensions.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 // What driven parts of the hand length leave for the others, over what it is in the base; wider
@@ -39,7 +39,7 @@ constexpr int kAcross = factor_of(DimensionKind::kSegmentWidth, Segment::kPalm);
 constexpr int kThick = factor_of(DimensionKind::kSegmentThickness, Segment::kPalm);
 
 // Points of the section that measure_hand() places the tape round.
-std::vector<Vec3> section_at_heads(const TriangleMesh& skin, const Skeleton& skeleton) {
+std::vector<Vec3> section_at_heads(const geometry::TriangleMesh& skin, const Skeleton& skeleton) {
   const Vec3& head2 = skeleton.joint(JointId::kIndexMcp).centre;
   const Vec3& head5 = skeleton.joint(JointId::kLittleMcp).centre;
   const Vec3 radial = (head2 - head5).normalized();
@@ -47,9 +47,9 @@ std::vector<Vec3> section_at_heads(const TriangleMesh& skin, const Skeleton& ske
   const Vec3 between = 0.5 * (head2 + head5);
   std::vector<Vec3> points;
   double nearest = std::numeric_limits<double>::max();
-  for (const SectionCurve& curve :
-       plane_section(skin, between, palmar.cross(radial).normalized())) {
-    const double d = (curve_centre(curve) - between).norm();
+  for (const geometry::SectionCurve& curve :
+       geometry::plane_section(skin, between, palmar.cross(radial).normalized())) {
+    const double d = (geometry::curve_centre(curve) - between).norm();
     if (d >= nearest) continue;
     nearest = d;
     points = curve.point;
@@ -267,7 +267,7 @@ double InstanceShape::girth(const SegmentScales& scales) const {
   points.reserve(knuckles_.size());
   for (const Vec3& p : knuckles_) points.push_back(moved(p));
   const Vec3 palmar = Vec3::UnitZ() - radial.z() / radial.squaredNorm() * radial;
-  return palmar::girth(points, palmar.cross(radial).normalized());
+  return geometry::girth(points, palmar.cross(radial).normalized());
 }
 
 Eigen::MatrixXd InstanceShape::sensitivity(const InstanceProblem& problem) const {
@@ -361,4 +361,4 @@ void InstanceShape::check_girth(const InstanceProblem& problem,
       asked, beside, lowest, highest));
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -11,7 +11,7 @@
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/hand/instance/segment_scaling.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// The dimensions asked of an instance, held to what a hand that measures `base` can become.
 class InstanceTargets {
@@ -77,4 +77,4 @@ class InstanceShape {
   std::vector<Vec3> knuckles_;  ///< section through the heads of metacarpals II and V
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

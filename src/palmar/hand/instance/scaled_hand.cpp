@@ -9,7 +9,7 @@
 #include "palmar/hand/dimensions/hand_dimension.h"
 #include "palmar/hand/instance/hand_map.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// Everything times one factor, about the origin of the hand frame.
@@ -58,4 +58,4 @@ Hand scaled(const Hand& hand, double factor) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -4,7 +4,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// The hand with every length times `factor`: skin, joints, limit postures of the thumb, bones,
 /// bulges over bent joints, dimensions. Angles and tissue stay as they are: moduli, the depths at
@@ -13,4 +13,4 @@ namespace palmar {
 /// 0.2 to 5.
 Hand scaled(const Hand& hand, double factor);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -9,7 +9,7 @@
 #include "palmar/geometry/smooth_step.h"
 #include "palmar/hand/skin/creases.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// max(0, t) with its corner rounded over [-half, half].
@@ -144,7 +144,7 @@ SegmentScaling::Placed SegmentScaling::place(int r, const Vec3& point) const {
   while (s + 2 < ray.links && placed.level > ray.middle[s + 1]) ++s;
   placed.segment = s;
   placed.towards_next =
-      smooth_step((placed.level - ray.middle[s]) / (ray.middle[s + 1] - ray.middle[s]));
+      geometry::smooth_step((placed.level - ray.middle[s]) / (ray.middle[s + 1] - ray.middle[s]));
   return placed;
 }
 
@@ -154,7 +154,7 @@ void SegmentScaling::add(PointSet& set, const Vec3& point,
   for (int f = 0; f < kFingerCount; ++f) {
     if (share[f] <= 0.0) continue;
     Placed placed = place(f, point);
-    placed.share = share[f] * smooth_step(placed.level / ray_[f].middle[0]);
+    placed.share = share[f] * geometry::smooth_step(placed.level / ray_[f].middle[0]);
     if (placed.share > 0.0) set.placed.push_back(placed);
   }
   set.begin.push_back(static_cast<int>(set.placed.size()));
@@ -184,7 +184,7 @@ double SegmentScaling::palm_thickness(const Vec3& point, const SegmentScales& sc
   if (scales.bow == 0.0) return thickness;
   const double s = (point.x() - head_.x()) / border_;
   const double t = (point.y() - head_.y()) / (0.45 * head_.y());
-  const double aside = 1.0 - smooth_step((std::abs(s) - 1.0) / 0.6);
+  const double aside = 1.0 - geometry::smooth_step((std::abs(s) - 1.0) / 0.6);
   return thickness * (1.0 + scales.bow * (1.0 - std::exp(-2.0 * s * s)) * aside * std::exp(-t * t));
 }
 
@@ -316,4 +316,4 @@ Hand SegmentScaling::hand(const SegmentScales& scales) const {
   return mapped(*hand_, Map(*this, scales));
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

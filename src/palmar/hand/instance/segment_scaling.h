@@ -8,7 +8,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/instance/hand_map.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Factors on the size of each segment. Palm: across = x, along = y, thickness = z of the hand
 /// frame. Phalanx: along = from crease to crease, across = along the flexion axis, thickness =
@@ -112,4 +112,4 @@ class SegmentScaling {
   std::vector<PointSet> bones_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

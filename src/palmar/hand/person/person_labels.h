@@ -9,7 +9,7 @@
 #include "palmar/hand/anatomy.h"
 #include "palmar/hand/person/scan_posture.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// A name that somebody gives to the bone at a point of a person's images.
 struct BoneLabel {
@@ -29,4 +29,4 @@ struct MarkLabel {
   std::string place;               ///< "file:line"
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -8,7 +8,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr std::array<std::string_view, kScanPostureCount> kNames = {
@@ -34,4 +34,4 @@ std::optional<ScanPosture> scan_posture_in(std::string_view description) {
   return found;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::hand {
 
 /// What a person's hand does in one scan (Xie 2014, fig. 2-6).
 enum class ScanPosture {
@@ -25,4 +25,4 @@ std::string_view name_of(ScanPosture posture);
 /// The posture that a series' description names: upper case, blanks, hyphens don't matter.
 std::optional<ScanPosture> scan_posture_in(std::string_view description);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 TEST(ScanPosture, IsFoundInTheDescriptionOfASeries) {
@@ -19,4 +19,4 @@ TEST(ScanPosture, IsFoundInTheDescriptionOfASeries) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -4,7 +4,7 @@
 
 #include "palmar/hand/skin/landmarks.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 const std::vector<DorsalMarker>& dorsal_markers() {
   static const std::vector<DorsalMarker> kMarkers = {
@@ -48,4 +48,4 @@ MarkerSet dorsal_marker_set(const Hand& hand, double height) {
   return set;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

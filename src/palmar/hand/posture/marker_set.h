@@ -7,7 +7,7 @@
 
 #include "palmar/hand/skin/hand_points.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Where the markers of a recording sit on a hand.
 struct MarkerSet {
@@ -29,4 +29,4 @@ const std::vector<DorsalMarker>& dorsal_markers();
 /// That set on a hand; markers' centres stand `height` [mm] above the skin. Throws as Landmarks.
 MarkerSet dorsal_marker_set(const Hand& hand, double height = 0.0);
 
-}  // namespace palmar
+}  // namespace palmar::hand

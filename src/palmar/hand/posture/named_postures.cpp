@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 struct FingerAngles {
@@ -69,7 +69,9 @@ constexpr std::array<NamedAngles, 10> kPostures = {{
      {{{45, 50, 28, 0}, {48, 52, 30, 2}, {52, 52, 30, 4}, {56, 50, 28, 5}}}},
 }};
 
-void set(Posture& posture, Dof dof, double angle_deg) { posture[dof] = kDegree * angle_deg; }
+void set(Posture& posture, Dof dof, double angle_deg) {
+  posture[dof] = geometry::kDegree * angle_deg;
+}
 
 }  // namespace
 
@@ -91,7 +93,7 @@ std::optional<Posture> named_posture(const Skeleton& skeleton, std::string_view 
       const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * static_cast<int>(f);
       const FingerAngles& angles = one.finger[f];
       set(posture, static_cast<Dof>(first), angles.mcp);
-      posture[static_cast<Dof>(first + 1)] += kDegree * angles.abduction;
+      posture[static_cast<Dof>(first + 1)] += geometry::kDegree * angles.abduction;
       set(posture, static_cast<Dof>(first + 2), angles.pip);
       set(posture, static_cast<Dof>(first + 3), angles.dip);
     }
@@ -100,4 +102,4 @@ std::optional<Posture> named_posture(const Skeleton& skeleton, std::string_view 
   return std::nullopt;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

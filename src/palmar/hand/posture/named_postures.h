@@ -9,7 +9,7 @@
 
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Names of the stored postures: flat, relaxed, spread, fist, point, thumb_to_little, key_pinch,
 /// tip_pinch, tripod, cylinder_grip.
@@ -20,4 +20,4 @@ std::vector<std::string> posture_names();
 /// Those of the grips were chosen so that the pads concerned meet on the template hand.
 std::optional<Posture> named_posture(const Skeleton& skeleton, std::string_view name);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -17,12 +17,12 @@
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Where the hand is and how it is posed.
 struct PostureFitter::Place {
   Posture posture;
-  Rigid3 measured_from_hand;
+  geometry::Rigid3 measured_from_hand;
   double scale = 1.0;
 };
 
@@ -148,7 +148,7 @@ PostureFitter::Place PostureFitter::place_for(const std::vector<Vec3>& model,
     if (measured[i]) cross += (*measured[i] - to) * (model[i] - from).transpose();
   }
   Place place;
-  place.measured_from_hand.rotation = Quat(fit_rotation(cross)).normalized();
+  place.measured_from_hand.rotation = Quat(geometry::fit_rotation(cross)).normalized();
   place.measured_from_hand.translation = to - place.measured_from_hand.rotation * from;
   return place;
 }
@@ -217,7 +217,7 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
         std::sqrt(weight[rows[r]]) / options_.point_sd * *measured[rows[r]];
   }
 
-  LeastSquaresProblem problem;
+  geometry::LeastSquaresProblem problem;
   const auto residual = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r) {
     r.resize(m + n);
     r.head(m) = points_at(place_at(x)) - wanted;
@@ -229,7 +229,7 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
     }
     r.tail(n) = prior.cwiseProduct(x - middle);
   };
-  problem.evaluate = with_numeric_jacobian(residual, [](Eigen::Index j, double) {
+  problem.evaluate = geometry::with_numeric_jacobian(residual, [](Eigen::Index j, double) {
     return j >= 3 && j < 6 ? 1e-2 : kJacobianStep;  // mm: linear, any step will do
   });
   problem.lower = Eigen::VectorXd::Constant(n, -4.0);  // rad
@@ -249,7 +249,7 @@ PostureFitter::Solved PostureFitter::solve(const Measured& measured,
     problem.upper[j] = dof.upper;
     x[j] = start.posture[free[k]];
   }
-  const LeastSquaresSolution found = solve_least_squares(
+  const geometry::LeastSquaresSolution found = geometry::solve_least_squares(
       problem, x,
       {.max_iterations = max_iterations, .gradient_tolerance = 1e-7, .step_tolerance = 1e-9});
 
@@ -339,7 +339,7 @@ PostureFit PostureFitter::fit_checked(const Measured& measured, const PostureFit
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       if (measured[i]) seen.push_back(lengths[i]);
     }
-    return std::max(0.5 * options_.point_sd, median(std::move(seen)) / kMedianOfChi3);
+    return std::max(0.5 * options_.point_sd, statistics::median(std::move(seen)) / kMedianOfChi3);
   };
   const auto robust_weight = [](double length, double c) {
     return std::pow(1.0 + (length / c) * (length / c), -2);
@@ -468,4 +468,4 @@ PostureFit PostureFitter::fit_checked(const Measured& measured, const PostureFit
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

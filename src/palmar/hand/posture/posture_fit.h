@@ -11,7 +11,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/skin/hand_points.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 struct PostureFitOptions {
   /// Expected error of a measured point, mm (one standard deviation per axis): skin slides over
@@ -40,8 +40,8 @@ struct PostureFit {
   PostureFitStatus status = PostureFitStatus::kTooFew;
   std::string message;  ///< one sentence: how well, or why not and what to try
   Posture posture;
-  Rigid3 measured_from_hand;  ///< of the hand frame; mm
-  double scale = 1.0;         ///< measured size over this hand's; 1 unless asked for
+  geometry::Rigid3 measured_from_hand;  ///< of the hand frame; mm
+  double scale = 1.0;                   ///< measured size over this hand's; 1 unless asked for
   std::vector<std::optional<double>> residual;  ///< per point, mm; nothing for a missing one
   double rms = 0.0;                             ///< of the points that count, mm
   int points = 0;                               ///< that count
@@ -97,4 +97,4 @@ class PostureFitter {
   std::vector<Posture> starts_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -12,13 +12,13 @@
 #include "palmar/hand/posture/posture_registration.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using registration::Pose;
 
 /// Every k-th vertex one to one; nothing if the mesh isn't this hand's skin.
-std::optional<MeshFit> fit_vertices(const Hand& hand, const TriangleMesh& mesh,
+std::optional<MeshFit> fit_vertices(const Hand& hand, const geometry::TriangleMesh& mesh,
                                     const MeshFitOptions& options) {
   if (mesh.vertices.size() != hand.skin.vertices.size()) return std::nullopt;
   constexpr int kPoints = 400;       // more show no more
@@ -103,7 +103,7 @@ MeshFit registered(const Hand& hand, const registration::Target& target,
   return fit;
 }
 
-TriangleMesh mirrored(TriangleMesh mesh) {
+geometry::TriangleMesh mirrored(geometry::TriangleMesh mesh) {
   for (Vec3& v : mesh.vertices) v.x() = -v.x();
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
@@ -123,7 +123,7 @@ void MeshFitOptions::check() const {
   require("max_iterations", max_iterations, 1, 10000);
 }
 
-MeshFit fit_posture_to_mesh(const Hand& hand, const TriangleMesh& mesh,
+MeshFit fit_posture_to_mesh(const Hand& hand, const geometry::TriangleMesh& mesh,
                             const MeshFitOptions& options, const Progress& progress) {
   options.check();
   progress.update(0.0, "looking for the hand in the mesh");
@@ -180,4 +180,4 @@ MeshFit fit_posture_to_mesh(const Hand& hand, const TriangleMesh& mesh,
   return fit;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -11,7 +11,7 @@
 #include "palmar/hand/hand.h"
 #include "palmar/hand/posture/posture_fit.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 struct MeshFitOptions {
   bool fits_scale = false;   ///< also one overall size of the hand
@@ -26,8 +26,8 @@ struct MeshFit {
   PostureFitStatus status = PostureFitStatus::kPoor;
   std::string message;
   Posture posture;
-  Rigid3 mesh_from_hand;  ///< mm
-  double scale = 1.0;     ///< size of the mesh's hand over this one's; 1 unless asked for
+  geometry::Rigid3 mesh_from_hand;  ///< mm
+  double scale = 1.0;               ///< size of the mesh's hand over this one's; 1 unless asked for
   bool is_vertex_to_vertex = false;  ///< the mesh is this hand's skin, vertex for vertex
   // Distance of skin vertices to the mesh, of those with a partner, mm.
   double mean = 0.0, median = 0.0, percentile_95 = 0.0;
@@ -57,7 +57,7 @@ struct MeshFit {
 /// Deterministic. Throws UsageError, Cancelled; InputError for a mesh without area.
 ///
 /// Source: Chen, Medioni 1992 (point to plane); Pellegrini et al. 2008 (articulated).
-MeshFit fit_posture_to_mesh(const Hand& hand, const TriangleMesh& mesh,
+MeshFit fit_posture_to_mesh(const Hand& hand, const geometry::TriangleMesh& mesh,
                             const MeshFitOptions& options = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::hand

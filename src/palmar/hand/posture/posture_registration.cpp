@@ -17,7 +17,7 @@
 #include "palmar/hand/posture/named_postures.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar::registration {
+namespace palmar::hand::registration {
 namespace {
 
 constexpr double kNormalsAgree = 0.2;  // cosine; 78 degrees: fingers lie side by side
@@ -62,8 +62,10 @@ Frame frame_of(const std::vector<Vec3>& points) {
 
 }  // namespace
 
-Target::Target(const TriangleMesh& mesh)
-    : mesh_(mesh), normal_(area_weighted_normals(mesh.vertices, mesh.triangles)), query_(mesh) {
+Target::Target(const geometry::TriangleMesh& mesh)
+    : mesh_(mesh),
+      normal_(geometry::area_weighted_normals(mesh.vertices, mesh.triangles)),
+      query_(mesh) {
   std::map<std::pair<int, int>, int> count;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -162,7 +164,8 @@ SkinPoints::SkinPoints(const Hand& hand, int stride)
     const double third = (b - a).cross(c - a).norm() / 6.0;
     for (const int v : t) area[v] += third;
   }
-  const std::vector<Vec3> normal = area_weighted_normals(hand.skin.vertices, hand.skin.triangles);
+  const std::vector<Vec3> normal =
+      geometry::area_weighted_normals(hand.skin.vertices, hand.skin.triangles);
   const double wrist = hand.skeleton.joint(JointId::kWrist).centre.y();
   for (const int vertex : vertex_) {
     const bool is_proximal = hand.skin.vertices[vertex].y() < wrist;
@@ -175,7 +178,7 @@ SkinPoints::SkinPoints(const Hand& hand, int stride)
 
 PosedSkin SkinPoints::pose(const Pose& pose) const {
   const std::vector<Vec3> skin = pose_skin(*hand_, pose.posture);
-  const std::vector<Vec3> normal = area_weighted_normals(skin, hand_->skin.triangles);
+  const std::vector<Vec3> normal = geometry::area_weighted_normals(skin, hand_->skin.triangles);
   PosedSkin posed;
   posed.point.reserve(vertex_.size());
   posed.normal.reserve(vertex_.size());
@@ -238,7 +241,7 @@ class Stage {
     const Eigen::MatrixXd factor = small.leftCols(n);
     const Eigen::VectorXd right = small.col(n);
 
-    LeastSquaresProblem problem;
+    geometry::LeastSquaresProblem problem;
     problem.evaluate = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* j) {
       r = factor * x - right;
       if (j != nullptr) *j = factor;
@@ -258,7 +261,7 @@ class Stage {
       problem.lower[first + d] = std::max(-kBend, dof.lower - angle) - 1e-12;
       problem.upper[first + d] = std::min(kBend, dof.upper - angle) + 1e-12;
     }
-    const LeastSquaresSolution found = solve_least_squares(
+    const geometry::LeastSquaresSolution found = geometry::solve_least_squares(
         problem, Eigen::VectorXd::Zero(n),
         {.max_iterations = 50, .gradient_tolerance = 1e-6, .step_tolerance = 1e-7});
 
@@ -494,9 +497,9 @@ bool try_other_fingers(const Hand& hand, const Stage& stage, Pose& pose, double 
     const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * (f - 1);
     for (const Bend& bend : kBends) {
       Posture posture = pose.posture;
-      posture[static_cast<Dof>(first)] = bend.mcp * kDegree;
-      posture[static_cast<Dof>(first + 2)] = bend.pip * kDegree;
-      posture[static_cast<Dof>(first + 3)] = bend.dip * kDegree;
+      posture[static_cast<Dof>(first)] = bend.mcp * geometry::kDegree;
+      posture[static_cast<Dof>(first + 2)] = bend.pip * geometry::kDegree;
+      posture[static_cast<Dof>(first + 3)] = bend.dip * geometry::kDegree;
       consider(posture);
     }
   }
@@ -570,4 +573,4 @@ Registration run(const Hand& hand, const Target& target, bool fits_scale, int ma
   return result;
 }
 
-}  // namespace palmar::registration
+}  // namespace palmar::hand::registration

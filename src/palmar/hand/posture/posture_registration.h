@@ -11,12 +11,12 @@
 #include "palmar/hand/skin/hand_points.h"
 
 // Parts of fit_posture_to_mesh(), see posture_from_mesh.h.
-namespace palmar::registration {
+namespace palmar::hand::registration {
 
 /// Where a hand is in the mesh's frame and how it is posed: p -> R (s p) + t.
 struct Pose {
   Posture posture;
-  Rigid3 mesh_from_hand;
+  geometry::Rigid3 mesh_from_hand;
   double scale = 1.0;
   Vec3 operator*(const Vec3& in_hand) const { return mesh_from_hand * (scale * in_hand); }
 };
@@ -32,7 +32,7 @@ struct Partner {
 class Target {
  public:
   /// Throws InputError for a mesh without area.
-  explicit Target(const TriangleMesh& mesh);
+  explicit Target(const geometry::TriangleMesh& mesh);
 
   /// Nearest point of the mesh within `reach` [mm] if its normal agrees with `normal` and it isn't
   /// on an open border.
@@ -44,10 +44,10 @@ class Target {
   double extent() const { return extent_; }  ///< longest side of the box along the principal axes
 
  private:
-  TriangleMesh mesh_;
+  geometry::TriangleMesh mesh_;
   std::vector<Vec3> normal_;     ///< per vertex, area-weighted
   std::vector<char> is_border_;  ///< per triangle and edge
-  ClosestPointQuery query_;
+  geometry::ClosestPointQuery query_;
   double extent_ = 0.0;
 };
 
@@ -90,4 +90,4 @@ struct Registration {
 Registration run(const Hand& hand, const Target& target, bool fits_scale, int max_iterations,
                  const Progress& progress);
 
-}  // namespace palmar::registration
+}  // namespace palmar::hand::registration

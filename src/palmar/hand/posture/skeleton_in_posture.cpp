@@ -6,16 +6,16 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 Joint& joint_at(Skeleton& skeleton, JointId id) { return skeleton.joints[index_of(id)]; }
 
-void carry(Joint& joint, const Rigid3& before, const Rigid3& after) {
+void carry(Joint& joint, const geometry::Rigid3& before, const geometry::Rigid3& after) {
   joint.centre = before * joint.centre;
   for (std::size_t k = 0; k < joint.dofs.size(); ++k) {
     // Of two axes the first is fixed to the distal part.
-    const Rigid3& by = k + 1 < joint.dofs.size() ? after : before;
+    const geometry::Rigid3& by = k + 1 < joint.dofs.size() ? after : before;
     joint.dofs[k].axis = by.rotation * joint.dofs[k].axis;
     joint.dofs[k].centre = by * joint.dofs[k].centre;
   }
@@ -23,11 +23,11 @@ void carry(Joint& joint, const Rigid3& before, const Rigid3& after) {
 
 /// Limits of the CMC joint counted from where the metacarpal is now.
 void count_limits_from(const Skeleton& before, const Posture& posture, Skeleton& after) {
-  const Rigid3 now = cmc_displacement(before, cmc_share(before, posture));
+  const geometry::Rigid3 now = cmc_displacement(before, cmc_share(before, posture));
   const Vec3& centre = after.joint(JointId::kThumbCmc).centre;
   const CmcShare share = cmc_share(before, posture);
   const auto from_here = [&](const CmcShare& limit) {
-    const Rigid3 motion = cmc_displacement(before, limit) * now.inverse();
+    const geometry::Rigid3 motion = cmc_displacement(before, limit) * now.inverse();
     return CmcLimit{motion.rotation, motion * centre - centre};
   };
   after.thumb_cmc.flexion = from_here({1.0, share.s_aa});
@@ -44,10 +44,10 @@ Skeleton skeleton_in_posture(const Skeleton& skeleton, const Posture& posture) {
   carry(joint_at(result, JointId::kThumbCmc), {}, pose.thumb_metacarpal);
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
-    Rigid3 before = finger == Finger::kThumb ? pose.thumb_metacarpal : Rigid3{};
+    geometry::Rigid3 before = finger == Finger::kThumb ? pose.thumb_metacarpal : geometry::Rigid3{};
     for (const auto& segment : segments_of(finger)) {
       if (!segment) continue;
-      const Rigid3& after = pose.segment[index_of(*segment)];
+      const geometry::Rigid3& after = pose.segment[index_of(*segment)];
       carry(joint_at(result, joint_of(*segment)), before, after);
       before = after;
     }
@@ -65,4 +65,4 @@ Skeleton skeleton_in_posture(const Skeleton& skeleton, const Posture& posture) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -4,7 +4,7 @@
 
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// The skeleton with joints, axes and fingertips where they are in a posture, which becomes its
 /// reference posture: pose_skeleton() of the result by any angles is what it was before, seen from
@@ -12,4 +12,4 @@ namespace palmar {
 /// the hand frame, stays. Ranges that don't hold the posture are widened to it.
 Skeleton skeleton_in_posture(const Skeleton& skeleton, const Posture& posture);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,7 +7,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/skin/thumb_cmc.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// Index finger of three joints, the first with two axes that aren't square, and a thumb.
@@ -45,7 +45,7 @@ Posture some_posture(double size) {
   return p;
 }
 
-void expect_same(const Rigid3& a, const Rigid3& b) {
+void expect_same(const geometry::Rigid3& a, const geometry::Rigid3& b) {
   for (const Vec3& p : {Vec3(30, 160, 5), Vec3(0, 0, 0), Vec3(-20, 90, 40)}) {
     EXPECT_LT((a * p - b * p).norm(), 1e-9);
   }
@@ -88,4 +88,4 @@ TEST(SkeletonInPosture, RangesGrowToHoldIt) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

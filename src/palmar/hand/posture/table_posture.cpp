@@ -4,7 +4,7 @@
 
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 Posture posture_on_table(Posture posture, const FingertipHeights& height) {
   const auto start = height(posture);
@@ -20,11 +20,11 @@ Posture posture_on_table(Posture posture, const FingertipHeights& height) {
       posture[kMcp[f]] += (table - z) / ((height(bent)[f + 1] - z) / kStep);
     }
   }
-  constexpr double kStep = kDegree;
+  constexpr double kStep = geometry::kDegree;
   for (int step = 0; step < 40 && height(posture)[0] > table; ++step) {
     posture[Dof::kThumbCmcAbduction] -= kStep;
   }
   return posture;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,7 +7,7 @@
 
 #include "palmar/hand/posture.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Heights of the five fingertips in a posture over the palm's plane, palmar positive; mm.
 using FingertipHeights = std::function<std::array<double, kFingerCount>(const Posture&)>;
@@ -18,4 +18,4 @@ using FingertipHeights = std::function<std::array<double, kFingerCount>(const Po
 /// Ranges of motion aren't looked at.
 Posture posture_on_table(Posture posture, const FingertipHeights& height);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 TEST(PostureOnTable, BringsFingertipsToTheirMeanHeightAndTheThumbNoLower) {
@@ -30,7 +30,7 @@ TEST(PostureOnTable, BringsFingertipsToTheirMeanHeightAndTheThumbNoLower) {
     EXPECT_NEAR(placed[kMcp[f]], std::asin(rise / 80.0), 1e-6) << f;
   }
   // asin((7.5 - 20) / 50) is -14.5 degrees; it turns by whole ones.
-  EXPECT_NEAR(placed[Dof::kThumbCmcAbduction], -15.0 * kDegree, 1e-12);
+  EXPECT_NEAR(placed[Dof::kThumbCmcAbduction], -15.0 * geometry::kDegree, 1e-12);
   EXPECT_EQ(placed[Dof::kIndexPipFlexion], 0.1);
 }
 
@@ -40,8 +40,9 @@ TEST(PostureOnTable, AdductsAThumbThatStaysLowByNoMoreThanFortyDegrees) {
         30.0, std::sin(p[Dof::kIndexMcpFlexion]), std::sin(p[Dof::kMiddleMcpFlexion]),
         std::sin(p[Dof::kRingMcpFlexion]), std::sin(p[Dof::kLittleMcpFlexion])};
   };
-  EXPECT_NEAR(posture_on_table({}, height)[Dof::kThumbCmcAbduction], -40.0 * kDegree, 1e-12);
+  EXPECT_NEAR(posture_on_table({}, height)[Dof::kThumbCmcAbduction], -40.0 * geometry::kDegree,
+              1e-12);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

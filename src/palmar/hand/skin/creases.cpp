@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -95,7 +95,7 @@ double PlaneCurve::signed_distance(const Vec2& p) const {
 
 class HandCreases::RayDistances {
  public:
-  RayDistances(const TriangleMesh& skin, const HandCreases& creases)
+  RayDistances(const geometry::TriangleMesh& skin, const HandCreases& creases)
       : skin_(skin), creases_(creases) {
     for (std::vector<double>& of_ray : distance_) of_ray.assign(skin.vertices.size(), -1.0);
   }
@@ -115,12 +115,12 @@ class HandCreases::RayDistances {
   }
 
  private:
-  const TriangleMesh& skin_;
+  const geometry::TriangleMesh& skin_;
   const HandCreases& creases_;
   std::array<std::vector<double>, kFingerCount> distance_;
 };
 
-HandCreases::HandCreases(const TriangleMesh& skin, const Skeleton& skeleton) {
+HandCreases::HandCreases(const geometry::TriangleMesh& skin, const Skeleton& skeleton) {
   const Vec3 wrist = skeleton.joint(JointId::kWrist).centre;
   sign_ =
       skeleton.joint(JointId::kIndexMcp).centre.x() > skeleton.joint(JointId::kLittleMcp).centre.x()
@@ -217,7 +217,8 @@ double HandCreases::palmar_height(const Vec3& point) const {
   return sum / weight;
 }
 
-Vec3 HandCreases::find_web(const TriangleMesh& skin, int k, RayDistances& distance) const {
+Vec3 HandCreases::find_web(const geometry::TriangleMesh& skin, int k,
+                           RayDistances& distance) const {
   const Ray& a = ray_[k];
   const Ray& b = ray_[k + 1];
   // A bent finger's middle phalanx doesn't look the way its web lies.
@@ -420,4 +421,4 @@ double HandCreases::boundary_value(const Vec3& point, const SkinLabel& a,
   return involves(Region::kThenar) ? thenar_.signed_distance(p) : hypothenar_.signed_distance(p);
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -9,7 +9,7 @@
 #include "palmar/hand/anatomy.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Segment and region of a point of the skin.
 struct SkinLabel {
@@ -58,7 +58,7 @@ class PlaneCurve {
 class HandCreases {
  public:
   /// Throws InputError if two neighbouring fingers have no web between them on this skin.
-  HandCreases(const TriangleMesh& skin, const Skeleton& skeleton);
+  HandCreases(const geometry::TriangleMesh& skin, const Skeleton& skeleton);
 
   /// Segment and region of a point on (or near) the skin.
   SkinLabel label(const Vec3& point) const;
@@ -99,7 +99,7 @@ class HandCreases {
   static std::array<std::size_t, 2> place_of(Segment phalanx);
   /// Distances of the skin's vertices from the rays, mm; only those asked for are computed.
   class RayDistances;
-  Vec3 find_web(const TriangleMesh& skin, int k, RayDistances& distance) const;
+  Vec3 find_web(const geometry::TriangleMesh& skin, int k, RayDistances& distance) const;
   void place_web();
   void place_finger_creases();
   void place_palm_creases();
@@ -116,4 +116,4 @@ class HandCreases {
   PlaneCurve transverse_, thenar_, hypothenar_, between_pads_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

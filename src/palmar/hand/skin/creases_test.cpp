@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -50,4 +50,4 @@ TEST(CreasePlane, IsPositiveTowardsTheFingertip) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/hand/skin/drawn_creases.h"
 
-namespace palmar {
+namespace palmar::hand {
 
-HandCreases creases_of(const TriangleMesh& skin, const Skeleton& skeleton,
+HandCreases creases_of(const geometry::TriangleMesh& skin, const Skeleton& skeleton,
                        const DrawnCreases& seen) {
   HandCreases creases(skin, skeleton);
   for (const auto& [segment, plane] : seen) {
@@ -25,4 +25,4 @@ DrawnCreases mirrored(DrawnCreases creases) {
   return creases;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

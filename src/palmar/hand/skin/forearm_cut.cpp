@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
-bool faces_the_forearm(const TriangleMesh& skin, const Triangle& t) {
+bool faces_the_forearm(const geometry::TriangleMesh& skin, const Triangle& t) {
   const Vec3 &a = skin.vertices[t[0]], &b = skin.vertices[t[1]], &c = skin.vertices[t[2]];
   const Vec3 normal = (b - a).cross(c - a).normalized();
   return normal.y() < -0.6 && (a.y() + b.y() + c.y()) / 3 < 0;
@@ -39,7 +39,7 @@ std::vector<int> border_loop(const std::vector<Triangle>& triangles) {
 }
 
 /// y over (x, z), least squares.
-void flatten(TriangleMesh& skin, const std::vector<int>& rim) {
+void flatten(geometry::TriangleMesh& skin, const std::vector<int>& rim) {
   Eigen::MatrixX3d place(rim.size(), 3);
   Eigen::VectorXd y(rim.size());
   for (std::size_t i = 0; i < rim.size(); ++i) {
@@ -56,9 +56,9 @@ void flatten(TriangleMesh& skin, const std::vector<int>& rim) {
 
 }  // namespace
 
-TriangleMesh with_even_cut(const TriangleMesh& skin_in_hand) {
+geometry::TriangleMesh with_even_cut(const geometry::TriangleMesh& skin_in_hand) {
   constexpr double kRings[] = {0.55};  // of the way from the middle to the rim
-  TriangleMesh skin;
+  geometry::TriangleMesh skin;
   skin.vertices = skin_in_hand.vertices;
   std::vector<Triangle> cut;
   for (const Triangle& t : skin_in_hand.triangles) {
@@ -94,4 +94,4 @@ TriangleMesh with_even_cut(const TriangleMesh& skin_in_hand) {
   return skin;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

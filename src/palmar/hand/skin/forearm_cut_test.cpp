@@ -10,14 +10,14 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr int kAround = 12;
 
 /// Tube along y from a wavy rim near y = -20 to y = 40, closed by fans over corner 0 of each rim.
-TriangleMesh stub(double wave) {
-  TriangleMesh mesh;
+geometry::TriangleMesh stub(double wave) {
+  geometry::TriangleMesh mesh;
   for (const double y : {-20.0, 40.0}) {
     for (int k = 0; k < kAround; ++k) {
       const double a = 2 * std::numbers::pi * k / kAround;
@@ -38,9 +38,9 @@ TriangleMesh stub(double wave) {
 }
 
 TEST(ForearmCut, WavyRimBecomesPlaneAndTheSkinStaysClosed) {
-  const TriangleMesh wavy = stub(1.0);
-  const TriangleMesh even = with_even_cut(wavy);
-  require_closed_manifold(even, "stub");
+  const geometry::TriangleMesh wavy = stub(1.0);
+  const geometry::TriangleMesh even = with_even_cut(wavy);
+  geometry::require_closed_manifold(even, "stub");
   EXPECT_GT(even.vertex_count(), wavy.vertex_count());
   for (const Vec3& v : even.vertices) {
     if (v.y() < 0) {
@@ -48,15 +48,15 @@ TEST(ForearmCut, WavyRimBecomesPlaneAndTheSkinStaysClosed) {
     }
   }
   // Of a twelve-sided prism 60 mm high, radius 20 mm.
-  EXPECT_NEAR(signed_volume(even), 60 * 6 * 400 * std::sin(std::numbers::pi / 6), 1e-6);
+  EXPECT_NEAR(geometry::signed_volume(even), 60 * 6 * 400 * std::sin(std::numbers::pi / 6), 1e-6);
 }
 
 TEST(ForearmCut, SkinWithoutACutComesBackAsItIs) {
-  TriangleMesh distal = stub(0.0);
+  geometry::TriangleMesh distal = stub(0.0);
   for (Vec3& v : distal.vertices) v.y() += 50;
   EXPECT_EQ(with_even_cut(distal).vertices, distal.vertices);
   EXPECT_EQ(with_even_cut(distal).triangles, distal.triangles);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -9,7 +9,7 @@
 #include "palmar/core/nearest_name.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr const char* kForearm = "forearm";
@@ -129,4 +129,4 @@ std::vector<Vec3> PosablePoints::pose(const Posture& posture) const {
   return pose_skin(few_, posture);
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

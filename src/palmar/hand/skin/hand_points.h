@@ -8,7 +8,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// A point that goes with a hand's posture: glued to its skin, or to one of its rigid parts.
 struct HandPoint {
@@ -46,4 +46,4 @@ class PosablePoints {
   Hand few_;  ///< whose skin is the points alone
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

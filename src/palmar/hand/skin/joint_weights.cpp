@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/smooth_step.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using Field = std::vector<double>;  ///< one number per vertex
@@ -33,7 +33,7 @@ struct JointAxes {
 /// w1: 0 on the steady side, 1 on the rigid side.
 double along_bone(const JointAxes& axes, const Band& band, const Vec3& point) {
   const Vec3 arm = point - axes.centre;
-  const double side = smooth_step(0.5 + 0.5 * arm.dot(axes.palmar) / axes.depth);
+  const double side = geometry::smooth_step(0.5 + 0.5 * arm.dot(axes.palmar) / axes.depth);
   const double half = band.dorsal_half + side * (band.palmar_half - band.dorsal_half);
   const double shift = band.dorsal_shift + side * (band.palmar_shift - band.dorsal_shift);
   return std::clamp(0.5 + 0.5 * (arm.dot(axes.along) - shift) / half, 0.0, 1.0);
@@ -115,7 +115,7 @@ JointAxes axes_at(const Skeleton& skeleton, JointId id, const Vec3& proximal, co
 }
 
 /// Greatest height of the skin above the joint's axis near its own plane, mm.
-double palmar_depth(const TriangleMesh& skin, const JointAxes& axes, const Field& share) {
+double palmar_depth(const geometry::TriangleMesh& skin, const JointAxes& axes, const Field& share) {
   double depth = 0;
   for (std::size_t v = 0; v < skin.vertices.size(); ++v) {
     const Vec3 arm = skin.vertices[v] - axes.centre;
@@ -140,11 +140,11 @@ JointWeights collect(JointId id, const Field& w1, const Field& w2) {
 
 class WeightMaker {
  public:
-  WeightMaker(const TriangleMesh& skin, const Skeleton& skeleton)
+  WeightMaker(const geometry::TriangleMesh& skin, const Skeleton& skeleton)
       : skin_(skin), skeleton_(skeleton), chains_(make_chains(skeleton)) {
-    require_closed_manifold(skin, "skin");
-    normal_ = vertex_normals(skin);
-    neighbours_ = vertex_neighbours(build_topology(skin));
+    geometry::require_closed_manifold(skin, "skin");
+    normal_ = geometry::vertex_normals(skin);
+    neighbours_ = geometry::vertex_neighbours(geometry::build_topology(skin));
     find_owners();
   }
 
@@ -210,14 +210,15 @@ class WeightMaker {
 
   /// Volume of the whole skin with one joint bent to its limit and bulged by `amplitude`.
   double bent_volume(const JointWeights& weights, const JointDof& dof, double amplitude) const {
-    TriangleMesh bent = skin_;
+    geometry::TriangleMesh bent = skin_;
     const double turn = dof.upper - dof.reference;
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
       Vec3& v = bent.vertices[weights.vertex[k]];
       v += amplitude * turn * weights.bulge[k];
-      v = Rigid3::about_axis(dof.axis, dof.centre, weights.w1[k] * weights.w2[k] * turn) * v;
+      v = geometry::Rigid3::about_axis(dof.axis, dof.centre, weights.w1[k] * weights.w2[k] * turn) *
+          v;
     }
-    return signed_volume(bent);
+    return geometry::signed_volume(bent);
   }
 
   /// Flesh pressed out of the palmar fold comes out at the sides and over the knuckle, as much as
@@ -231,10 +232,10 @@ class WeightMaker {
       const Vec3 arm = skin_.vertices[v] - axes.centre;
       const double t = arm.dot(axes.along) / half;
       const double bump = t * t < 1 ? (1 - t * t) * (1 - t * t) : 0.0;
-      const double dorsal = smooth_step(0.75 - 0.5 * arm.dot(axes.palmar) / axes.depth);
+      const double dorsal = geometry::smooth_step(0.75 - 0.5 * arm.dot(axes.palmar) / axes.depth);
       weights.bulge.emplace_back(bump * dorsal * weights.w2[k] * normal_[v]);
     }
-    const double straight = signed_volume(skin_);
+    const double straight = geometry::signed_volume(skin_);
     const double bent = bent_volume(weights, dof, 0.0);
     const double gain = bent_volume(weights, dof, 1.0) - bent;
     const double amplitude =
@@ -267,9 +268,9 @@ class WeightMaker {
       for (std::size_t f = 1; f < chains_.size(); ++f) {
         to_palm = std::min(to_palm, scaled_distance(chains_[f], p));
       }
-      w2[v] = smooth_step((to_palm / (to_palm + to_thumb) - 0.36) / 0.26);
+      w2[v] = geometry::smooth_step((to_palm / (to_palm + to_thumb) - 0.36) / 0.26);
       const double y = (p - cmc).dot(along);
-      w1[v] = smooth_step((y + 8.0) / 34.0);  // the thumb ball takes up the turn
+      w1[v] = geometry::smooth_step((y + 8.0) / 34.0);  // the thumb ball takes up the turn
     }
     const std::vector<char> everywhere(w1.size(), 1);
     diffuse(w2, neighbours_, everywhere, 10);
@@ -285,7 +286,7 @@ class WeightMaker {
     return collect(JointId::kWrist, w1, w2);
   }
 
-  const TriangleMesh& skin_;
+  const geometry::TriangleMesh& skin_;
   const Skeleton& skeleton_;
   std::array<Chain, kFingerCount> chains_;
   std::vector<std::vector<int>> neighbours_;
@@ -296,8 +297,9 @@ class WeightMaker {
 
 }  // namespace
 
-std::vector<JointWeights> make_joint_weights(const TriangleMesh& skin, const Skeleton& skeleton) {
+std::vector<JointWeights> make_joint_weights(const geometry::TriangleMesh& skin,
+                                             const Skeleton& skeleton) {
   return WeightMaker(skin, skeleton).make();
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

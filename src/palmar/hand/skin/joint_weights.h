@@ -6,7 +6,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// The two weights of eq. 2-7 for every joint, on the skin of the reference posture.
 ///
@@ -25,6 +25,7 @@ namespace palmar {
 /// Throws InputError if the mesh is not closed and 2-manifold.
 ///
 /// Source: Xie 2014, eq. 2-7; shares that add up to 1 are an addition.
-std::vector<JointWeights> make_joint_weights(const TriangleMesh& skin, const Skeleton& skeleton);
+std::vector<JointWeights> make_joint_weights(const geometry::TriangleMesh& skin,
+                                             const Skeleton& skeleton);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr double kNailShare = 0.6;  // of the way from the last joint to the fingertip
@@ -165,7 +165,7 @@ std::vector<std::string> Landmarks::names() {
 
 HandPoint Landmarks::on_skin(const std::string& name, const Vec3& from,
                              const Vec3& direction) const {
-  const std::optional<RayHit> hit = rays_.first_hit(from, direction);
+  const std::optional<geometry::RayHit> hit = rays_.first_hit(from, direction);
   if (!hit) throw InputError("landmark " + name + ": the hand has no skin there");
   return skin_point_near(*hand_, from + hit->distance * direction);
 }
@@ -237,4 +237,4 @@ HandPoint Landmarks::at(const std::string& name, double height) const {
   return point;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

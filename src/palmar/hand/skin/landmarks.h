@@ -8,7 +8,7 @@
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/hand/skin/hand_points.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Named points of a hand, found from its own skin, joints and bones, so that they fit any hand.
 ///
@@ -44,7 +44,7 @@ class Landmarks {
   HandPoint on_skin(const std::string& name, const Vec3& from, const Vec3& direction) const;
 
   const Hand* hand_;
-  RayQuery rays_;
+  geometry::RayQuery rays_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::hand

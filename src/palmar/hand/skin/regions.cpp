@@ -19,7 +19,7 @@
 #include "palmar/geometry/remesh/subdivide.h"
 #include "palmar/hand/skin/creases.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 // Standing of a label where several meet; the smallest wins.
@@ -34,14 +34,15 @@ bool ranks_before(const SkinLabel& a, const SkinLabel& b) { return standing(a) <
 // would cut the corners of fingertips.
 class Surface {
  public:
-  explicit Surface(const TriangleMesh& skin)
-      : mesh_(subdivide(skin, {.scheme = SubdivisionScheme::kFittedLoop, .fit_rounds = 3})),
-        normals_(vertex_normals(mesh_)),
+  explicit Surface(const geometry::TriangleMesh& skin)
+      : mesh_(geometry::subdivide(
+            skin, {.scheme = geometry::SubdivisionScheme::kFittedLoop, .fit_rounds = 3})),
+        normals_(geometry::vertex_normals(mesh_)),
         query_(mesh_) {}
 
   // Not from several threads at once.
   Vec3 project(const Vec3& point, Vec3* normal = nullptr) const {
-    const ClosestPoint nearest = *query_.closest(point, kAnywhere, last_);
+    const geometry::ClosestPoint nearest = *query_.closest(point, kAnywhere, last_);
     last_ = nearest.triangle;
     if (normal != nullptr) {
       *normal = Vec3::Zero();
@@ -54,9 +55,9 @@ class Surface {
 
  private:
   static constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-  TriangleMesh mesh_;
+  geometry::TriangleMesh mesh_;
   std::vector<Vec3> normals_;
-  ClosestPointQuery query_;
+  geometry::ClosestPointQuery query_;
   mutable int last_ = 0;  ///< hint only: points come in runs that lie close together
 };
 
@@ -140,8 +141,9 @@ struct Offer {
   Vec3 place = Vec3::Zero();
 };
 
-std::vector<Offer> offers(const TriangleMesh& skin, const MeshTopology& topology,
-                          const HandCreases& creases, const std::vector<SkinLabel>& label) {
+std::vector<Offer> offers(const geometry::TriangleMesh& skin,
+                          const geometry::MeshTopology& topology, const HandCreases& creases,
+                          const std::vector<SkinLabel>& label) {
   std::vector<Offer> offer(label.size());
   for (const auto& [i, j] : topology.edge) {
     if (label[i] == label[j]) continue;
@@ -160,7 +162,7 @@ std::vector<Offer> offers(const TriangleMesh& skin, const MeshTopology& topology
 
 // A vertex may stay where it is if the other end of each of its crossing edges moves. The longest
 // ways are spared first.
-void withdraw_needless(const MeshTopology& topology, const std::vector<SkinLabel>& label,
+void withdraw_needless(const geometry::MeshTopology& topology, const std::vector<SkinLabel>& label,
                        std::vector<Offer>& offer) {
   std::vector<std::vector<int>> across(label.size());
   for (const auto& [i, j] : topology.edge) {
@@ -212,7 +214,7 @@ Vec3 onto_creases(const HandCreases& creases, const Surface& surface, const Vec3
   return surface.project(point);
 }
 
-double smallest_angle(const TriangleMesh& mesh, const Triangle& t) {
+double smallest_angle(const geometry::TriangleMesh& mesh, const Triangle& t) {
   double smallest = std::numbers::pi;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3& a = mesh.vertices[t[k]];
@@ -223,7 +225,7 @@ double smallest_angle(const TriangleMesh& mesh, const Triangle& t) {
   return smallest;
 }
 
-Vec3 area_normal(const TriangleMesh& mesh, const Triangle& t) {
+Vec3 area_normal(const geometry::TriangleMesh& mesh, const Triangle& t) {
   const Vec3& a = mesh.vertices[t[0]];
   return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
 }
@@ -231,11 +233,11 @@ Vec3 area_normal(const TriangleMesh& mesh, const Triangle& t) {
 // Three vertices moved onto one crease make a sliver: its longest edge is turned, if both triangles
 // gain by that. `is_fixed` shows edges that must stay.
 template <typename IsFixed>
-void turn_slivers(TriangleMesh& skin, const IsFixed& is_fixed) {
-  constexpr double kSliver = 25.0 * kDegree;
+void turn_slivers(geometry::TriangleMesh& skin, const IsFixed& is_fixed) {
+  constexpr double kSliver = 25.0 * geometry::kDegree;
   for (int pass = 0; pass < 3; ++pass) {
-    const MeshTopology topology = build_topology(skin);
-    const std::vector<std::vector<int>> neighbours = vertex_neighbours(topology);
+    const geometry::MeshTopology topology = geometry::build_topology(skin);
+    const std::vector<std::vector<int>> neighbours = geometry::vertex_neighbours(topology);
     std::vector<bool> is_touched(skin.vertices.size());
     bool has_changed = false;
     for (int t = 0; t < skin.triangle_count(); ++t) {
@@ -280,7 +282,7 @@ struct CreaseGraph {
   std::vector<std::vector<SkinLabel>> labels;  ///< per vertex on a crease: labels round it
 };
 
-CreaseGraph build_graph(const TriangleMesh& skin, const MeshTopology& topology,
+CreaseGraph build_graph(const geometry::TriangleMesh& skin, const geometry::MeshTopology& topology,
                         const HandCreases& creases, const std::vector<SkinLabel>& label,
                         const std::vector<bool>& is_snapped) {
   CreaseGraph graph;
@@ -301,7 +303,7 @@ CreaseGraph build_graph(const TriangleMesh& skin, const MeshTopology& topology,
     const int other = topology.twin[h];
     if (graph.triangle[h / 3] == graph.triangle[other / 3]) continue;
     const int i = skin.triangles[h / 3][h % 3];
-    const int j = skin.triangles[h / 3][MeshTopology::next(h) % 3];
+    const int j = skin.triangles[h / 3][geometry::MeshTopology::next(h) % 3];
     graph.neighbours[i].push_back(j);  // the twin adds the other direction
     for (const int end : {i, j}) {
       for (const int t : {h / 3, other / 3}) {
@@ -337,8 +339,8 @@ std::vector<int> near_creases(const CreaseGraph& graph,
 }
 
 // Smallest angle of the triangles round a vertex; negative if one of them is turned over.
-double worst_angle(const TriangleMesh& skin, const MeshTopology& topology, int vertex,
-                   const Vec3& normal) {
+double worst_angle(const geometry::TriangleMesh& skin, const geometry::MeshTopology& topology,
+                   int vertex, const Vec3& normal) {
   double worst = std::numbers::pi;
   for (const int h : topology.outgoing(vertex)) {
     const Triangle& t = skin.triangles[h / 3];
@@ -377,13 +379,13 @@ std::vector<std::pair<SkinLabel, SkinLabel>> holding_pairs(const CreaseGraph& gr
 }
 
 // Evens out the mesh near the creases. A move is taken if it doesn't spoil the triangles round it.
-void relax(TriangleMesh& skin, const CreaseGraph& graph, const HandCreases& creases,
+void relax(geometry::TriangleMesh& skin, const CreaseGraph& graph, const HandCreases& creases,
            const Surface& surface) {
   constexpr int kRounds = 8;
   constexpr int kRings = 4;
-  constexpr double kGoodAngle = 25.0 * kDegree;
-  const MeshTopology topology = build_topology(skin);
-  const std::vector<std::vector<int>> neighbours = vertex_neighbours(topology);
+  constexpr double kGoodAngle = 25.0 * geometry::kDegree;
+  const geometry::MeshTopology topology = geometry::build_topology(skin);
+  const std::vector<std::vector<int>> neighbours = geometry::vertex_neighbours(topology);
   const std::vector<int> moving = near_creases(graph, neighbours, kRings);
   for (int round = 0; round < kRounds; ++round) {
     for (const int i : moving) {
@@ -428,12 +430,12 @@ void require_all_labels(const SkinPartition& partition) {
 
 }  // namespace
 
-SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton) {
-  require_closed_manifold(skin, "skin");
+SkinPartition partition_skin(const geometry::TriangleMesh& skin, const Skeleton& skeleton) {
+  geometry::require_closed_manifold(skin, "skin");
   const HandCreases creases(skin, skeleton);
   const Surface surface(skin);
-  const MeshTopology topology = build_topology(skin);
-  const std::vector<std::vector<int>> neighbours = vertex_neighbours(topology);
+  const geometry::MeshTopology topology = geometry::build_topology(skin);
+  const std::vector<std::vector<int>> neighbours = geometry::vertex_neighbours(topology);
 
   std::vector<SkinLabel> label(skin.vertices.size());
   for (std::size_t i = 0; i < label.size(); ++i) label[i] = creases.label(skin.vertices[i]);
@@ -451,7 +453,7 @@ SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton)
   }
   turn_slivers(result.skin, [](int, int) { return false; });
   CreaseGraph graph =
-      build_graph(result.skin, build_topology(result.skin), creases, label, is_snapped);
+      build_graph(result.skin, geometry::build_topology(result.skin), creases, label, is_snapped);
   for (int pass = 0; pass < 2; ++pass) {
     relax(result.skin, graph, creases, surface);
     turn_slivers(result.skin, [&](int i, int j) {
@@ -463,7 +465,7 @@ SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton)
   for (std::size_t i = 0; i < label.size(); ++i) {
     if (!graph.labels[i].empty()) label[i] = graph.labels[i].front();
   }
-  remove_islands(vertex_neighbours(build_topology(result.skin)), label);
+  remove_islands(geometry::vertex_neighbours(geometry::build_topology(result.skin)), label);
   for (std::size_t i = 0; i < label.size(); ++i) {
     result.segment.push_back(label[i].segment);
     result.region.push_back(label[i].region);
@@ -486,4 +488,4 @@ std::vector<Region> triangle_regions(const std::vector<Triangle>& triangles,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -8,13 +8,13 @@
 #include "palmar/hand/anatomy.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Skin cut into the 15 segments and the 19 regions (with the dorsum 20).
 struct SkinPartition {
   /// Same vertices in the same order, those near a crease slid along the surface onto it, so that
   /// the creases run along edges of the mesh; where that made slivers, edges are turned.
-  TriangleMesh skin;
+  geometry::TriangleMesh skin;
   std::vector<Segment> segment;  ///< per vertex
   std::vector<Region> region;    ///< per vertex
 };
@@ -32,7 +32,7 @@ struct SkinPartition {
 /// `skin` must be closed and 2-manifold, its edges at most about a quarter of the shortest phalanx
 /// (the template has 2.5 mm). Throws InputError if it is not, or if a segment or region stays
 /// empty. A mirrored hand gives the mirrored partition. Deterministic.
-SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton);
+SkinPartition partition_skin(const geometry::TriangleMesh& skin, const Skeleton& skeleton);
 
 /// Region of each triangle of a partitioned skin: that of its corner of lowest standing, because a
 /// corner on a crease carries the label of highest standing. With it pictures show creases as the
@@ -40,4 +40,4 @@ SkinPartition partition_skin(const TriangleMesh& skin, const Skeleton& skeleton)
 std::vector<Region> triangle_regions(const std::vector<Triangle>& triangles,
                                      const std::vector<Region>& region);
 
-}  // namespace palmar
+}  // namespace palmar::hand

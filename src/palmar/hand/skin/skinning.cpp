@@ -9,7 +9,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/skin/thumb_ball.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// Rotation of a point by angle [cos, sin] about a unit axis through a centre (Rodrigues).
@@ -34,7 +34,7 @@ class JointMotion {
         is_at_rest_ = is_at_rest_ && turn_[k] == 0;
       }
     }
-    const Rigid3 full = displacement(1.0);
+    const geometry::Rigid3 full = displacement(1.0);
     full_rotation_ = full.rotation.toRotationMatrix();
     full_translation_ = full.translation;
   }
@@ -56,14 +56,14 @@ class JointMotion {
   }
 
  private:
-  Rigid3 displacement(double weight) const {
+  geometry::Rigid3 displacement(double weight) const {
     if (joint_->id == JointId::kThumbCmc) {
       return cmc_displacement(*skeleton_, {weight * share_.s_fe, weight * share_.s_aa});
     }
-    Rigid3 moved;
+    geometry::Rigid3 moved;
     for (std::size_t k = 0; k < joint_->dofs.size(); ++k) {
       const JointDof& dof = joint_->dofs[k];
-      moved = Rigid3::about_axis(dof.axis, dof.centre, weight * turn_[k]) * moved;
+      moved = geometry::Rigid3::about_axis(dof.axis, dof.centre, weight * turn_[k]) * moved;
     }
     // The hand frame is fixed to the palm: what turns at the wrist is the forearm, the other way.
     return joint_->id == JointId::kWrist ? moved.inverse() : moved;
@@ -157,13 +157,13 @@ std::vector<Vec3> pose_skin_vertices(const Hand& hand, const Posture& posture,
   return posed;
 }
 
-std::vector<TriangleMesh> pose_bones(const Hand& hand, const Posture& posture) {
+std::vector<geometry::TriangleMesh> pose_bones(const Hand& hand, const Posture& posture) {
   const PosedSkeleton posed = pose_skeleton(hand.skeleton, posture);
-  std::vector<TriangleMesh> bones;
+  std::vector<geometry::TriangleMesh> bones;
   bones.reserve(hand.bones.size());
   for (const Bone& bone : hand.bones) {
-    TriangleMesh mesh = bone.mesh;
-    Rigid3 displacement = posed.forearm;
+    geometry::TriangleMesh mesh = bone.mesh;
+    geometry::Rigid3 displacement = posed.forearm;
     if (bone.is_thumb_metacarpal) {
       displacement = posed.thumb_metacarpal;
     } else if (bone.segment) {
@@ -175,4 +175,4 @@ std::vector<TriangleMesh> pose_bones(const Hand& hand, const Posture& posture) {
   return bones;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,7 +7,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Joints from distal to proximal, the order in which they move skin; within a web two fingers' MCP
 /// joints act on the same vertex, one after the other in this order.
@@ -32,6 +32,6 @@ std::vector<Vec3> pose_skin_vertices(const Hand& hand, const Posture& posture,
                                      const std::vector<int>& vertices);
 
 /// Bones of a hand in a posture, in the order of hand.bones.
-std::vector<TriangleMesh> pose_bones(const Hand& hand, const Posture& posture);
+std::vector<geometry::TriangleMesh> pose_bones(const Hand& hand, const Posture& posture);
 
-}  // namespace palmar
+}  // namespace palmar::hand

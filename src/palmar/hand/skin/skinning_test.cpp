@@ -13,7 +13,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -151,4 +151,4 @@ TEST(Skinning, SomeVerticesInAnyOrderGoWhereAllGo) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

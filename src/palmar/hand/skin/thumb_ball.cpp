@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 double kernel(double beta, double squared_distance) { return std::exp(-beta * squared_distance); }
@@ -25,7 +25,8 @@ void ThumbBallOptions::check() const {
   }
 }
 
-ThumbBallCorrection fit_thumb_ball(const TriangleMesh& skin, const ThumbBallMarkers& markers,
+ThumbBallCorrection fit_thumb_ball(const geometry::TriangleMesh& skin,
+                                   const ThumbBallMarkers& markers,
                                    const ThumbBallOptions& options) {
   options.check();
   const std::size_t count = markers.reference.size();
@@ -88,4 +89,4 @@ Vec3 thumb_ball_offset(const ThumbBallCorrection& correction, const Vec3& point,
   return offset;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

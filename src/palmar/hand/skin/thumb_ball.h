@@ -7,7 +7,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// What skinning alone misses at one CMC limit posture: measured minus skinned position of each
 /// marker, mm.
@@ -27,11 +27,12 @@ struct ThumbBallOptions {
 /// Coefficients d_k with which sum_k phi(r_ik) d_k equals the missing displacement at every marker
 /// i (Xie 2014, eq. 2-8 to 2-10). Throws UsageError for unequal counts and NumericalError if
 /// markers coincide.
-ThumbBallCorrection fit_thumb_ball(const TriangleMesh& skin, const ThumbBallMarkers& markers,
+ThumbBallCorrection fit_thumb_ball(const geometry::TriangleMesh& skin,
+                                   const ThumbBallMarkers& markers,
                                    const ThumbBallOptions& options = {});
 
 /// Correction at a point of the reference skin for the given shares of the limit postures, mm.
 Vec3 thumb_ball_offset(const ThumbBallCorrection& correction, const Vec3& point,
                        const CmcShare& share);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using ::testing::HasSubstr;
@@ -54,7 +54,7 @@ TEST(ThumbBall, OneMarkerSpreadsAsAGaussian) {
 }
 
 TEST(ThumbBall, OnlyVerticesWithinReachAreListed) {
-  TriangleMesh skin;
+  geometry::TriangleMesh skin;
   skin.vertices = {{0, 0, 0}, {34, 0, 0}, {60, 0, 0}};
   ThumbBallMarkers markers;
   markers.reference = {{0, 0, 0}};
@@ -78,4 +78,4 @@ TEST(ThumbBall, CoincidingMarkersAndUnequalCountsAreNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

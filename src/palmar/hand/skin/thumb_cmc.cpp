@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 // Active flexion-extension arc 53 degrees (Cooney et al. 1981), shared between the two senses as
@@ -42,8 +42,8 @@ Joint make_cmc_joint(const Vec3& centre, const Vec3& mp, const CmcAxes& axes) {
   // serves.
   const Vec3 along = metacarpal - metacarpal.dot(abduction.axis) * abduction.axis;
   abduction.reference = std::asin(std::clamp(along.normalized().z(), -1.0, 1.0));
-  abduction.lower = std::min(kAdductionDeg * kDegree, abduction.reference);
-  abduction.upper = std::max(kAbductionDeg * kDegree, abduction.reference);
+  abduction.lower = std::min(kAdductionDeg * geometry::kDegree, abduction.reference);
+  abduction.upper = std::max(kAbductionDeg * geometry::kDegree, abduction.reference);
   abduction.source =
       "axis: Mirakhorlo et al. 2016, table 3; range: plane of the palm to anteposition 61.2 deg "
       "(Barakat et al., active, 100 healthy adults)";
@@ -53,8 +53,8 @@ Joint make_cmc_joint(const Vec3& centre, const Vec3& mp, const CmcAxes& axes) {
   flexion.axis = axes.flexion_axis.normalized();
   flexion.centre = centre;
   flexion.reference = 0.0;
-  flexion.lower = -kExtensionDeg * kDegree;
-  flexion.upper = kFlexionDeg * kDegree;
+  flexion.lower = -kExtensionDeg * geometry::kDegree;
+  flexion.upper = kFlexionDeg * geometry::kDegree;
   flexion.source =
       "axis: Mirakhorlo et al. 2016, table 3; range: active arc 53 deg (Cooney et al. 1981), "
       "shared "
@@ -73,4 +73,4 @@ ThumbCmc make_cmc_limits(const Joint& cmc) {
           .adduction = limit_about(abduction, cmc.centre, abduction.lower)};
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

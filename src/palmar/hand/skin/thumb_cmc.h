@@ -4,7 +4,7 @@
 
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// What the saddle joint of a hand without measured limit postures is made from.
 ///
@@ -27,4 +27,4 @@ Joint make_cmc_joint(const Vec3& centre, const Vec3& mp, const CmcAxes& axes = {
 /// Limit postures at the ends of the joint's ranges: rotation about each axis.
 ThumbCmc make_cmc_limits(const Joint& cmc);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -6,7 +6,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 Skeleton skeleton_with_thumb() {
@@ -30,7 +30,7 @@ TEST(ThumbCmc, OneAxisAloneFollowsEquations25And26) {
                {skeleton.thumb_cmc.adduction, 0, -1}};
   for (const auto& one : cases) {
     for (const double s : {0.0, 0.3, 0.7, 1.0}) {
-      const Rigid3 displaced = cmc_displacement(skeleton, {s * one.fe, s * one.aa});
+      const geometry::Rigid3 displaced = cmc_displacement(skeleton, {s * one.fe, s * one.aa});
       // q(s) = slerp(1, q, s), t(s) = s t, about the joint's centre.
       const Vec3 expected =
           c + Quat::Identity().slerp(s, one.limit.q) * (point - c) + s * one.limit.t;
@@ -44,9 +44,9 @@ TEST(ThumbCmc, LimitIsARotationAboutThePublishedAxis) {
   const JointDof& abduction = skeleton.dof(Dof::kThumbCmcAbduction);
   Posture posture = reference_posture(skeleton_with_thumb());
   posture[Dof::kThumbCmcAbduction] = abduction.upper;
-  const Rigid3 displaced = cmc_displacement(skeleton, cmc_share(skeleton, posture));
-  const Rigid3 expected =
-      Rigid3::about_axis(abduction.axis, abduction.centre, abduction.upper - abduction.reference);
+  const geometry::Rigid3 displaced = cmc_displacement(skeleton, cmc_share(skeleton, posture));
+  const geometry::Rigid3 expected = geometry::Rigid3::about_axis(
+      abduction.axis, abduction.centre, abduction.upper - abduction.reference);
   EXPECT_NEAR((displaced * Vec3(45, 59, 34) - expected * Vec3(45, 59, 34)).norm(), 0, 1e-9);
 }
 
@@ -83,4 +83,4 @@ TEST(ThumbCmc, ShareIsOneAtTheLimitsAndZeroAtTheReference) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,9 +7,9 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::hand {
 
-const Rigid3& frame_named(const HandAsset& asset, std::string_view name) {
+const geometry::Rigid3& frame_named(const HandAsset& asset, std::string_view name) {
   for (const HandAsset::Frame& frame : asset.frames) {
     if (frame.name == name) return frame.asset_from_joint;
   }
@@ -17,7 +17,7 @@ const Rigid3& frame_named(const HandAsset& asset, std::string_view name) {
                    std::to_string(asset.frames.size()) + " frames; the generic hand has 25)");
 }
 
-Rigid3 hand_from_asset(const HandAsset& asset) {
+geometry::Rigid3 hand_from_asset(const HandAsset& asset) {
   const Vec3 wrist = frame_named(asset, "wrist").translation;
   const Vec3 index = frame_named(asset, "index-finger-phalanx-proximal").translation;
   const Vec3 middle = frame_named(asset, "middle-finger-phalanx-proximal").translation;
@@ -49,7 +49,7 @@ Rigid3 hand_from_asset(const HandAsset& asset) {
 }
 
 HandAsset in_hand_frame(const HandAsset& asset) {
-  const Rigid3 hand_from = hand_from_asset(asset);
+  const geometry::Rigid3 hand_from = hand_from_asset(asset);
   HandAsset moved = asset;
   for (Vec3& v : moved.skin.vertices) v = hand_from * v;
   for (HandAsset::Frame& frame : moved.frames) {
@@ -78,4 +78,4 @@ Vec3 fingertip(const HandAsset& asset, Finger finger) {
   return best;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -13,7 +13,7 @@
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/hand/template/hand_frame.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// Last two links of each digit: Buchholz in fractions of hand length, Buryanov in mm.
@@ -44,12 +44,12 @@ struct SectionBox {
   std::array<double, 2> lowest{}, highest{};
 };
 
-SectionBox box_round(const TriangleMesh& skin, const Vec3& point, const Vec3& along,
+SectionBox box_round(const geometry::TriangleMesh& skin, const Vec3& point, const Vec3& along,
                      const std::array<Vec3, 2>& directions, const std::string& joint) {
   double nearest = std::numeric_limits<double>::max();
   SectionBox box;
-  for (const SectionCurve& curve : plane_section(skin, point, along)) {
-    const double d = (curve_centre(curve) - point).norm();
+  for (const geometry::SectionCurve& curve : geometry::plane_section(skin, point, along)) {
+    const double d = (geometry::curve_centre(curve) - point).norm();
     if (d >= nearest) continue;
     nearest = d;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -70,8 +70,8 @@ SectionBox box_round(const TriangleMesh& skin, const Vec3& point, const Vec3& al
 
 /// Moves the joint between `before` and `tip` to its share of the way, as deep in the finger as it
 /// was.
-void slide(const TriangleMesh& skin, Rigid3& frame, const Vec3& before, const Vec3& tip,
-           double distal_share, const std::string& joint) {
+void slide(const geometry::TriangleMesh& skin, geometry::Rigid3& frame, const Vec3& before,
+           const Vec3& tip, double distal_share, const std::string& joint) {
   const Vec3 old = frame.translation;
   const double proximal = (old - before).norm(), distal = (tip - old).norm();
   const double shift = distal - distal_share * (proximal + distal);
@@ -110,7 +110,7 @@ HandAsset with_published_links(const HandAsset& asset_in_hand) {
     const std::string before =
         frame_name(finger, is_thumb ? "phalanx-proximal" : "phalanx-intermediate");
     const std::string joint = frame_name(finger, "phalanx-distal");
-    Rigid3 frame = frame_named(asset, joint);
+    geometry::Rigid3 frame = frame_named(asset, joint);
     slide(asset.skin, frame, frame_named(asset, before).translation, fingertip(asset, finger),
           published_distal_share(finger), joint);
     centre_of(asset, joint) = frame.translation;
@@ -123,4 +123,4 @@ HandAsset with_published_links(const HandAsset& asset_in_hand) {
   return asset;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

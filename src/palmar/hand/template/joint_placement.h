@@ -4,7 +4,7 @@
 
 #include "palmar/hand/template/template_hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Share of the distal link in the way from PIP (thumb: MP) joint to fingertip.
 double published_distal_share(Finger finger);
@@ -27,4 +27,4 @@ double published_thumb_metacarpal();
 /// Throws InputError if a frame is missing or the skin has no section at a joint.
 HandAsset with_published_links(const HandAsset& asset_in_hand);
 
-}  // namespace palmar
+}  // namespace palmar::hand

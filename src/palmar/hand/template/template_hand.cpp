@@ -19,7 +19,7 @@
 #include "palmar/hand/template/hand_frame.h"
 #include "palmar/hand/template/template_skeleton.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 void TemplateOptions::check() const {
   if (!(edge_length >= 1.0 && edge_length <= 10.0)) {
@@ -31,16 +31,18 @@ void TemplateOptions::check() const {
 Hand build_template(const HandAsset& asset, const TemplateOptions& options) {
   options.check();
   HandAsset placed = in_hand_frame(asset);
-  placed.skin = weld(placed.skin, {.tolerance = 1e-3}).mesh;
-  require_closed_manifold(placed.skin, "hand asset: skin");
+  placed.skin = geometry::weld(placed.skin, {.tolerance = 1e-3}).mesh;
+  geometry::require_closed_manifold(placed.skin, "hand asset: skin");
 
   Hand hand;
   hand.name = "template";
   hand.side = Side::kRight;
   hand.skeleton = build_skeleton(placed);
   // The asset's edges of 6.7 mm become 1.7 mm, finer than the mesh that is placed over them.
-  const TriangleMesh smooth = subdivide(with_even_cut(placed.skin), {.levels = 2});
-  const TriangleMesh even = remesh(smooth, {.edge_length = options.edge_length}).mesh;
+  const geometry::TriangleMesh smooth =
+      geometry::subdivide(with_even_cut(placed.skin), {.levels = 2});
+  const geometry::TriangleMesh even =
+      geometry::remesh(smooth, {.edge_length = options.edge_length}).mesh;
   SkinPartition partition = partition_skin(even, hand.skeleton);
   hand.skin = std::move(partition.skin);
   hand.segment = std::move(partition.segment);
@@ -53,4 +55,4 @@ Hand build_template(const HandAsset& asset, const TemplateOptions& options) {
   return hand;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -8,7 +8,7 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// What the template is built from: a skin and 25 joint frames as in the WebXR generic hand
 /// (npm package @webxr-input-profiles/assets, MIT): wrist; thumb metacarpal, proximal, distal, tip;
@@ -17,9 +17,9 @@ namespace palmar {
 struct HandAsset {
   struct Frame {
     std::string name;  ///< as in the asset, e.g. "index-finger-phalanx-proximal"
-    Rigid3 asset_from_joint;
+    geometry::Rigid3 asset_from_joint;
   };
-  TriangleMesh skin;  ///< mm, as in the asset (not yet welded)
+  geometry::TriangleMesh skin;  ///< mm, as in the asset (not yet welded)
   std::vector<Frame> frames;
   std::string provenance;
 };
@@ -34,4 +34,4 @@ struct TemplateOptions {
 /// Deterministic. Throws InputError if the asset lacks a frame or its skin is not closed.
 Hand build_template(const HandAsset& asset, const TemplateOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::hand

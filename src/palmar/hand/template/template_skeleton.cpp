@@ -14,7 +14,7 @@
 #include "palmar/hand/template/hand_frame.h"
 #include "palmar/hand/template/joint_placement.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 struct Range {
@@ -61,10 +61,11 @@ JointDof make_dof(Dof dof, const Vec3& axis, const Vec3& centre, double referenc
   result.axis = axis.normalized();
   result.centre = centre;
   result.reference = reference;
-  result.lower = std::min(range.lower_deg * kDegree, reference);
-  result.upper = std::max(range.upper_deg * kDegree, reference);
+  result.lower = std::min(range.lower_deg * geometry::kDegree, reference);
+  result.upper = std::max(range.upper_deg * geometry::kDegree, reference);
   result.source = axis_source + "; " + range.source;
-  if (result.lower < range.lower_deg * kDegree || result.upper > range.upper_deg * kDegree) {
+  if (result.lower < range.lower_deg * geometry::kDegree ||
+      result.upper > range.upper_deg * geometry::kDegree) {
     result.source += ", widened to the template's posture";
   }
   return result;
@@ -74,14 +75,14 @@ constexpr const char* kFrameAxis = "axis: joint frame of the template asset";
 
 /// Flexion axis of a joint: -x of the frame of the bone distal to it, made perpendicular to that
 /// bone.
-Vec3 flexion_axis(const Rigid3& frame, const Vec3& bone) {
+Vec3 flexion_axis(const geometry::Rigid3& frame, const Vec3& bone) {
   const Vec3 axis = frame.rotation * -Vec3::UnitX();
   const Vec3 along = bone.normalized();
   return (axis - axis.dot(along) * along).normalized();
 }
 
-Joint hinge(JointId id, Dof dof, const Rigid3& frame, const Vec3& proximal, const Vec3& distal,
-            const Range& range) {
+Joint hinge(JointId id, Dof dof, const geometry::Rigid3& frame, const Vec3& proximal,
+            const Vec3& distal, const Range& range) {
   const Vec3 centre = frame.translation;
   const Vec3 axis = flexion_axis(frame, distal - centre);
   const double reference = angle_about(axis, centre - proximal, distal - centre);
@@ -93,8 +94,8 @@ Joint hinge(JointId id, Dof dof, const Rigid3& frame, const Vec3& proximal, cons
 void add_finger(Skeleton& skeleton, const HandAsset& asset, Finger finger) {
   const auto frame = [&](const char* bone) { return frame_named(asset, frame_name(finger, bone)); };
   const Vec3 base = frame("metacarpal").translation;
-  const Rigid3 mcp = frame("phalanx-proximal"), pip = frame("phalanx-intermediate"),
-               dip = frame("phalanx-distal"), tip = frame("tip");
+  const geometry::Rigid3 mcp = frame("phalanx-proximal"), pip = frame("phalanx-intermediate"),
+                         dip = frame("phalanx-distal"), tip = frame("tip");
   const int f = static_cast<int>(finger);
   const auto range_index = f - 1;
   const int first_joint = static_cast<int>(JointId::kIndexMcp) + 3 * (f - 1);
@@ -108,8 +109,8 @@ void add_finger(Skeleton& skeleton, const HandAsset& asset, Finger finger) {
   const double flexion_reference = angle_about(flexion, metacarpal, phalanx);
   const double abduction_reference = angle_about(abduction, metacarpal, phalanx);
   Range abduction_range = kMcpAbduction[range_index];
-  abduction_range.lower_deg += abduction_reference / kDegree;
-  abduction_range.upper_deg += abduction_reference / kDegree;
+  abduction_range.lower_deg += abduction_reference / geometry::kDegree;
+  abduction_range.upper_deg += abduction_reference / geometry::kDegree;
 
   Joint joint{static_cast<JointId>(first_joint), mcp.translation, {}};
   joint.dofs.push_back(make_dof(static_cast<Dof>(first_dof + 1), abduction, mcp.translation,
@@ -130,7 +131,7 @@ void add_thumb(Skeleton& skeleton, const HandAsset& asset) {
     return frame_named(asset, frame_name(Finger::kThumb, bone));
   };
   const Vec3 cmc = frame("metacarpal").translation;
-  const Rigid3 mp = frame("phalanx-proximal"), ip = frame("phalanx-distal");
+  const geometry::Rigid3 mp = frame("phalanx-proximal"), ip = frame("phalanx-distal");
   const Vec3 tip = frame("tip").translation;
   Joint joint = make_cmc_joint(cmc, mp.translation);
   skeleton.thumb_cmc = make_cmc_limits(joint);
@@ -168,4 +169,4 @@ Skeleton build_skeleton(const HandAsset& asset_in_hand) {
   return skeleton;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -4,7 +4,7 @@
 
 #include "palmar/hand/template/template_hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Skeleton with 23 degrees of freedom from joint frames and skin in the hand frame.
 ///
@@ -19,4 +19,4 @@ namespace palmar {
 /// Throws InputError naming the frame if one is missing.
 Skeleton build_skeleton(const HandAsset& asset_in_hand);
 
-}  // namespace palmar
+}  // namespace palmar::hand

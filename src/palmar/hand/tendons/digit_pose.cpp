@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/hand/tendons/digit_pose.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr double kStep = 1e-4;  // rad; error of the difference below 1e-8, rounding below 1e-9
 
-Twist hinge(const JointDof& dof, const Rigid3& proximal) {
+Twist hinge(const JointDof& dof, const geometry::Rigid3& proximal) {
   const Vec3 axis = proximal.rotation * dof.axis;
   return {axis, -axis.cross(proximal * dof.centre)};
 }
@@ -16,8 +16,8 @@ Twist rate_of_cmc(const Skeleton& skeleton, const Posture& posture, Dof dof) {
   Posture plus = posture, minus = posture;
   plus[dof] += kStep;
   minus[dof] -= kStep;
-  const Rigid3 after = cmc_displacement(skeleton, cmc_share(skeleton, plus));
-  const Rigid3 before = cmc_displacement(skeleton, cmc_share(skeleton, minus));
+  const geometry::Rigid3 after = cmc_displacement(skeleton, cmc_share(skeleton, plus));
+  const geometry::Rigid3 before = cmc_displacement(skeleton, cmc_share(skeleton, minus));
   const Eigen::AngleAxisd turn(after.rotation * before.rotation.conjugate());
   const Vec3 omega = turn.angle() * turn.axis() / (2.0 * kStep);
   const Vec3 middle = 0.5 * (after.translation + before.translation);
@@ -35,7 +35,7 @@ PosedDigit pose_digit(const Skeleton& skeleton, Finger finger, const Posture& po
   digit.finger = finger;
   std::size_t k = 0;
   int body = 0;
-  Rigid3 displacement;
+  geometry::Rigid3 displacement;
   if (finger == Finger::kThumb) {
     displacement = cmc_displacement(skeleton, cmc_share(skeleton, posture));
     for (const Dof dof : {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction}) {
@@ -91,4 +91,4 @@ Finger finger_of(Dof dof) {
 
 bool is_flexion(Dof dof) { return name_of(dof).ends_with("flexion"); }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,7 +7,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/skeleton.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Four degrees of freedom in every digit.
 inline constexpr int kDigitDofs = 4;
@@ -30,10 +30,10 @@ struct Twist {
 /// One digit in a posture, hand frame.
 struct PosedDigit {
   Finger finger = Finger::kIndex;
-  std::array<Rigid3, kDigitBodies> body;  ///< posed_from_reference
-  std::array<Dof, kDigitDofs> dof{};      ///< from the palm outwards
-  std::array<Twist, kDigitDofs> twist;    ///< of everything that the angle moves
-  std::array<int, kDigitDofs> moves{};    ///< bodies from this one on move with the angle
+  std::array<geometry::Rigid3, kDigitBodies> body;  ///< posed_from_reference
+  std::array<Dof, kDigitDofs> dof{};                ///< from the palm outwards
+  std::array<Twist, kDigitDofs> twist;              ///< of everything that the angle moves
+  std::array<int, kDigitDofs> moves{};              ///< bodies from this one on move with the angle
 
   Vec3 place(int b, const Vec3& reference_point) const { return body[b] * reference_point; }
   /// Velocity of a posed point of a body per radian of the k-th angle.
@@ -60,4 +60,4 @@ Finger finger_of(Dof dof);
 /// The digit's body on which a segment's skin lies; the palm: 0.
 int body_of(Segment segment);
 
-}  // namespace palmar
+}  // namespace palmar::hand

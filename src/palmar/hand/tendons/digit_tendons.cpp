@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/hand/tendons/thumb_tendons.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// Where a tendon is held beside a joint: multiples of the middle phalanx' link O2O3, in the frames
@@ -222,4 +222,4 @@ std::vector<std::array<double, kDigitDofs>> moment_arms(const DigitTendons& tend
   return arms;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

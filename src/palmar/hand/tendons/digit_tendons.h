@@ -9,7 +9,7 @@
 #include "palmar/hand/tendons/tendon.h"
 #include "palmar/hand/tendons/tendon_path.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// What share of a muscle's force the extensor hood hands on to the central slip (ES) and to the
 /// radial and ulnar lateral bands (RB, UB); the rest pulls at the proximal phalanx.
@@ -68,4 +68,4 @@ DigitTendons route_tendons(const Hand& hand, Finger finger, const TendonModel& m
 std::vector<std::array<double, kDigitDofs>> moment_arms(const DigitTendons& tendons,
                                                         const PosedDigit& digit);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -9,7 +9,7 @@
 #include "palmar/hand/mirror.h"
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using effort_test::kFingers;
@@ -208,4 +208,4 @@ TEST(Tendon, StrengthIsThatOfPublishedModels) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -5,7 +5,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 // mm, in the order of tendons_of(): FDP, FDS, EDC (index to little finger's of Lee et al. 2015),
@@ -20,8 +20,8 @@ constexpr double kThumbFibres[8] = {55.2, 41.5, 41.6, 35.5, 34.0, 54.0, 67.5, 71
 // People's thumbs over what the tendons of the one specimen give at the cross-sections of others:
 // 104 N flexing the proximal phalanx (Li, Harkness 2004) over 37 N. See docs/method/strength.md.
 constexpr double kThumbScale = 2.8;
-constexpr std::array<double, kDigitDofs> kFingerFunction = {45.0 * kDegree, 0.0, 45.0 * kDegree,
-                                                            25.0 * kDegree};
+constexpr std::array<double, kDigitDofs> kFingerFunction = {
+    45.0 * geometry::kDegree, 0.0, 45.0 * geometry::kDegree, 25.0 * geometry::kDegree};
 
 Posture position_of_function(const Skeleton& skeleton, Finger finger) {
   Posture posture = reference_posture(skeleton);
@@ -144,4 +144,4 @@ MuscleProblem problem_of(std::span<const DigitMuscles> digits, const WristMuscle
   return problem;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -11,7 +11,7 @@
 #include "palmar/hand/tendons/muscle_balance.h"
 #include "palmar/hand/tendons/wrist_muscles.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 struct MuscleModel {
   TendonModel tendons{};
@@ -92,4 +92,4 @@ MuscleProblem problem_of(const DigitMuscles& muscles, const DigitLoad& load, dou
 MuscleProblem problem_of(std::span<const DigitMuscles> digits, const WristMuscles& wrist,
                          const HandLoad& load, double strength, int exponent = 3);
 
-}  // namespace palmar
+}  // namespace palmar::hand

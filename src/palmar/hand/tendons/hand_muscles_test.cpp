@@ -8,7 +8,7 @@
 
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using effort_test::plain_hand;
@@ -52,7 +52,7 @@ TEST(HandMuscles, AreWeakerAwayFromThereByWhatTheirFibresLengthen) {
   const DigitMuscles turned = muscles.in(kTried, posture_of(kTried, 45, 45, 35));
   const double way =
       0.5 * (turned.arm[0][3] + muscles.in(kTried, posture_of(kTried, 45, 45, 25)).arm[0][3]) *
-      10.0 * kDegree;
+      10.0 * geometry::kDegree;
   EXPECT_NEAR(strength_of(turned, Tendon::kFdp), best * std::exp(-std::pow(way / 83.5, 2) / 0.45),
               2e-4 * best);
   EXPECT_NEAR(strength_of(turned, Tendon::kFds),
@@ -85,4 +85,4 @@ TEST(ProblemOf, AsksMusclesForWhatLoadAndLigamentsLeave) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

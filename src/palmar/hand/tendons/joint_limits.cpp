@@ -8,17 +8,19 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 // Deshpande et al. 2012, subject M2: N mm, 1/rad, rad.
-constexpr double kOpening = 12.7, kOpeningRate = 0.031 / kDegree, kOpeningFrom = 47.39 * kDegree;
-constexpr double kClosing = 18.3, kClosingRate = 0.07 / kDegree, kClosingFrom = 58.97 * kDegree;
-constexpr double kIndexMcpEnd = 84.7 * kDegree;  // Latz et al. 2019
+constexpr double kOpening = 12.7, kOpeningRate = 0.031 / geometry::kDegree,
+                 kOpeningFrom = 47.39 * geometry::kDegree;
+constexpr double kClosing = 18.3, kClosingRate = 0.07 / geometry::kDegree,
+                 kClosingFrom = 58.97 * geometry::kDegree;
+constexpr double kIndexMcpEnd = 84.7 * geometry::kDegree;  // Latz et al. 2019
 
 constexpr double kDipPerPip = 2.0 / 3.0;
-constexpr double kCouplingFree = 10.0 * kDegree;  // rad
-constexpr double kCouplingStiffness = 1500.0;     // N mm/rad
+constexpr double kCouplingFree = 10.0 * geometry::kDegree;  // rad
+constexpr double kCouplingStiffness = 1500.0;               // N mm/rad
 
 // In the order of the digit's angles.
 constexpr Eigen::Index kMcp = 0, kPip = 2, kDip = 3;
@@ -66,4 +68,4 @@ int stop_of(const Skeleton& skeleton, Dof which, const Posture& posture, const J
   return 0;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

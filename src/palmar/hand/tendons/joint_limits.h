@@ -7,7 +7,7 @@
 
 #include "palmar/hand/tendons/digit_pose.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// How far muscles and product can bend a finger beyond its active range, at most; the passive
 /// moment there is half of what muscles can give. rad; our choice.
@@ -43,4 +43,4 @@ struct JointStops {
 /// upper end of a finger's flexion is no stop: passive_moments() rise there.
 int stop_of(const Skeleton& skeleton, Dof which, const Posture& posture, const JointStops& stops);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -9,7 +9,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using effort_test::plain_hand;
@@ -57,8 +57,8 @@ TEST(PassiveMoments, CouplingPullsBothJointsTogether) {
   // DIP 25 degrees beyond 2/3 of PIP: 15 beyond what is free.
   const PassiveMoments passive =
       passive_moments(hand.skeleton, kBent, posture_of(kBent, 45, 30, 45));
-  EXPECT_NEAR(passive.moment[3], -1500.0 * 15.0 * kDegree, 1e-9);
-  EXPECT_NEAR(passive.moment[2], 1000.0 * 15.0 * kDegree, 1e-9);
+  EXPECT_NEAR(passive.moment[3], -1500.0 * 15.0 * geometry::kDegree, 1e-9);
+  EXPECT_NEAR(passive.moment[2], 1000.0 * 15.0 * geometry::kDegree, 1e-9);
 }
 
 TEST(JointStops, HoldAnglesAtTheirEnds) {
@@ -71,10 +71,10 @@ TEST(JointStops, HoldAnglesAtTheirEnds) {
   EXPECT_EQ(stop(Dof::kIndexMcpAbduction, posture_of(kBent, 30, 0, 0, 30)), -1);
   EXPECT_EQ(stop(Dof::kIndexMcpAbduction, posture_of(kBent, 61, 0, 0)), 2);
   Posture thumb;
-  thumb[Dof::kThumbIpFlexion] = 80 * kDegree;
+  thumb[Dof::kThumbIpFlexion] = 80 * geometry::kDegree;
   EXPECT_EQ(stop(Dof::kThumbIpFlexion, thumb), -1);
   EXPECT_EQ(stop_of(hand.skeleton, Dof::kThumbIpFlexion, thumb, {.is_on = false}), 0);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using Eigen::MatrixXd;
@@ -322,4 +322,4 @@ double least_strength_share(const MuscleProblem& problem, double negligible) {
   return high;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

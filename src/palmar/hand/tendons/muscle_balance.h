@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Which muscles hold a digit against given moments: with activations a (share of strength),
 ///
@@ -65,4 +65,4 @@ bool is_enough(const MuscleSolution& solution, double negligible);
 /// balance_muscles().
 double least_strength_share(const MuscleProblem& problem, double negligible);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using Eigen::MatrixXd;
@@ -227,4 +227,4 @@ TEST(BalanceMuscles, LeavesTheCheaperAxisShort) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -7,7 +7,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 constexpr int kTendonCount = 14;
@@ -75,4 +75,4 @@ double cross_section_of(Finger finger, Tendon tendon) {
               std::string(name_of(finger)));
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

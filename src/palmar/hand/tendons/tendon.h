@@ -10,7 +10,7 @@
 
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// The muscles of a digit by their usual abbreviations; one tendon each.
 enum class Tendon : std::uint8_t {
@@ -47,4 +47,4 @@ double cross_section_of(Finger finger, Tendon tendon);
 /// N/cm^2 are in use.
 constexpr double kSpecificTension = 0.45;
 
-}  // namespace palmar
+}  // namespace palmar::hand

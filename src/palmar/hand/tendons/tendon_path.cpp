@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// A posed span: straight from a to b, or from a to t1, round the cylinder to t2, and on to b.
@@ -46,7 +46,7 @@ Course course_of(const TendonSpan& span, const PosedDigit& digit) {
   if (!span.cylinder) return course;
 
   const TendonCylinder& cylinder = *span.cylinder;
-  const Rigid3& posed = digit.body[cylinder.body];
+  const geometry::Rigid3& posed = digit.body[cylinder.body];
   const Vec3 centre = posed * cylinder.centre, u = posed.rotation * cylinder.axis;
   const Vec3 e1 = u.unitOrthogonal(), e2 = u.cross(e1);
   const auto in_plane = [&](const Vec3& x) {
@@ -125,4 +125,4 @@ std::array<double, kDigitDofs> moment_arms(const TendonPath& path, const PosedDi
   return arms;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -8,7 +8,7 @@
 
 #include "palmar/hand/tendons/digit_pose.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// A point of a tendon that is held by a bone (insertion, pulley, edge of the hood); hand frame,
 /// reference posture, mm.
@@ -50,4 +50,4 @@ double path_length(const TendonPath& path, const PosedDigit& digit);
 /// 2013).
 std::array<double, kDigitDofs> moment_arms(const TendonPath& path, const PosedDigit& digit);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -10,7 +10,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using effort_test::kFingers;
@@ -80,10 +80,11 @@ TEST(TendonPath, FlexorKeepsItsLargestArmInDeepFlexion) {
                             TendonCylinder{0, Vec3::Zero(), Vec3::UnitX(), 1.0, -1.0},
                             1.0}};
   const double length = std::sqrt(75.0);  // of the chord there
-  EXPECT_NEAR(path_length(path, hinge_digit(120.0 * kDegree)), length, 1e-9);
-  EXPECT_NEAR(moment_arms(path, hinge_digit(119.9 * kDegree))[0], 5.0, 1e-4);
-  EXPECT_NEAR(moment_arms(path, hinge_digit(150.0 * kDegree))[0], 5.0, 1e-12);
-  EXPECT_NEAR(path_length(path, hinge_digit(150.0 * kDegree)), length - 5.0 * 30.0 * kDegree, 1e-9);
+  EXPECT_NEAR(path_length(path, hinge_digit(120.0 * geometry::kDegree)), length, 1e-9);
+  EXPECT_NEAR(moment_arms(path, hinge_digit(119.9 * geometry::kDegree))[0], 5.0, 1e-4);
+  EXPECT_NEAR(moment_arms(path, hinge_digit(150.0 * geometry::kDegree))[0], 5.0, 1e-12);
+  EXPECT_NEAR(path_length(path, hinge_digit(150.0 * geometry::kDegree)),
+              length - 5.0 * 30.0 * geometry::kDegree, 1e-9);
 }
 
 TEST(TendonPath, RunsAsAHelixAcrossTheCylinder) {
@@ -164,4 +165,4 @@ TEST(DigitPose, TwistsAreTheRatesOfPoints) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -13,7 +13,7 @@
 #include "palmar/hand/tendons/digit_pose.h"
 #include "palmar/hand/tendons/digit_tendons.h"
 
-namespace palmar::effort_test {
+namespace palmar::hand::effort_test {
 
 /// Middle phalanx link of the fingers that Synek et al. 2019 tested, mm.
 inline constexpr double kLink = 23.63;
@@ -24,8 +24,8 @@ inline JointDof hinge(Dof dof, const Vec3& axis, const Vec3& centre, double lowe
   result.dof = dof;
   result.axis = axis.normalized();
   result.centre = centre;
-  result.lower = lower * kDegree;
-  result.upper = upper * kDegree;
+  result.lower = lower * geometry::kDegree;
+  result.upper = upper * geometry::kDegree;
   return result;
 }
 
@@ -74,7 +74,8 @@ inline Hand plain_hand(double scale = 1.0) {
                                     hinge(Dof::kThumbCmcFlexion, {-0.27, -0.64, 0.72},
                                           joint(JointId::kThumbCmc).centre, -25, 25)};
   const auto turned = [](const Vec3& axis, double angle) {
-    return CmcLimit{Quat(Eigen::AngleAxisd(angle * kDegree, axis.normalized())), Vec3::Zero()};
+    return CmcLimit{Quat(Eigen::AngleAxisd(angle * geometry::kDegree, axis.normalized())),
+                    Vec3::Zero()};
   };
   skeleton.thumb_cmc = {turned({-0.27, -0.64, 0.72}, 25), turned({-0.27, -0.64, 0.72}, -25),
                         turned({0.78, -0.61, -0.13}, 30), turned({0.78, -0.61, -0.13}, -30)};
@@ -107,10 +108,10 @@ inline int vertex_of(Segment segment) { return static_cast<int>(segment) - 1; }
 
 inline Posture posture_of(Finger finger, double mcp, double pip, double dip, double abduction = 0) {
   Posture posture;
-  posture[dof_of(finger, "mcp_flexion")] = mcp * kDegree;
-  posture[dof_of(finger, "mcp_abduction")] = abduction * kDegree;
-  posture[dof_of(finger, "pip_flexion")] = pip * kDegree;
-  posture[dof_of(finger, "dip_flexion")] = dip * kDegree;
+  posture[dof_of(finger, "mcp_flexion")] = mcp * geometry::kDegree;
+  posture[dof_of(finger, "mcp_abduction")] = abduction * geometry::kDegree;
+  posture[dof_of(finger, "pip_flexion")] = pip * geometry::kDegree;
+  posture[dof_of(finger, "dip_flexion")] = dip * geometry::kDegree;
   return posture;
 }
 
@@ -128,4 +129,4 @@ inline Posture random_posture(const Skeleton& skeleton, Finger finger, std::mt19
 inline constexpr std::array<Finger, kFingerCount> kFingers = {
     Finger::kThumb, Finger::kIndex, Finger::kMiddle, Finger::kRing, Finger::kLittle};
 
-}  // namespace palmar::effort_test
+}  // namespace palmar::hand::effort_test

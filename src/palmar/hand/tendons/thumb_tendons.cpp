@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// A point of the tables (X radial, Y proximal, Z dorsal; mm) in the hand frame's directions.
@@ -192,4 +192,4 @@ DigitTendons route_thumb_tendons(const Hand& hand) {
   return tendons;
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

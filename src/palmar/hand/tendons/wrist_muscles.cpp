@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 /// Arms in mm; flexion and radial deviation are positive.
@@ -45,7 +45,7 @@ double size_of(const Hand& hand) {
 }  // namespace
 
 void WristPosture::check() const {
-  const double asked[2] = {flexion / kDegree, deviation / kDegree};
+  const double asked[2] = {flexion / geometry::kDegree, deviation / geometry::kDegree};
   constexpr const char* kNames[2] = {"flexion", "radial deviation"};
   for (int k = 0; k < 2; ++k) {
     if (asked[k] >= kLowest[k] - 1e-9 && asked[k] <= kHighest[k] + 1e-9) continue;
@@ -117,4 +117,4 @@ double wrist_moment(const Hand& hand, const Vec3& force, const Vec3& point, cons
   return about.dot(hand.skeleton.dof(Dof::kWristFlexion).axis);
 }
 
-}  // namespace palmar
+}  // namespace palmar::hand

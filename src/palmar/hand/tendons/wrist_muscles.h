@@ -9,7 +9,7 @@
 #include "palmar/hand/hand.h"
 #include "palmar/hand/tendons/tendon.h"
 
-namespace palmar {
+namespace palmar::hand {
 
 /// Flexion and radial deviation of the hand against the forearm, in this order; mm.
 using WristVector = Eigen::Vector2d;
@@ -67,4 +67,4 @@ double wrist_moment(const Hand& hand, const Vec3& force, const Vec3& point,
 /// the fibre length over the best one.
 double force_length(double stretch, double best_length);
 
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -13,14 +13,14 @@
 #include "palmar/hand/tendons/hand_muscles.h"
 #include "palmar/hand/tendons/tendon_test_hand.h"
 
-namespace palmar {
+namespace palmar::hand {
 namespace {
 
 using effort_test::plain_hand;
 using effort_test::posture_of;
 
 WristPosture at(double flexion, double deviation = 0.0) {
-  return {flexion * kDegree, deviation * kDegree};
+  return {flexion * geometry::kDegree, deviation * geometry::kDegree};
 }
 
 /// Largest moment about a wrist axis of all muscles that pull in that sense, wrist's and digits'.
@@ -148,4 +148,4 @@ TEST(WristPosture, SaysWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::hand

@@ -16,7 +16,7 @@
 #include "palmar/geometry/repair/self_intersection.h"
 #include "palmar/geometry/repair/weld.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kWidestGrip = 110.0;      // mm
@@ -27,12 +27,12 @@ constexpr double kLowShare = 1e-6;         // of the diagonal: height of a trian
 constexpr double kFlattestShare = 1e-3;    // volume / (area * size) below which nothing is enclosed
 
 /// Sides of the box along the principal directions of the surface, ascending.
-Vec3 principal_extent(const TriangleMesh& mesh) {
+Vec3 principal_extent(const geometry::TriangleMesh& mesh) {
   Vec3 mean = Vec3::Zero();
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const double w = triangle_area(a, b, c);
+    const double w = geometry::triangle_area(a, b, c);
     mean += w * (a + b + c) / 3.0;
     area += w;
   }
@@ -42,7 +42,7 @@ Vec3 principal_extent(const TriangleMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     const Vec3 x = (a + b + c) / 3.0 - mean;
-    covariance += triangle_area(a, b, c) * x * x.transpose();
+    covariance += geometry::triangle_area(a, b, c) * x * x.transpose();
   }
   const Eigen::Matrix3d axes =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
@@ -53,8 +53,8 @@ Vec3 principal_extent(const TriangleMesh& mesh) {
   return extent;
 }
 
-int count_tiny_parts(const TriangleMesh& mesh, const std::vector<int>& component, int parts,
-                     double diagonal) {
+int count_tiny_parts(const geometry::TriangleMesh& mesh, const std::vector<int>& component,
+                     int parts, double diagonal) {
   std::vector<Box3> boxes(parts);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (component[t] < 0) continue;
@@ -65,7 +65,7 @@ int count_tiny_parts(const TriangleMesh& mesh, const std::vector<int>& component
   }));
 }
 
-void judge(ProductCheck& c, const OrientResult& oriented) {
+void judge(ProductCheck& c, const geometry::OrientResult& oriented) {
   const auto add = [&](Severity severity, const std::string& text) {
     c.findings.push_back({severity, text});
   };
@@ -168,47 +168,48 @@ std::vector<int> bodies_of_triangles(const ProductFaces& faces) {
   return bodies;
 }
 
-ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings,
+ProductCheck check_mesh(const geometry::TriangleMesh& mesh, bool looks_for_crossings,
                         const std::vector<int>& bodies) {
   ProductCheck c;
-  const TriangleMesh welded = weld(mesh, {.drops_duplicates = false, .groups = bodies}).mesh;
-  c.duplicate_triangles = weld(mesh, {.groups = bodies}).dropped_duplicate;
+  const geometry::TriangleMesh welded =
+      geometry::weld(mesh, {.drops_duplicates = false, .groups = bodies}).mesh;
+  c.duplicate_triangles = geometry::weld(mesh, {.groups = bodies}).dropped_duplicate;
   c.triangles = welded.triangle_count();
   c.vertices = welded.vertex_count();
-  c.area = surface_area(welded);
+  c.area = geometry::surface_area(welded);
   if (welded.triangles.empty() || !(c.area > 0.0)) {
     c.findings.push_back({Severity::kError, "no triangles with an area"});
     c.verdict = Severity::kError;
     return c;
   }
-  const MeshTopology topology = build_topology(welded);
-  const TopologyReport report = examine_topology(welded, topology);
+  const geometry::MeshTopology topology = geometry::build_topology(welded);
+  const geometry::TopologyReport report = geometry::examine_topology(welded, topology);
   c.parts = report.components;
   c.boundary_edges = report.boundary_edges;
   c.holes = report.boundary_loops;
-  for (const BoundaryLoop& loop : find_boundary_loops(welded, topology).loops) {
+  for (const geometry::BoundaryLoop& loop : geometry::find_boundary_loops(welded, topology).loops) {
     c.hole_perimeters.push_back(loop.perimeter);
   }
   c.non_manifold_edges = report.non_manifold_edges;
   c.euler_number = report.euler_number;
   c.is_closed = report.is_closed;
-  c.volume = signed_volume(welded);
+  c.volume = geometry::signed_volume(welded);
   c.is_inverted = c.is_closed && c.volume < 0.0;
-  c.size = bounding_box(welded).sizes();
+  c.size = geometry::bounding_box(welded).sizes();
   c.extent = principal_extent(welded);
   c.is_too_big = c.extent.x() > kWidestGrip;
   c.is_too_small = c.extent.z() < kShortestProduct || c.extent.y() < kThinnestHandle;
   c.low_triangles = static_cast<int>(
       std::count_if(welded.triangles.begin(), welded.triangles.end(), [&](const Triangle& t) {
-        return least_height(welded.vertices[t[0]], welded.vertices[t[1]], welded.vertices[t[2]]) <=
-               kLowShare * c.size.norm();
+        return geometry::least_height(welded.vertices[t[0]], welded.vertices[t[1]],
+                                      welded.vertices[t[2]]) <= kLowShare * c.size.norm();
       }));
-  c.tiny_parts =
-      count_tiny_parts(welded, triangle_components(welded, topology), c.parts, c.size.norm());
+  c.tiny_parts = count_tiny_parts(welded, geometry::triangle_components(welded, topology), c.parts,
+                                  c.size.norm());
   if (looks_for_crossings) {
-    c.crossing_pairs = static_cast<int>(find_self_crossings(welded).size());
+    c.crossing_pairs = static_cast<int>(geometry::find_self_crossings(welded).size());
   }
-  const OrientResult oriented = orient_outwards(welded);
+  const geometry::OrientResult oriented = geometry::orient_outwards(welded);
   c.flipped_patches = oriented.flipped_patches + oriented.repaired_patches;
   c.flipped_triangles = static_cast<int>(oriented.flipped_triangles.size());
   c.undecided_patches = oriented.undecided_patches;
@@ -226,4 +227,4 @@ ProductCheck check_product(const Product& product) {
   return c;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -8,7 +8,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::product {
 
 enum class Severity {
   kOk,       ///< as it should be
@@ -63,10 +63,10 @@ std::vector<int> bodies_of_triangles(const ProductFaces& faces);
 /// span from thumb to fingertips, both curled), the thinnest handle that a closed fist holds 4 mm.
 /// Crossing triangles take by far the longest to find and may be left out. `bodies`, per triangle,
 /// are those of a CAD model (bodies_of_triangles()); they don't grow together where they touch.
-ProductCheck check_mesh(const TriangleMesh& mesh, bool looks_for_crossings = true,
+ProductCheck check_mesh(const geometry::TriangleMesh& mesh, bool looks_for_crossings = true,
                         const std::vector<int>& bodies = {});
 
 /// The same for a product, whose notes (repairs, unit) are added as findings.
 ProductCheck check_product(const Product& product);
 
-}  // namespace palmar
+}  // namespace palmar::product

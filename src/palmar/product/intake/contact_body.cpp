@@ -19,7 +19,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/rotation.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr int kSkyDirections = 48;
@@ -42,7 +42,7 @@ std::array<Vec3, kSkyDirections> hemisphere() {
 /// Looks at a product from its own surface.
 class Surroundings {
  public:
-  Surroundings(const TriangleMesh& mesh, const ContactBodyOptions& options)
+  Surroundings(const geometry::TriangleMesh& mesh, const ContactBodyOptions& options)
       : mesh_(mesh), options_(options), rays_(mesh), directions_(hemisphere()) {
     Box3 box;
     for (const Vec3& vertex : mesh.vertices) box.extend(vertex);
@@ -53,7 +53,7 @@ class Surroundings {
   double sky(int triangle) const {
     const std::optional<Vec3> normal = normal_of(triangle);
     if (!normal) return 1.0;
-    const Quat turned = shortest_rotation(Vec3::UnitZ(), *normal);
+    const Quat turned = geometry::shortest_rotation(Vec3::UnitZ(), *normal);
     const Vec3 from = middle(triangle) + off_ * *normal;
     int free = 0;
     for (const Vec3& direction : directions_) {
@@ -98,22 +98,22 @@ class Surroundings {
     return normal / length;
   }
 
-  const TriangleMesh& mesh_;
+  const geometry::TriangleMesh& mesh_;
   const ContactBodyOptions& options_;
-  RayQuery rays_;
+  geometry::RayQuery rays_;
   std::array<Vec3, kSkyDirections> directions_;
   double off_ = 0.0;
 };
 
 /// Triangles spread evenly over the area.
-std::vector<int> probes_of(const TriangleMesh& mesh) {
-  const double step = surface_area(mesh) / kProbes;
+std::vector<int> probes_of(const geometry::TriangleMesh& mesh) {
+  const double step = geometry::surface_area(mesh) / kProbes;
   std::vector<int> probes;
   double passed = 0.0, next = 0.5 * step;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Triangle& corners = mesh.triangles[t];
-    passed += triangle_area(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
-                            mesh.vertices[corners[2]]);
+    passed += geometry::triangle_area(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
+                                      mesh.vertices[corners[2]]);
     if (passed < next) continue;
     probes.push_back(t);
     while (next <= passed) next += step;
@@ -121,7 +121,7 @@ std::vector<int> probes_of(const TriangleMesh& mesh) {
   return probes;
 }
 
-bool has_cavity(const Surroundings& surroundings, const TriangleMesh& mesh,
+bool has_cavity(const Surroundings& surroundings, const geometry::TriangleMesh& mesh,
                 const ContactBodyOptions& options) {
   const std::vector<int> probes = probes_of(mesh);
   std::vector<char> is_in_one(probes.size(), 0);
@@ -133,7 +133,7 @@ bool has_cavity(const Surroundings& surroundings, const TriangleMesh& mesh,
 }
 
 /// Grows `is_dropped` over neighbours that may belong to the cavity, too.
-void spread(const MeshTopology& topology, const std::vector<char>& may_belong,
+void spread(const geometry::MeshTopology& topology, const std::vector<char>& may_belong,
             std::vector<char>& is_dropped) {
   std::vector<int> waiting;
   for (std::size_t t = 0; t < is_dropped.size(); ++t) {
@@ -154,7 +154,7 @@ void spread(const MeshTopology& topology, const std::vector<char>& may_belong,
 }
 
 /// Evens out the border of what is dropped: the share of sky is an estimate.
-void even_out(const MeshTopology& topology, std::vector<char>& is_dropped) {
+void even_out(const geometry::MeshTopology& topology, std::vector<char>& is_dropped) {
   constexpr int kRounds = 6;
   for (int round = 0; round < kRounds; ++round) {
     const std::vector<char> before = is_dropped;
@@ -174,8 +174,8 @@ void even_out(const MeshTopology& topology, std::vector<char>& is_dropped) {
 
 /// Regions of a kind (dropped or not) that are smaller than a fingertip change sides: specks of a
 /// rough scan are no cavity, and what stands alone in a cavity doesn't matter.
-void absorb_specks(const TriangleMesh& mesh, const MeshTopology& topology, char kind,
-                   std::vector<char>& is_dropped) {
+void absorb_specks(const geometry::TriangleMesh& mesh, const geometry::MeshTopology& topology,
+                   char kind, std::vector<char>& is_dropped) {
   constexpr double kSmallest = 200.0;  // mm^2
   std::vector<char> was_seen(is_dropped.size(), 0);
   for (std::size_t first = 0; first < is_dropped.size(); ++first) {
@@ -187,8 +187,8 @@ void absorb_specks(const TriangleMesh& mesh, const MeshTopology& topology, char 
     for (std::size_t next = 0; next < region.size(); ++next) {
       const std::size_t t = region[next];
       const Triangle& corners = mesh.triangles[t];
-      area += triangle_area(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
-                            mesh.vertices[corners[2]]);
+      area += geometry::triangle_area(mesh.vertices[corners[0]], mesh.vertices[corners[1]],
+                                      mesh.vertices[corners[2]]);
       for (std::size_t k = 0; k < 3; ++k) {
         const int twin = topology.twin[3 * t + k];
         if (twin < 0) continue;
@@ -205,8 +205,9 @@ void absorb_specks(const TriangleMesh& mesh, const MeshTopology& topology, char 
 }
 
 /// The triangles that stay, with the vertices that they use.
-TriangleMesh without(const TriangleMesh& mesh, const std::vector<char>& is_dropped) {
-  TriangleMesh rest;
+geometry::TriangleMesh without(const geometry::TriangleMesh& mesh,
+                               const std::vector<char>& is_dropped) {
+  geometry::TriangleMesh rest;
   std::vector<int> place(mesh.vertices.size(), -1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (is_dropped[t] != 0) continue;
@@ -226,8 +227,9 @@ TriangleMesh without(const TriangleMesh& mesh, const std::vector<char>& is_dropp
 
 /// Closes each mouth by a fan. It lies deep in the cavity, so what it looks like doesn't matter;
 /// that every edge has two sides does: the winding number is whole then.
-void close_mouths(TriangleMesh& mesh) {
-  for (const BoundaryLoop& loop : find_boundary_loops(mesh, build_topology(mesh)).loops) {
+void close_mouths(geometry::TriangleMesh& mesh) {
+  for (const geometry::BoundaryLoop& loop :
+       geometry::find_boundary_loops(mesh, geometry::build_topology(mesh)).loops) {
     const int middle = mesh.vertex_count();
     mesh.vertices.push_back(loop.centre);
     for (std::size_t k = 0; k < loop.corner.size(); ++k) {
@@ -254,7 +256,7 @@ void ContactBodyOptions::check() const {
   }
 }
 
-ContactBody contact_body(const TriangleMesh& mesh, const ContactBodyOptions& options) {
+ContactBody contact_body(const geometry::TriangleMesh& mesh, const ContactBodyOptions& options) {
   options.check();
   ContactBody body;
   const Surroundings surroundings(mesh, options);
@@ -274,7 +276,7 @@ ContactBody contact_body(const TriangleMesh& mesh, const ContactBodyOptions& opt
     may_belong[t] = sees_little || thickness ? 1 : 0;
     is_dropped[t] = sees_little && thickness ? 1 : 0;
   });
-  const MeshTopology topology = build_topology(mesh);
+  const geometry::MeshTopology topology = geometry::build_topology(mesh);
   spread(topology, may_belong, is_dropped);
   even_out(topology, is_dropped);
   absorb_specks(mesh, topology, 1, is_dropped);
@@ -299,4 +301,4 @@ ContactBody contact_body(const TriangleMesh& mesh, const ContactBodyOptions& opt
   return body;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -4,7 +4,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::product {
 
 struct ContactBodyOptions {
   /// A place is inside a cavity if less than this share of the sky is seen from it (weighted by the
@@ -21,10 +21,10 @@ struct ContactBodyOptions {
 
 /// What skin meets of a product.
 struct ContactBody {
-  TriangleMesh mesh;           ///< the product's own if it has no thin wall round a cavity
-  int dropped = 0;             ///< triangles of the product that skin can't reach
-  double thinnest_wall = 0.0;  ///< round the cavity, mm
-  double width = 0.0;          ///< free way across the cavity, mm; half of its surface has less
+  geometry::TriangleMesh mesh;  ///< the product's own if it has no thin wall round a cavity
+  int dropped = 0;              ///< triangles of the product that skin can't reach
+  double thinnest_wall = 0.0;   ///< round the cavity, mm
+  double width = 0.0;           ///< free way across the cavity, mm; half of its surface has less
 };
 
 /// A shelled product for contact: cavities that a hand which holds it can't reach into count as
@@ -38,6 +38,7 @@ struct ContactBody {
 /// too. Bowls stay: one sees much sky from inside.
 ///
 /// `mesh`: closed, oriented outwards, mm. Deterministic. Throws as RayQuery does.
-ContactBody contact_body(const TriangleMesh& mesh, const ContactBodyOptions& options = {});
+ContactBody contact_body(const geometry::TriangleMesh& mesh,
+                         const ContactBodyOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::product

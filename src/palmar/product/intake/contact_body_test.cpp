@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/product/intake/make_product.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 using ::testing::Contains;
@@ -24,8 +24,8 @@ using ::testing::Not;
 /// Surface of revolution about z through the points (radius, height) of a closed outline that runs
 /// clockwise in the half plane seen with the axis at the left; points on the axis become one
 /// vertex.
-TriangleMesh turned(const std::vector<Eigen::Vector2d>& outline, int around = 64) {
-  TriangleMesh mesh;
+geometry::TriangleMesh turned(const std::vector<Eigen::Vector2d>& outline, int around = 64) {
+  geometry::TriangleMesh mesh;
   std::vector<std::vector<int>> ring;
   for (const Eigen::Vector2d& p : outline) {
     std::vector<int> one;
@@ -60,7 +60,7 @@ void line(std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& a, const
   for (int i = 0; i < steps; ++i) outline.push_back(a + (b - a) * i / steps);
 }
 
-TriangleMesh tube(double outer, double inner, double length) {
+geometry::TriangleMesh tube(double outer, double inner, double length) {
   const double h = 0.5 * length;
   std::vector<Eigen::Vector2d> outline;
   line(outline, {outer, -h}, {outer, h}, 40);
@@ -71,7 +71,7 @@ TriangleMesh tube(double outer, double inner, double length) {
 }
 
 /// A cup, open at the top.
-TriangleMesh cup(double outer, double wall, double height) {
+geometry::TriangleMesh cup(double outer, double wall, double height) {
   std::vector<Eigen::Vector2d> outline;
   line(outline, {0.0, 0.0}, {outer, 0.0}, 12);
   line(outline, {outer, 0.0}, {outer, height}, 30);
@@ -83,22 +83,23 @@ TriangleMesh cup(double outer, double wall, double height) {
 }
 
 double depth_at(const Product& product, const Vec3& point) {
-  std::vector<DistanceSample> sample(1);
+  std::vector<geometry::DistanceSample> sample(1);
   product.distance->sample(std::vector<Vec3>{point}, 100.0, sample);
   return -sample[0].distance;
 }
 
-Product product_of(const TriangleMesh& mesh) {
-  return make_product("p", mesh, {LengthUnit::kMillimetre, UnitSource::kMade, ""}, "test");
+Product product_of(const geometry::TriangleMesh& mesh) {
+  return make_product("p", mesh, {geometry::LengthUnit::kMillimetre, UnitSource::kMade, ""},
+                      "test");
 }
 
 TEST(ContactBody, OfATubeIsDeepWhereTheTubeIsHollow) {
-  const TriangleMesh mesh = tube(20.0, 18.0, 130.0);
-  ASSERT_GT(signed_volume(mesh), 0.0);
+  const geometry::TriangleMesh mesh = tube(20.0, 18.0, 130.0);
+  ASSERT_GT(geometry::signed_volume(mesh), 0.0);
   const ContactBody body = contact_body(mesh);
   EXPECT_GT(body.dropped, 0);
   EXPECT_NEAR(body.thinnest_wall, 2.0, 0.01);
-  EXPECT_TRUE(examine_topology(body.mesh).is_closed);
+  EXPECT_TRUE(geometry::examine_topology(body.mesh).is_closed);
 
   const Product product = product_of(mesh);
   EXPECT_THAT(product.notes, Contains(HasSubstr("the thinnest 2.0 mm")));
@@ -110,22 +111,22 @@ TEST(ContactBody, OfATubeIsDeepWhereTheTubeIsHollow) {
 }
 
 TEST(ContactBody, OfAHiddenCavityIsTheOuterShell) {
-  TriangleMesh mesh = tube(20.0, 0.0, 100.0);
+  geometry::TriangleMesh mesh = tube(20.0, 0.0, 100.0);
   std::vector<Eigen::Vector2d> outline;
   line(outline, {0.0, -50.0}, {20.0, -50.0}, 8);
   line(outline, {20.0, -50.0}, {20.0, 50.0}, 30);
   line(outline, {20.0, 50.0}, {0.0, 50.0}, 8);
   outline.emplace_back(0.0, 50.0);
   mesh = turned(outline);
-  const double volume = signed_volume(mesh);
-  TriangleMesh inside = turned(outline);
+  const double volume = geometry::signed_volume(mesh);
+  geometry::TriangleMesh inside = turned(outline);
   const int offset = mesh.vertex_count();
   for (const Vec3& v : inside.vertices) mesh.vertices.push_back(0.9 * v);
   for (const Triangle& t : inside.triangles) {
     mesh.triangles.push_back({t[0] + offset, t[2] + offset, t[1] + offset});
   }
   const ContactBody body = contact_body(mesh);
-  EXPECT_NEAR(signed_volume(body.mesh), volume, 1e-6 * volume);
+  EXPECT_NEAR(geometry::signed_volume(body.mesh), volume, 1e-6 * volume);
 }
 
 TEST(ContactBody, OfACupIsFilledToTheRim) {
@@ -147,7 +148,7 @@ TEST(ContactBody, OfSolidsAndRingsIsTheProductItself) {
   line(grooved, {20.0, 1.0}, {20.0, 50.0}, 20);
   line(grooved, {20.0, 50.0}, {0.0, 50.0}, 8);
   grooved.emplace_back(0.0, 50.0);
-  for (const TriangleMesh& mesh : {turned(grooved), tube(16.0, 12.5, 12.0)}) {
+  for (const geometry::TriangleMesh& mesh : {turned(grooved), tube(16.0, 12.5, 12.0)}) {
     const ContactBody body = contact_body(mesh);
     EXPECT_EQ(body.dropped, 0);
     EXPECT_EQ(body.mesh.triangles, mesh.triangles);
@@ -157,9 +158,10 @@ TEST(ContactBody, OfSolidsAndRingsIsTheProductItself) {
 
 /// A plate of `columns` by `rows` square cells, each with a round hole through it; its middle is
 /// the origin, z across it.
-TriangleMesh perforated_plate(int columns, int rows, double cell, double hole, double thickness) {
+geometry::TriangleMesh perforated_plate(int columns, int rows, double cell, double hole,
+                                        double thickness) {
   constexpr int kAround = 16;
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   const auto quad = [&](const std::array<Vec3, 4>& corners) {
     const int first = mesh.vertex_count();
     for (const Vec3& x : corners) mesh.vertices.push_back(x);
@@ -196,8 +198,8 @@ TriangleMesh perforated_plate(int columns, int rows, double cell, double hole, d
 
 TEST(ContactBody, HolesThroughAPlateAreNoCavity) {
   const Product plate = product_of(perforated_plate(20, 15, 12.0, 8.0, 16.0));  // 300 holes
-  ASSERT_TRUE(examine_topology(plate.mesh).is_closed);
-  EXPECT_EQ(examine_topology(plate.mesh).euler_number, 2 - 2 * 300);
+  ASSERT_TRUE(geometry::examine_topology(plate.mesh).is_closed);
+  EXPECT_EQ(geometry::examine_topology(plate.mesh).euler_number, 2 - 2 * 300);
   EXPECT_THAT(plate.notes, Not(Contains(HasSubstr("cavity"))));
   // The outermost lie behind walls of 2 mm; flats of a circle of 8 mm with 16 corners are 7.8 mm
   // apart.
@@ -214,4 +216,4 @@ TEST(ContactBody, SaysWhatItsOptionsAllow) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::product

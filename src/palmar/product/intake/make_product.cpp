@@ -17,7 +17,7 @@
 #include "palmar/product/intake/contact_body.h"
 #include "palmar/product/parts/product_parts.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kFileRounding = 1e-6;  // of the size; single-precision files round to about 1e-7
@@ -28,7 +28,7 @@ std::string tenths(double value) {
   return text.data();
 }
 
-void check_raw(const TriangleMesh& raw, const std::string& source) {
+void check_raw(const geometry::TriangleMesh& raw, const std::string& source) {
   for (int v = 0; v < raw.vertex_count(); ++v) {
     const Vec3& x = raw.vertices[v];
     if (x.allFinite()) continue;
@@ -50,7 +50,7 @@ void check_raw(const TriangleMesh& raw, const std::string& source) {
   }
 }
 
-void note_repairs(const WeldResult& welded, const OrientResult& oriented,
+void note_repairs(const geometry::WeldResult& welded, const geometry::OrientResult& oriented,
                   std::vector<std::string>& notes) {
   if (welded.dropped_degenerate > 0) {
     notes.push_back("dropped " + counted(welded.dropped_degenerate, "triangle", "triangles") +
@@ -84,7 +84,8 @@ void note_repairs(const WeldResult& welded, const OrientResult& oriented,
 }
 
 /// The same faces for the triangles that are left; orienting keeps their order.
-std::shared_ptr<const ProductFaces> faces_after_weld(ProductFaces faces, const WeldResult& welded,
+std::shared_ptr<const ProductFaces> faces_after_weld(ProductFaces faces,
+                                                     const geometry::WeldResult& welded,
                                                      std::vector<std::string>& notes) {
   std::vector<int> face_of_triangle;
   face_of_triangle.reserve(welded.old_triangle_of_new.size());
@@ -109,8 +110,9 @@ std::shared_ptr<const ProductFaces> faces_after_weld(ProductFaces faces, const W
 
 /// The surface that skin meets: cavities behind thin walls are filled (contact_body.h). An open
 /// surface stays as it is; its inside is judged by the winding number.
-TriangleMesh body_in_contact(const TriangleMesh& mesh, const TopologyReport& topology,
-                             std::vector<std::string>& notes) {
+geometry::TriangleMesh body_in_contact(const geometry::TriangleMesh& mesh,
+                                       const geometry::TopologyReport& topology,
+                                       std::vector<std::string>& notes) {
   if (!topology.is_closed) return mesh;
   ContactBody body = contact_body(mesh);
   if (body.dropped > 0 && body.width < PartOptions{}.finger) {
@@ -128,12 +130,13 @@ TriangleMesh body_in_contact(const TriangleMesh& mesh, const TopologyReport& top
 
 }  // namespace
 
-Product make_product(const std::string& name, const TriangleMesh& raw, const UnitDecision& unit,
-                     const std::string& source, const ProductFaces* faces) {
+Product make_product(const std::string& name, const geometry::TriangleMesh& raw,
+                     const UnitDecision& unit, const std::string& source,
+                     const ProductFaces* faces) {
   check_raw(raw, source);
   if (faces != nullptr) check_faces(*faces, raw.triangle_count(), source);
-  TriangleMesh in_mm = raw;
-  const double scale = millimetres_per(unit.unit);
+  geometry::TriangleMesh in_mm = raw;
+  const double scale = geometry::millimetres_per(unit.unit);
   if (scale != 1.0) {
     for (Vec3& x : in_mm.vertices) x *= scale;
   }
@@ -141,15 +144,15 @@ Product make_product(const std::string& name, const TriangleMesh& raw, const Uni
   for (const Triangle& t : in_mm.triangles) {
     for (const int v : t) box.extend(in_mm.vertices[v]);
   }
-  const WeldResult welded =
-      weld(in_mm, {.tolerance = kFileRounding * box.sizes().maxCoeff(),
-                   .groups = faces != nullptr ? bodies_of_triangles(*faces) : std::vector<int>()});
-  if (welded.mesh.triangle_count() < 2 || !(surface_area(welded.mesh) > 0.0)) {
+  const geometry::WeldResult welded = geometry::weld(
+      in_mm, {.tolerance = kFileRounding * box.sizes().maxCoeff(),
+              .groups = faces != nullptr ? bodies_of_triangles(*faces) : std::vector<int>()});
+  if (welded.mesh.triangle_count() < 2 || !(geometry::surface_area(welded.mesh) > 0.0)) {
     throw InputError(source + ": its triangles have no area (size " +
                      significant(box.sizes().x(), 6) + " x " + significant(box.sizes().y(), 6) +
                      " x " + significant(box.sizes().z(), 6) + " mm)");
   }
-  OrientResult oriented = orient_outwards(welded.mesh);
+  geometry::OrientResult oriented = geometry::orient_outwards(welded.mesh);
 
   Product product;
   product.name = name;
@@ -158,7 +161,7 @@ Product make_product(const std::string& name, const TriangleMesh& raw, const Uni
   product.source = source;
   if (!unit.explanation.empty()) product.notes.push_back(unit.explanation);
   note_repairs(welded, oriented, product.notes);
-  const TopologyReport topology = examine_topology(oriented.mesh);
+  const geometry::TopologyReport topology = geometry::examine_topology(oriented.mesh);
   if (!topology.is_closed) {
     product.notes.push_back(
         "the surface is open: " + counted(topology.boundary_loops, "hole", "holes") + " with " +
@@ -169,9 +172,9 @@ Product make_product(const std::string& name, const TriangleMesh& raw, const Uni
   if (faces != nullptr) {
     product.faces = faces_after_weld(scaled(*faces, scale), welded, product.notes);
   }
-  product.distance =
-      std::make_shared<const MeshDistance>(body_in_contact(product.mesh, topology, product.notes));
+  product.distance = std::make_shared<const geometry::MeshDistance>(
+      body_in_contact(product.mesh, topology, product.notes));
   return product;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -7,7 +7,7 @@
 #include "palmar/product/intake/unit_guard.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Makes a product of a mesh as it stands in a file: converts to mm, welds vertices nearer than a
 /// millionth of the size, drops triangles that collapse by it, repairs the orientation of patches
@@ -19,7 +19,8 @@ namespace palmar {
 /// not finite (naming the vertex), on corners outside the vertex list, and if nothing with an area
 /// is left. `faces` (of a CAD model; null: none) are those of `raw`, triangle by triangle and in
 /// its unit; they follow the mesh. Throws InputError if they don't fit it (check_faces()).
-Product make_product(const std::string& name, const TriangleMesh& raw, const UnitDecision& unit,
-                     const std::string& source, const ProductFaces* faces = nullptr);
+Product make_product(const std::string& name, const geometry::TriangleMesh& raw,
+                     const UnitDecision& unit, const std::string& source,
+                     const ProductFaces* faces = nullptr);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -19,7 +19,7 @@
 #include "palmar/geometry/repair/separate_sheets.h"
 #include "palmar/geometry/repair/weld.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kWeldShare = 1e-6;  // of the diagonal; single-precision files round to about 1e-7
@@ -41,13 +41,13 @@ std::string place_text(const Vec3& x) {
 
 int size_of(const std::vector<Vec3>& places) { return static_cast<int>(places.size()); }
 
-Vec3 centre_of(const TriangleMesh& mesh, int t) {
+Vec3 centre_of(const geometry::TriangleMesh& mesh, int t) {
   const Triangle& k = mesh.triangles[t];
   return (mesh.vertices[k[0]] + mesh.vertices[k[1]] + mesh.vertices[k[2]]) / 3.0;
 }
 
 /// Box round what the triangles use.
-Box3 used_box(const TriangleMesh& mesh) {
+Box3 used_box(const geometry::TriangleMesh& mesh) {
   Box3 box;
   for (const Triangle& t : mesh.triangles) {
     for (const int v : t) box.extend(mesh.vertices[v]);
@@ -60,7 +60,7 @@ struct Groups {
   std::vector<Box3> box;
   std::vector<int> triangles;
 
-  Groups(const TriangleMesh& mesh, const std::vector<int>& group) {
+  Groups(const geometry::TriangleMesh& mesh, const std::vector<int>& group) {
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       if (group[t] < 0) continue;
       box.resize(std::max<std::size_t>(box.size(), group[t] + 1));
@@ -72,7 +72,8 @@ struct Groups {
 };
 
 /// Patch of each triangle: joined over edges of exactly two triangles.
-std::vector<int> patches_of(const TriangleMesh& mesh, const MeshTopology& topology) {
+std::vector<int> patches_of(const geometry::TriangleMesh& mesh,
+                            const geometry::MeshTopology& topology) {
   std::vector<int> patch(mesh.triangles.size(), -1);
   int count = 0;
   std::vector<int> open;
@@ -98,7 +99,7 @@ std::vector<int> patches_of(const TriangleMesh& mesh, const MeshTopology& topolo
 /// One run over a mesh; every step appends to what was done or is left.
 class Repairer {
  public:
-  Repairer(const TriangleMesh& mesh, const RepairOptions& options) {
+  Repairer(const geometry::TriangleMesh& mesh, const RepairOptions& options) {
     options.check();
     const Box3 box = used_box(mesh);
     const double diagonal = box.isEmpty() ? 0.0 : box.diagonal().norm();
@@ -130,7 +131,7 @@ class Repairer {
   }
 
  private:
-  TriangleMesh& mesh() { return result_.mesh; }
+  geometry::TriangleMesh& mesh() { return result_.mesh; }
   const RepairLimits& limits() const { return result_.limits; }
 
   void add(std::vector<RepairAction>& list, const std::string& name, int count,
@@ -146,7 +147,7 @@ class Repairer {
   }
 
   void join_vertices() {
-    WeldResult welded = weld(mesh(), {.tolerance = limits().weld});
+    geometry::WeldResult welded = geometry::weld(mesh(), {.tolerance = limits().weld});
     std::vector<Vec3> places;
     for (int v = 0; v < mesh().vertex_count(); ++v) {
       const int to = welded.new_of_old[v];
@@ -164,14 +165,14 @@ class Repairer {
         "dropped " + counted(welded.dropped_duplicate, "triangle", "triangles") +
             " that stood there twice",
         {});
-    if (welded.mesh.triangles.empty() || !(surface_area(welded.mesh) > 0.0)) {
+    if (welded.mesh.triangles.empty() || !(geometry::surface_area(welded.mesh) > 0.0)) {
       throw InputError("repair: the mesh has no triangles with an area");
     }
     mesh() = std::move(welded.mesh);
   }
 
   void repair_low() {
-    LowTrianglesResult repaired = repair_low_triangles(mesh(), limits().weld);
+    geometry::LowTrianglesResult repaired = geometry::repair_low_triangles(mesh(), limits().weld);
     if (repaired.mesh.triangles.empty()) return;
     const int count = size_of(repaired.places);
     add(result_.done, "low triangles", count,
@@ -184,7 +185,8 @@ class Repairer {
 
   /// Vertices that no triangle uses any more.
   void forget_unused() {
-    WeldResult kept = weld(mesh(), {.tolerance = 0.0, .drops_duplicates = false});
+    geometry::WeldResult kept =
+        geometry::weld(mesh(), {.tolerance = 0.0, .drops_duplicates = false});
     if (kept.dropped_unused > 0) mesh() = std::move(kept.mesh);
   }
 
@@ -199,8 +201,8 @@ class Repairer {
   }
 
   void drop_fins() {
-    const MeshTopology topology = build_topology(mesh());
-    if (non_manifold_edges(topology).empty()) return;
+    const geometry::MeshTopology topology = geometry::build_topology(mesh());
+    if (geometry::non_manifold_edges(topology).empty()) return;
     const std::vector<int> patch = patches_of(mesh(), topology);
     const Groups groups(mesh(), patch);
     std::vector<bool> hangs(groups.box.size(), false), is_free(groups.box.size(), false);
@@ -217,7 +219,8 @@ class Repairer {
   }
 
   void drop_specks() {
-    const std::vector<int> piece = triangle_components(mesh(), build_topology(mesh()));
+    const std::vector<int> piece =
+        geometry::triangle_components(mesh(), geometry::build_topology(mesh()));
     const Groups groups(mesh(), piece);
     std::size_t largest = 0;
     for (std::size_t p = 1; p < groups.box.size(); ++p) {
@@ -251,13 +254,13 @@ class Repairer {
   }
 
   void turn_outwards() {
-    OrientResult oriented = orient_outwards(mesh());
+    geometry::OrientResult oriented = geometry::orient_outwards(mesh());
     twisted_ = oriented.twisted_patches;
     undecided_ = oriented.undecided_patches;
     doubtful_ = 0;
     if (oriented.flipped_triangles.empty()) return;
     // Small open patches may be turned to and fro: what isn't settled by turning stays as it was.
-    const std::vector<int> back = orient_outwards(oriented.mesh).flipped_triangles;
+    const std::vector<int> back = geometry::orient_outwards(oriented.mesh).flipped_triangles;
     std::vector<int> turned;
     for (const int t : oriented.flipped_triangles) {
       if (std::binary_search(back.begin(), back.end(), t)) {
@@ -280,13 +283,13 @@ class Repairer {
   }
 
   bool close_holes() {
-    FillHolesResult filled = fill_holes(
+    geometry::FillHolesResult filled = geometry::fill_holes(
         mesh(), {.longest_perimeter = limits().hole, .crack_width = kCrack * limits().weld});
     std::vector<Vec3> places;
     int triangles = 0;
     double area = 0.0, longest = 0.0;
     for (std::size_t i = 0; i < filled.holes.size(); ++i) {
-      const HoleOutcome& hole = filled.holes[i];
+      const geometry::HoleOutcome& hole = filled.holes[i];
       if (!hole.is_filled) {
         const std::string name = "hole " + std::to_string(i + 1) + " of " +
                                  std::to_string(filled.holes.size()) + " (" +
@@ -311,10 +314,12 @@ class Repairer {
   }
 
   void part_solids() {
-    SeparatedSheets separated = separate_touching_sheets(mesh(), kGap * limits().weld);
+    geometry::SeparatedSheets separated =
+        geometry::separate_touching_sheets(mesh(), kGap * limits().weld);
     if (separated.doubled.empty()) return;
     const int count = size_of(separated.doubled);
-    if (find_self_crossings(separated.mesh).size() > find_self_crossings(mesh()).size()) {
+    if (geometry::find_self_crossings(separated.mesh).size() >
+        geometry::find_self_crossings(mesh()).size()) {
       add(touching_left_, "touching", count,
           "what touches in " + counted(count, "corner", "corners") +
               " would go through itself if taken apart",
@@ -337,14 +342,14 @@ class Repairer {
       add(left, hole.name, 1, hole.text, std::move(hole.places));
     }
     left.insert(left.end(), touching_left_.begin(), touching_left_.end());
-    const MeshTopology topology = build_topology(mesh());
-    const BoundaryLoops loops = find_boundary_loops(mesh(), topology);
+    const geometry::MeshTopology topology = geometry::build_topology(mesh());
+    const geometry::BoundaryLoops loops = geometry::find_boundary_loops(mesh(), topology);
     add(left, "holes", loops.loose_edges,
         counted(loops.loose_edges, "free edge is", "free edges are") +
             " round no hole: the triangles there disagree about outside",
         {});
     std::vector<Vec3> places;
-    for (const auto& edge : non_manifold_edges(topology)) {
+    for (const auto& edge : geometry::non_manifold_edges(topology)) {
       places.push_back((mesh().vertices[edge[0]] + mesh().vertices[edge[1]]) / 2.0);
     }
     int count = size_of(places);
@@ -352,7 +357,7 @@ class Repairer {
         counted(count, "edge has", "edges have") +
             " more than two triangles that bound no solids apart: a wall inside, or a fin",
         std::move(places));
-    const auto crossings = find_self_crossings(mesh());
+    const auto crossings = geometry::find_self_crossings(mesh());
     places.clear();
     for (const auto& pair : crossings) {
       if (places.size() < kMostPlaces) places.push_back(centre_of(mesh(), pair[0]));
@@ -413,7 +418,7 @@ RepairLimits repair_limits(const RepairOptions& options, double diagonal) {
   return limits;
 }
 
-RepairResult repair_mesh(const TriangleMesh& mesh, const RepairOptions& options) {
+RepairResult repair_mesh(const geometry::TriangleMesh& mesh, const RepairOptions& options) {
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.vertices[v].allFinite()) continue;
     throw InputError("repair: vertex " + std::to_string(v) +
@@ -498,4 +503,4 @@ std::vector<std::string> fix_list(const ProductCheck& check, const RepairLimits&
   return fixes;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -9,7 +9,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/intake/check.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Lengths in mm. What is unset follows from the diagonal of the product's box.
 struct RepairOptions {
@@ -38,7 +38,7 @@ struct RepairAction {
 };
 
 struct RepairResult {
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   RepairLimits limits;
   std::vector<RepairAction> done, left;
   bool has_changed() const { return !done.empty(); }
@@ -54,10 +54,10 @@ struct RepairResult {
 /// patches, walls within a solid. A mesh without faults comes back bit by bit, and what was
 /// repaired stays as it is when repaired again. Deterministic. `mesh` is in mm; throws InputError
 /// on coordinates that aren't finite, corners outside the list, and if no triangle has an area.
-RepairResult repair_mesh(const TriangleMesh& mesh, const RepairOptions& options = {});
+RepairResult repair_mesh(const geometry::TriangleMesh& mesh, const RepairOptions& options = {});
 
 /// For every finding of a check that isn't as it should be: what repair_mesh() would do about it,
 /// or what to do by hand. `limits` are those of the product.
 std::vector<std::string> fix_list(const ProductCheck& check, const RepairLimits& limits);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -22,7 +22,7 @@
 #include "palmar/geometry/repair/weld.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 using testing::Contains;
@@ -55,7 +55,7 @@ const RepairAction* find(const std::vector<RepairAction>& actions, const std::st
   return nullptr;
 }
 
-void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& shift) {
+void append(geometry::TriangleMesh& mesh, const geometry::TriangleMesh& other, const Vec3& shift) {
   const int n = mesh.vertex_count();
   for (const Vec3& x : other.vertices) mesh.vertices.push_back(x + shift);
   for (const Triangle& t : other.triangles)
@@ -63,10 +63,10 @@ void append(TriangleMesh& mesh, const TriangleMesh& other, const Vec3& shift) {
 }
 
 /// Takes out the triangles round `count` corners that share no triangle with each other.
-int punch(TriangleMesh& mesh, int count, std::mt19937& random) {
+int punch(geometry::TriangleMesh& mesh, int count, std::mt19937& random) {
   std::vector<bool> is_near(mesh.vertices.size(), false);
   std::vector<bool> is_gone(mesh.triangles.size(), false);
-  const MeshTopology topology = build_topology(mesh);
+  const geometry::MeshTopology topology = geometry::build_topology(mesh);
   int punched = 0;
   for (int attempt = 0; attempt < 100 * count && punched < count; ++attempt) {
     const int v = static_cast<int>(random() % mesh.vertices.size());
@@ -87,7 +87,7 @@ int punch(TriangleMesh& mesh, int count, std::mt19937& random) {
   return punched;
 }
 
-void flip_and_double(TriangleMesh& mesh, std::mt19937& random) {
+void flip_and_double(geometry::TriangleMesh& mesh, std::mt19937& random) {
   const int count = mesh.triangle_count();
   for (int t = 0; t < count; ++t) {
     if (random() % 10 == 0) std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
@@ -96,8 +96,8 @@ void flip_and_double(TriangleMesh& mesh, std::mt19937& random) {
 }
 
 /// Every triangle with corners of its own, as STL has them.
-TriangleMesh repair_soup(const TriangleMesh& mesh) {
-  TriangleMesh soup;
+geometry::TriangleMesh repair_soup(const geometry::TriangleMesh& mesh) {
+  geometry::TriangleMesh soup;
   for (const Triangle& t : mesh.triangles) {
     const int n = soup.vertex_count();
     for (const int v : t) soup.vertices.push_back(mesh.vertices[v]);
@@ -106,8 +106,8 @@ TriangleMesh repair_soup(const TriangleMesh& mesh) {
   return soup;
 }
 
-TriangleMesh read_obj(const std::filesystem::path& path) {
-  TriangleMesh mesh;
+geometry::TriangleMesh read_obj(const std::filesystem::path& path) {
+  geometry::TriangleMesh mesh;
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
@@ -130,9 +130,10 @@ TriangleMesh read_obj(const std::filesystem::path& path) {
 }
 
 TEST(Repair, OfGoodMeshesChangesNothing) {
-  for (const TriangleMesh& mesh :
-       {make_cylinder_product({}).mesh, make_prism_product({}).mesh, make_torus(30, 8, 48, 24),
-        make_box(Vec3(40, 30, 100)), make_icosphere(25, 4)}) {
+  for (const geometry::TriangleMesh& mesh :
+       {make_cylinder_product({}).mesh, make_prism_product({}).mesh,
+        geometry::make_torus(30, 8, 48, 24), geometry::make_box(Vec3(40, 30, 100)),
+        geometry::make_icosphere(25, 4)}) {
     const RepairResult repaired = repair_mesh(mesh);
     EXPECT_FALSE(repaired.has_changed()) << text_of(repaired.done);
     EXPECT_TRUE(repaired.left.empty()) << text_of(repaired.left);
@@ -144,12 +145,13 @@ TEST(Repair, OfGoodMeshesChangesNothing) {
 
 TEST(Repair, OfARuinedBallIsABall) {
   std::mt19937 random(7);
-  const TriangleMesh ball = make_icosphere(30, 4);
-  TriangleMesh ruined = ball;
+  const geometry::TriangleMesh ball = geometry::make_icosphere(30, 4);
+  geometry::TriangleMesh ruined = ball;
   ASSERT_EQ(punch(ruined, 25, random), 25);
   flip_and_double(ruined, random);
   ruined = repair_soup(ruined);
-  for (int i = 0; i < 5; ++i) append(ruined, make_icosphere(0.2, 1), Vec3(33.0, 3.0 * i, 0));
+  for (int i = 0; i < 5; ++i)
+    append(ruined, geometry::make_icosphere(0.2, 1), Vec3(33.0, 3.0 * i, 0));
   const ProductCheck before = check_mesh(ruined);
   EXPECT_GE(before.verdict, Severity::kWarning);
   const RepairResult repaired = repair_mesh(ruined);
@@ -163,7 +165,7 @@ TEST(Repair, OfARuinedBallIsABall) {
   EXPECT_EQ(after.verdict, Severity::kOk);
   EXPECT_TRUE(after.is_closed);
   EXPECT_EQ(after.euler_number, 2);
-  EXPECT_NEAR(after.volume, signed_volume(ball), 0.01 * signed_volume(ball));
+  EXPECT_NEAR(after.volume, geometry::signed_volume(ball), 0.01 * geometry::signed_volume(ball));
   // Repaired again, nothing happens.
   const RepairResult again = repair_mesh(repaired.mesh);
   EXPECT_FALSE(again.has_changed()) << text_of(again.done);
@@ -173,7 +175,7 @@ TEST(Repair, OfARuinedBallIsABall) {
 
 TEST(Repair, IsTheSameEveryTime) {
   std::mt19937 random(3);
-  TriangleMesh ruined = make_torus(30, 10, 60, 30);
+  geometry::TriangleMesh ruined = geometry::make_torus(30, 10, 60, 30);
   punch(ruined, 10, random);
   flip_and_double(ruined, random);
   EXPECT_EQ(repair_mesh(ruined).mesh.vertices, repair_mesh(ruined).mesh.vertices);
@@ -182,7 +184,7 @@ TEST(Repair, IsTheSameEveryTime) {
 
 TEST(Repair, AnOpeningIsNoHole) {
   // A cup: the cylinder's upper lid is missing.
-  TriangleMesh cup = make_cylinder({.radius = 40, .length = 90});
+  geometry::TriangleMesh cup = geometry::make_cylinder({.radius = 40, .length = 90});
   std::erase_if(cup.triangles, [&](const Triangle& t) {
     return cup.vertices[t[0]].z() > 44.9 && cup.vertices[t[1]].z() > 44.9 &&
            cup.vertices[t[2]].z() > 44.9;
@@ -203,7 +205,7 @@ TEST(Repair, AnOpeningIsNoHole) {
 
 TEST(Repair, ACrackIsClosed) {
   // Two halves of a box whose faces were cut differently: corners of one lie on edges of the other.
-  TriangleMesh box = make_box(Vec3(40, 40, 40), 4);
+  geometry::TriangleMesh box = geometry::make_box(Vec3(40, 40, 40), 4);
   // Each triangle with a corner on the upper edge at x = 20 gets another one in the edge's middle.
   const int count = box.triangle_count();
   for (int t = 0; t < count; ++t) {
@@ -230,10 +232,10 @@ TEST(Repair, ACrackIsClosed) {
 }
 
 TEST(Repair, TakesApartCubesThatTouchAndDropsAFin) {
-  TriangleMesh cubes = make_box(Vec3(20, 20, 20), 4);
-  append(cubes, make_box(Vec3(20, 20, 20), 4), Vec3(20, 20, 0));
+  geometry::TriangleMesh cubes = geometry::make_box(Vec3(20, 20, 20), 4);
+  append(cubes, geometry::make_box(Vec3(20, 20, 20), 4), Vec3(20, 20, 0));
   // A fin: one small triangle on an edge.
-  cubes = weld(cubes, {.tolerance = 1e-9}).mesh;
+  cubes = geometry::weld(cubes, {.tolerance = 1e-9}).mesh;
   const Triangle first = cubes.triangles[0];
   const Vec3 middle = (cubes.vertices[first[0]] + cubes.vertices[first[1]]) / 2.0;
   cubes.vertices.push_back(1.1 * middle);
@@ -251,22 +253,22 @@ TEST(Repair, TakesApartCubesThatTouchAndDropsAFin) {
 }
 
 TEST(Repair, ReportsWhatGoesThroughItself) {
-  TriangleMesh balls = make_icosphere(20, 3);
-  append(balls, make_icosphere(20, 3), Vec3(25, 1, 2));
+  geometry::TriangleMesh balls = geometry::make_icosphere(20, 3);
+  append(balls, geometry::make_icosphere(20, 3), Vec3(25, 1, 2));
   const RepairResult repaired = repair_mesh(balls);
   EXPECT_FALSE(repaired.has_changed());
   ASSERT_TRUE(find(repaired.left, "crossings"));
   EXPECT_EQ(find(repaired.left, "crossings")->count,
-            static_cast<int>(find_self_crossings(balls).size()));
+            static_cast<int>(geometry::find_self_crossings(balls).size()));
 }
 
 TEST(Repair, AsksOnlySeveralBodiesToBeUnited) {
-  TriangleMesh balls = make_icosphere(20, 3);
-  append(balls, make_icosphere(20, 3), Vec3(25, 1, 2));
+  geometry::TriangleMesh balls = geometry::make_icosphere(20, 3);
+  append(balls, geometry::make_icosphere(20, 3), Vec3(25, 1, 2));
   const RepairLimits limits = repair_mesh(balls).limits;
   EXPECT_THAT(fix_list(check_mesh(balls), limits), Contains(HasSubstr("unite the solids")));
   // One that goes through itself: a corner drawn out through the other side.
-  TriangleMesh ball = make_icosphere(20, 3);
+  geometry::TriangleMesh ball = geometry::make_icosphere(20, 3);
   ball.vertices.front() *= -1.5;
   const ProductCheck check = check_mesh(ball);
   ASSERT_GT(check.crossing_pairs, 0);
@@ -275,7 +277,7 @@ TEST(Repair, AsksOnlySeveralBodiesToBeUnited) {
 }
 
 TEST(Repair, NamesWhatCannotBe) {
-  TriangleMesh ball = make_icosphere(30, 2);
+  geometry::TriangleMesh ball = geometry::make_icosphere(30, 2);
   EXPECT_THAT(repair_message<UsageError>([&] { repair_mesh(ball, {.weld = -1.0}); }),
               HasSubstr("the weld's tolerance is -1 mm"));
   EXPECT_THAT(repair_message<UsageError>([&] { repair_mesh(ball, {.weld = 30.0}); }),
@@ -301,18 +303,20 @@ TEST(Repair, OfRealProductsBringsBackTheirVolume) {
   }
   // Volumes of the files; the mug and the marker have a tunnel each (handle, clip).
   for (const std::string name : {"mug", "large_marker", "mustard_bottle", "rubber_mallet"}) {
-    const TriangleMesh whole = read_obj(folder / (name + ".obj"));
+    const geometry::TriangleMesh whole = read_obj(folder / (name + ".obj"));
     ASSERT_FALSE(repair_mesh(whole).has_changed()) << name;
     for (unsigned seed = 1; seed <= 2; ++seed) {
       std::mt19937 random(seed);
-      TriangleMesh ruined = whole;
+      geometry::TriangleMesh ruined = whole;
       punch(ruined, 8, random);
       flip_and_double(ruined, random);
       const RepairResult repaired = repair_mesh(repair_soup(ruined), {.hole = 100.0});
       const ProductCheck after = check_mesh(repaired.mesh);
       EXPECT_TRUE(after.is_closed) << name << "\n" << text_of(repaired.left);
-      EXPECT_EQ(after.euler_number, examine_topology(whole).euler_number) << name;
-      EXPECT_NEAR(after.volume, signed_volume(whole), 0.01 * signed_volume(whole)) << name;
+      EXPECT_EQ(after.euler_number, geometry::examine_topology(whole).euler_number) << name;
+      EXPECT_NEAR(after.volume, geometry::signed_volume(whole),
+                  0.01 * geometry::signed_volume(whole))
+          << name;
       EXPECT_FALSE(repair_mesh(repaired.mesh, {.hole = 100.0}).has_changed()) << name;
     }
   }
@@ -320,11 +324,11 @@ TEST(Repair, OfRealProductsBringsBackTheirVolume) {
 
 TEST(Repair, OfAnythingEndsAndStaysAsItIs) {
   std::mt19937 random(11);
-  const TriangleMesh base = make_torus(20, 8, 14, 8);
+  const geometry::TriangleMesh base = geometry::make_torus(20, 8, 14, 8);
   int unsettled = 0;
   std::string last;
   for (int round = 0; round < 300; ++round) {
-    TriangleMesh mesh = base;
+    geometry::TriangleMesh mesh = base;
     for (int change = static_cast<int>(random() % 12); change >= 0; --change) {
       const std::size_t t = random() % mesh.triangles.size();
       const std::size_t v = random() % mesh.vertices.size();
@@ -360,9 +364,11 @@ TEST(Repair, OfAnythingEndsAndStaysAsItIs) {
     ASSERT_TRUE(std::all_of(repaired.mesh.vertices.begin(), repaired.mesh.vertices.end(),
                             [](const Vec3& x) { return x.allFinite(); }));
     // No crossing that wasn't there.
-    if (find_self_crossings(weld(mesh, {.tolerance = repaired.limits.weld}).mesh).empty()) {
-      EXPECT_TRUE(find_self_crossings(repaired.mesh).empty()) << round << "\n"
-                                                              << text_of(repaired.done);
+    if (geometry::find_self_crossings(
+            geometry::weld(mesh, {.tolerance = repaired.limits.weld}).mesh)
+            .empty()) {
+      EXPECT_TRUE(geometry::find_self_crossings(repaired.mesh).empty()) << round << "\n"
+                                                                        << text_of(repaired.done);
     }
     // A second run may only find what the first one brought together.
     const RepairResult again = repair_mesh(repaired.mesh);
@@ -375,4 +381,4 @@ TEST(Repair, OfAnythingEndsAndStaysAsItIs) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::product

@@ -7,7 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kSmallestSize = 0.1;     // mm; below, nothing can be felt
@@ -19,26 +19,27 @@ std::string sides(const Vec3& size, double scale) {
          significant(size.z() * scale, 4);
 }
 
-void check_size(const Vec3& size, LengthUnit unit, const std::string& object) {
-  const double longest = size.maxCoeff() * millimetres_per(unit);
+void check_size(const Vec3& size, geometry::LengthUnit unit, const std::string& object) {
+  const double longest = size.maxCoeff() * geometry::millimetres_per(unit);
   if (longest >= kSmallestSize && longest <= kLargestSize) return;
-  throw InputError(object + ": its size is " + sides(size, millimetres_per(unit)) + " mm (" +
-                   sides(size, 1.0) + " in " + name_of(unit) + "); the longest side must be " +
-                   significant(kSmallestSize, 4) + " to " + significant(kLargestSize, 4) +
+  throw InputError(object + ": its size is " + sides(size, geometry::millimetres_per(unit)) +
+                   " mm (" + sides(size, 1.0) + " in " + name_of(unit) +
+                   "); the longest side must be " + significant(kSmallestSize, 4) + " to " +
+                   significant(kLargestSize, 4) +
                    " mm. If the unit is wrong, give it by setting \"unit\": mm, cm, m or inch");
 }
 
-std::optional<LengthUnit> propose(double longest) {
-  if (longest >= 0.04 && longest <= 0.6) return LengthUnit::kMetre;
-  if (longest >= 1.6 && longest < 4.0) return LengthUnit::kInch;
-  if (longest >= 40.0 && longest <= 2000.0) return LengthUnit::kMillimetre;
+std::optional<geometry::LengthUnit> propose(double longest) {
+  if (longest >= 0.04 && longest <= 0.6) return geometry::LengthUnit::kMetre;
+  if (longest >= 1.6 && longest < 4.0) return geometry::LengthUnit::kInch;
+  if (longest >= 40.0 && longest <= 2000.0) return geometry::LengthUnit::kMillimetre;
   return {};
 }
 
 }  // namespace
 
-UnitDecision decide_unit(const Box3& box, std::optional<LengthUnit> from_file,
-                         std::optional<LengthUnit> from_user, const std::string& object) {
+UnitDecision decide_unit(const Box3& box, std::optional<geometry::LengthUnit> from_file,
+                         std::optional<geometry::LengthUnit> from_user, const std::string& object) {
   if (box.isEmpty()) throw InputError(object + ": no vertices, so no size");
   const Vec3 size = box.sizes();
   if (!size.allFinite()) {
@@ -62,13 +63,15 @@ UnitDecision decide_unit(const Box3& box, std::optional<LengthUnit> from_file,
     check_size(size, *from_file, object);
     return {*from_file, UnitSource::kFile, ""};
   }
-  const std::optional<LengthUnit> proposed = propose(longest);
+  const std::optional<geometry::LengthUnit> proposed = propose(longest);
   if (!proposed) {
     std::string reading;
-    for (const LengthUnit unit : {LengthUnit::kMillimetre, LengthUnit::kCentimetre,
-                                  LengthUnit::kInch, LengthUnit::kMetre}) {
-      reading += (reading.empty() ? "" : ", ") + significant(longest * millimetres_per(unit), 4) +
-                 " mm if " + name_of(unit);
+    for (const geometry::LengthUnit unit :
+         {geometry::LengthUnit::kMillimetre, geometry::LengthUnit::kCentimetre,
+          geometry::LengthUnit::kInch, geometry::LengthUnit::kMetre}) {
+      reading += (reading.empty() ? "" : ", ") +
+                 significant(longest * geometry::millimetres_per(unit), 4) + " mm if " +
+                 name_of(unit);
     }
     throw InputError(object + ": the file doesn't carry its unit and its size, " +
                      sides(size, 1.0) + ", is ambiguous (longest side " + reading +
@@ -76,8 +79,9 @@ UnitDecision decide_unit(const Box3& box, std::optional<LengthUnit> from_file,
   }
   return {*proposed, UnitSource::kProposed,
           "the file carries no unit; taken as " + name_of(*proposed) +
-              " because a product for the hand is then " + sides(size, millimetres_per(*proposed)) +
+              " because a product for the hand is then " +
+              sides(size, geometry::millimetres_per(*proposed)) +
               " mm (setting \"unit\" overrides this)"};
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -8,11 +8,11 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// The unit of a mesh and why.
 struct UnitDecision {
-  LengthUnit unit = LengthUnit::kMillimetre;
+  geometry::LengthUnit unit = geometry::LengthUnit::kMillimetre;
   UnitSource source = UnitSource::kMade;
   std::string explanation;  ///< one sentence for people; empty if there is nothing to report
 };
@@ -36,7 +36,7 @@ struct UnitDecision {
 ///
 /// Throws InputError (exit code 3) naming the size and --unit if undecidable; and naming the size
 /// if it is not finite, zero, or outside 0.1 mm to 10 m in the unit that was given.
-UnitDecision decide_unit(const Box3& box, std::optional<LengthUnit> from_file,
-                         std::optional<LengthUnit> from_user, const std::string& object);
+UnitDecision decide_unit(const Box3& box, std::optional<geometry::LengthUnit> from_file,
+                         std::optional<geometry::LengthUnit> from_user, const std::string& object);
 
-}  // namespace palmar
+}  // namespace palmar::product

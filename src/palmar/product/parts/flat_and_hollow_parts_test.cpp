@@ -11,7 +11,7 @@
 #include "palmar/product/parts/product_parts.h"
 #include "palmar/product/parts/sdf_mesh_for_test.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 ProductParts parts_of(const Sdf& solid, const Box3& box, double spacing) {
@@ -147,4 +147,4 @@ TEST(Bails, AnOpenBucketIsABodyWithALoop) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::product

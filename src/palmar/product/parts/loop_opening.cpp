@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/product/parts/part_outline.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 using Point2 = Eigen::Vector2d;
@@ -163,7 +163,8 @@ PartOpening opening_of(const PlaneFrame& plane, const OutlineMeasures& hull, con
 
 }  // namespace
 
-std::optional<PartOpening> loop_opening(const TriangleMesh& mesh, const std::vector<Vec3>& line) {
+std::optional<PartOpening> loop_opening(const geometry::TriangleMesh& mesh,
+                                        const std::vector<Vec3>& line) {
   if (line.size() < 3) return {};
   Vec3 mean = Vec3::Zero(), area = Vec3::Zero();
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -184,7 +185,7 @@ std::optional<PartOpening> loop_opening(const TriangleMesh& mesh, const std::vec
   std::vector<Point2> opening;
   std::vector<std::vector<Point2>> curves;
   double largest = 0.0;
-  for (const SectionCurve& curve : plane_section(mesh, mean, axis)) {
+  for (const geometry::SectionCurve& curve : geometry::plane_section(mesh, mean, axis)) {
     if (curve.point.size() < 3) continue;
     std::vector<Point2> polygon;
     Point2 middle = Point2::Zero();
@@ -222,4 +223,4 @@ std::optional<PartOpening> loop_opening(const TriangleMesh& mesh, const std::vec
   return opening_of(plane, *hull, centre, radius, kCell);
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

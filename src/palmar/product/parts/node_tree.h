@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace palmar {
+namespace palmar::product {
 
 /// Which nodes of a graph are connected by the lines known so far.
 class NodeTree {
@@ -30,4 +30,4 @@ class NodeTree {
   std::vector<int> above_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -9,7 +9,7 @@
 #include "palmar/product/parts/part_spread.h"
 #include "palmar/product/parts/part_triggers.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kLowest = 1.5, kHighest = 15.0;    // mm out of the face
@@ -32,7 +32,7 @@ struct HeightMap {
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * columns + i; }
 };
 
-HeightMap height_map(const TriangleMesh& mesh, const Vec3& up, const Vec3& u) {
+HeightMap height_map(const geometry::TriangleMesh& mesh, const Vec3& up, const Vec3& u) {
   HeightMap map;
   map.up = up;
   map.u = u;
@@ -170,7 +170,7 @@ void add_buttons(const HeightMap& map, const std::vector<int>& part_of_triangle,
 
 }  // namespace
 
-std::vector<PartButton> buttons_of(const TriangleMesh& mesh,
+std::vector<PartButton> buttons_of(const geometry::TriangleMesh& mesh,
                                    const std::vector<int>& part_of_triangle) {
   std::vector<PartButton> buttons;
   if (mesh.triangles.empty()) return buttons;
@@ -186,4 +186,4 @@ std::vector<PartButton> buttons_of(const TriangleMesh& mesh,
   return buttons;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

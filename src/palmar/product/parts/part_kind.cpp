@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 // A hand closes round what isn't thicker than this, mm: thumb and middle finger of an average hand
@@ -90,4 +90,4 @@ void name_parts(std::vector<ProductPart>& parts) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

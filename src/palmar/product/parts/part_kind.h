@@ -6,7 +6,7 @@
 
 #include "palmar/product/parts/product_parts.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// What a part's kind follows from besides its sections.
 struct PartShape {
@@ -26,4 +26,4 @@ bool is_bar_by_size(const ProductPart& part);
 /// Gives every part its plain name by its kind, size and what it joins.
 void name_parts(std::vector<ProductPart>& parts);
 
-}  // namespace palmar
+}  // namespace palmar::product

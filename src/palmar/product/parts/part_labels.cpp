@@ -9,9 +9,9 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::product {
 
-std::vector<int> labels_of(const TriangleMesh& mesh, const SolidGrid& grid,
+std::vector<int> labels_of(const geometry::TriangleMesh& mesh, const SolidGrid& grid,
                            const RoughParts& rough) {
   std::vector<int> label(mesh.triangles.size(), 0);
   constexpr int kBlock = 512;
@@ -27,7 +27,7 @@ std::vector<int> labels_of(const TriangleMesh& mesh, const SolidGrid& grid,
   return label;
 }
 
-void absorb_islands(const TriangleMesh& mesh, const MeshTopology& topology,
+void absorb_islands(const geometry::TriangleMesh& mesh, const geometry::MeshTopology& topology,
                     std::vector<int>& label) {
   constexpr double kIsland = 0.2;  // share of the part's largest piece
   const int count = mesh.triangle_count();
@@ -46,7 +46,8 @@ void absorb_islands(const TriangleMesh& mesh, const MeshTopology& topology,
         const int t = stack.back();
         stack.pop_back();
         const Triangle& c = mesh.triangles[t];
-        area[id] += triangle_area(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
+        area[id] +=
+            geometry::triangle_area(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
         for (int h = 3 * t; h < 3 * t + 3; ++h) {
           const int other = topology.twin[h] < 0 ? -1 : topology.twin[h] / 3;
           if (other < 0 || piece[other] >= 0 || label[other] != label[start]) continue;
@@ -89,8 +90,8 @@ void absorb_islands(const TriangleMesh& mesh, const MeshTopology& topology,
   }
 }
 
-void give_to_joined(const TriangleMesh& mesh, const RoughPart& rough, const std::vector<Vec3>& line,
-                    int id, std::vector<int>& label) {
+void give_to_joined(const geometry::TriangleMesh& mesh, const RoughPart& rough,
+                    const std::vector<Vec3>& line, int id, std::vector<int>& label) {
   for (std::size_t t = 0; t < label.size(); ++t) {
     if (label[t] != id) continue;
     const Triangle& c = mesh.triangles[t];
@@ -108,8 +109,9 @@ void give_to_joined(const TriangleMesh& mesh, const RoughPart& rough, const std:
   }
 }
 
-TriangleMesh piece_of(const TriangleMesh& mesh, const std::vector<int>& label, int part) {
-  TriangleMesh piece;
+geometry::TriangleMesh piece_of(const geometry::TriangleMesh& mesh, const std::vector<int>& label,
+                                int part) {
+  geometry::TriangleMesh piece;
   std::vector<int> index(mesh.vertices.size(), -1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (label[t] != part) continue;
@@ -126,4 +128,4 @@ TriangleMesh piece_of(const TriangleMesh& mesh, const std::vector<int>& label, i
   return piece;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -10,7 +10,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/product/parts/part_outline.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kStep = 3.0;          // mm between sections: a fifth of a finger's breadth
@@ -80,7 +80,7 @@ void smooth(std::vector<Vec3>& line, bool is_ring) {
 
 using Outlines = std::vector<std::optional<OutlineMeasures>>;
 
-Outlines outlines_along(const TriangleMesh& mesh, const std::vector<Vec3>& line,
+Outlines outlines_along(const geometry::TriangleMesh& mesh, const std::vector<Vec3>& line,
                         const std::vector<Vec3>& axes, const OutlineReach& reach) {
   Outlines outlines(line.size());
   parallel_for(static_cast<int>(line.size()),
@@ -150,8 +150,8 @@ PartSection section_of(const OutlineMeasures& o, double along, const Vec3& axis)
 }
 
 // Where a joined end lies beyond `from` along `axis` (out of the part): where the girth has grown.
-Vec3 joined_end(const TriangleMesh& mesh, const Vec3& from, const Vec3& axis, double girth,
-                double radius, const OutlineReach& reach) {
+Vec3 joined_end(const geometry::TriangleMesh& mesh, const Vec3& from, const Vec3& axis,
+                double girth, double radius, const OutlineReach& reach) {
   double before = girth, way_before = 0.0;
   const double farthest = 3.0 * radius + 10.0;
   for (double way = 1.0; way <= farthest; way += 1.0) {
@@ -204,7 +204,7 @@ void drop_bent_ends(double reach, const std::array<bool, 2>& is_free, std::vecto
 
 }  // namespace
 
-MeasuredLine measure_line(const TriangleMesh& mesh, const LineRequest& request) {
+MeasuredLine measure_line(const geometry::TriangleMesh& mesh, const LineRequest& request) {
   MeasuredLine result;
   std::vector<Vec3> line = request.line;
   std::vector<double> radius = request.radius;
@@ -317,7 +317,8 @@ MeasuredLine measure_line(const TriangleMesh& mesh, const LineRequest& request) 
   return result;
 }
 
-MeasuredLine measure_axis(const TriangleMesh& piece, const Vec3& point, const Vec3& axis) {
+MeasuredLine measure_axis(const geometry::TriangleMesh& piece, const Vec3& point,
+                          const Vec3& axis) {
   MeasuredLine result;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Triangle& t : piece.triangles) {
@@ -351,4 +352,4 @@ MeasuredLine measure_axis(const TriangleMesh& piece, const Vec3& point, const Ve
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -8,7 +8,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/parts/product_parts.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// What a centre line is measured from.
 struct LineRequest {
@@ -30,10 +30,10 @@ struct MeasuredLine {
 /// Draws a rough line to the middle of the sections across it, again and again; lets free ends run
 /// to the end of the surface and joined ends to where the girth has grown by kGirthOfJoint (what
 /// they join begins there); then measures sections evenly along it. Empty if there are no sections.
-MeasuredLine measure_line(const TriangleMesh& mesh, const LineRequest& request);
+MeasuredLine measure_line(const geometry::TriangleMesh& mesh, const LineRequest& request);
 
 /// Sections along a straight axis through a piece of surface: hulls of everything that the planes
 /// meet, so that gaps (where a handle was taken off) don't matter.
-MeasuredLine measure_axis(const TriangleMesh& piece, const Vec3& point, const Vec3& axis);
+MeasuredLine measure_axis(const geometry::TriangleMesh& piece, const Vec3& point, const Vec3& axis);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -9,7 +9,7 @@
 #include "palmar/geometry/convex_hull.h"
 #include "palmar/geometry/mesh/section.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 using Point2 = Eigen::Vector2d;
@@ -69,7 +69,7 @@ double distance_to(const std::vector<Point2>& polygon, const Point2& p) {
 
 std::optional<OutlineMeasures> measure_hull(const PlaneFrame& plane,
                                             const std::vector<Point2>& points) {
-  const std::vector<Point2> hull = convex_hull(points);
+  const std::vector<Point2> hull = geometry::convex_hull(points);
   if (hull.size() < 3) return {};
   OutlineMeasures m;
   m.centre = plane.lift(centroid(hull));
@@ -96,7 +96,7 @@ std::optional<OutlineMeasures> measure_hull(const PlaneFrame& plane,
   return m;
 }
 
-std::optional<OutlineMeasures> outline_at(const TriangleMesh& mesh, const Vec3& point,
+std::optional<OutlineMeasures> outline_at(const geometry::TriangleMesh& mesh, const Vec3& point,
                                           const Vec3& axis, const OutlineReach& reach) {
   constexpr double kAlike = 4.0;  // areas; what is larger is what a handle stands beside
   const PlaneFrame plane(point, axis);
@@ -108,7 +108,7 @@ std::optional<OutlineMeasures> outline_at(const TriangleMesh& mesh, const Vec3& 
   std::optional<std::size_t> chosen;
   double nearest = reach.reach;
   bool is_holding = false;
-  for (const SectionCurve& curve : plane_section(mesh, point, axis)) {
+  for (const geometry::SectionCurve& curve : geometry::plane_section(mesh, point, axis)) {
     if (curve.point.size() < 3) continue;
     Outline outline;
     outline.polygon.reserve(curve.point.size());
@@ -150,14 +150,14 @@ std::optional<OutlineMeasures> outline_at(const TriangleMesh& mesh, const Vec3& 
   return m;
 }
 
-std::optional<OutlineMeasures> hull_at(const TriangleMesh& mesh, const Vec3& point,
+std::optional<OutlineMeasures> hull_at(const geometry::TriangleMesh& mesh, const Vec3& point,
                                        const Vec3& axis) {
   const PlaneFrame plane(point, axis);
   std::vector<Point2> points;
-  for (const SectionCurve& curve : plane_section(mesh, point, axis)) {
+  for (const geometry::SectionCurve& curve : geometry::plane_section(mesh, point, axis)) {
     for (const Vec3& p : curve.point) points.push_back(plane.project(p));
   }
   return measure_hull(plane, points);
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Right-handed frame of a plane: points are centre + x u + y v.
 struct PlaneFrame {
@@ -45,11 +45,11 @@ struct OutlineReach {
 /// The outer outline of the solid that holds `point`, else the one nearest to it, in the plane
 /// through it across `axis`, and what a gap (a hole to hang the product up) parts from it; centre
 /// and area are those of the outlines, the rest those of their hull.
-std::optional<OutlineMeasures> outline_at(const TriangleMesh& mesh, const Vec3& point,
+std::optional<OutlineMeasures> outline_at(const geometry::TriangleMesh& mesh, const Vec3& point,
                                           const Vec3& axis, const OutlineReach& reach);
 
 /// All of an open or closed piece of surface that the plane meets, as one hull.
-std::optional<OutlineMeasures> hull_at(const TriangleMesh& mesh, const Vec3& point,
+std::optional<OutlineMeasures> hull_at(const geometry::TriangleMesh& mesh, const Vec3& point,
                                        const Vec3& axis);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 void require_line(const ProductPart& part) {
@@ -39,7 +39,7 @@ PartStation station_at(const ProductPart& part, double along) {
 
 }  // namespace
 
-Rigid3 part_frame(const ProductPart& part, double along, double turn) {
+geometry::Rigid3 part_frame(const ProductPart& part, double along, double turn) {
   const PartStation s = station_at(part, along);
   const Vec3 out = std::cos(turn) * s.zero + std::sin(turn) * s.axis.cross(s.zero);
   Eigen::Matrix3d axes;
@@ -103,4 +103,4 @@ PartPlace place_of(const ProductPart& part, const Vec3& point) {
   return place;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

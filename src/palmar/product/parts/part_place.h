@@ -5,7 +5,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/product/parts/product_parts.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// A place in a part's own coordinates: the same on a product that was moved or meshed anew.
 struct PartPlace {
@@ -16,7 +16,7 @@ struct PartPlace {
 
 /// The frame at a place on the centre line, product_from_place: x along the axis, z outwards at
 /// `turn`, y = z x x. A ring's `along` is taken round it, others are lengthened straight on.
-Rigid3 part_frame(const ProductPart& part, double along, double turn);
+geometry::Rigid3 part_frame(const ProductPart& part, double along, double turn);
 
 /// A place in the product's frame, mm.
 Vec3 point_at(const ProductPart& part, const PartPlace& place);
@@ -24,4 +24,4 @@ Vec3 point_at(const ProductPart& part, const PartPlace& place);
 /// The place of a point of the product's frame, by the nearest point of the centre line.
 PartPlace place_of(const ProductPart& part, const Vec3& point);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -10,7 +10,7 @@
 
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 // Directions in which hulls are measured: primitive vectors of whole numbers up to 3, at most 18
@@ -149,4 +149,4 @@ double hollowness(const SolidGrid& grid, const PartRegions& regions, const PartR
   return deepest;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -9,7 +9,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/parts/solid_grid.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// A ball of the solid, in the grid's frame, mm.
 struct SolidBall {
@@ -45,4 +45,4 @@ PartRegions part_regions(const SolidGrid& grid, const std::vector<SolidBall>& ba
 double hollowness(const SolidGrid& grid, const PartRegions& regions, const PartRegion& region,
                   double limit);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -12,7 +12,7 @@
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 // The direction that is unlike the other two, and how much so: of something round, its axis.
@@ -25,7 +25,7 @@ std::pair<Vec3, double> odd_axis(const Spread& s) {
 // Where the normals lie in the plane of two axes: sum of A rho^4 e^(4 i phi), by polar coordinates
 // of each unit normal there; and the sum of A rho^4. The phase of the first is four times the angle
 // to the direction that they gather at, modulo a right angle.
-std::pair<std::complex<double>, double> fourfold(const TriangleMesh& piece, const Vec3& u,
+std::pair<std::complex<double>, double> fourfold(const geometry::TriangleMesh& piece, const Vec3& u,
                                                  const Vec3& v) {
   std::complex<double> gathered = 0.0;
   double all = 0.0;
@@ -42,7 +42,7 @@ std::pair<std::complex<double>, double> fourfold(const TriangleMesh& piece, cons
 }
 
 // Share of a surface that faces along an axis, either way.
-double share_facing(const TriangleMesh& piece, const Vec3& axis) {
+double share_facing(const geometry::TriangleMesh& piece, const Vec3& axis) {
   constexpr double kFlatEnd = 0.99;  // cosine (8 deg)
   double along = 0.0, all = 0.0;
   for (const Triangle& t : piece.triangles) {
@@ -62,7 +62,7 @@ bool FaceAxes::is_box() const {
   return sharpness >= kBox;
 }
 
-FaceAxes face_axes_of(const TriangleMesh& piece) {
+FaceAxes face_axes_of(const geometry::TriangleMesh& piece) {
   FaceAxes result;
   result.axes = facing_of(piece).axes;
   constexpr int kSweeps = 12;             // two or three are usual
@@ -90,19 +90,19 @@ FaceAxes face_axes_of(const TriangleMesh& piece) {
   return result;
 }
 
-Vec3 surface_middle(const TriangleMesh& mesh) {
+Vec3 surface_middle(const geometry::TriangleMesh& mesh) {
   Vec3 sum = Vec3::Zero();
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const double A = triangle_area(a, b, c);
+    const double A = geometry::triangle_area(a, b, c);
     area += A;
     sum += A / 3.0 * (a + b + c);
   }
   return area > 0.0 ? Vec3(sum / area) : Vec3(mesh.vertices[mesh.triangles[0][0]]);
 }
 
-Spread spread_of(const TriangleMesh& piece) {
+Spread spread_of(const geometry::TriangleMesh& piece) {
   Spread s;
   s.middle = surface_middle(piece);
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
@@ -110,7 +110,7 @@ Spread spread_of(const TriangleMesh& piece) {
   for (const Triangle& t : piece.triangles) {
     const Vec3 a = piece.vertices[t[0]] - s.middle, b = piece.vertices[t[1]] - s.middle,
                c = piece.vertices[t[2]] - s.middle;
-    const double A = triangle_area(a, b, c);
+    const double A = geometry::triangle_area(a, b, c);
     const Vec3 sum = a + b + c;
     area += A;
     second += A / 12.0 *
@@ -125,7 +125,7 @@ Spread spread_of(const TriangleMesh& piece) {
   return s;
 }
 
-Vec3 extents_of(const TriangleMesh& piece, const Eigen::Matrix3d& axes) {
+Vec3 extents_of(const geometry::TriangleMesh& piece, const Eigen::Matrix3d& axes) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& p : piece.vertices) {
     const Vec3 q = axes.transpose() * p;
@@ -135,7 +135,7 @@ Vec3 extents_of(const TriangleMesh& piece, const Eigen::Matrix3d& axes) {
   return piece.vertices.empty() ? Vec3(Vec3::Zero()) : Vec3(high - low);
 }
 
-Spread facing_of(const TriangleMesh& piece) {
+Spread facing_of(const geometry::TriangleMesh& piece) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   double area = 0.0;
   for (const Triangle& t : piece.triangles) {
@@ -155,13 +155,13 @@ Spread facing_of(const TriangleMesh& piece) {
   return s;
 }
 
-double roundness_of(const TriangleMesh& piece, const Spread& spread) {
+double roundness_of(const geometry::TriangleMesh& piece, const Spread& spread) {
   double farthest = 0.0;
   for (const Vec3& p : piece.vertices) farthest = std::max(farthest, (p - spread.middle).norm());
   return spread.size.norm() > 0.0 ? farthest / spread.size.norm() : 2.0;
 }
 
-Vec3 body_axis(const TriangleMesh& piece, const Spread& spread, const Spread& facing) {
+Vec3 body_axis(const geometry::TriangleMesh& piece, const Spread& spread, const Spread& facing) {
   const FaceAxes faces = face_axes_of(piece);
   if (faces.is_box()) {
     int longest = 0;
@@ -185,7 +185,7 @@ Vec3 body_axis(const TriangleMesh& piece, const Spread& spread, const Spread& fa
   return axis;
 }
 
-Vec3 plate_axis(const TriangleMesh& piece, const Spread& spread, const Vec3& normal) {
+Vec3 plate_axis(const geometry::TriangleMesh& piece, const Spread& spread, const Vec3& normal) {
   const FaceAxes faces = face_axes_of(piece);
   Vec3 axis = spread.axes.col(0);
   if (faces.is_box()) {
@@ -201,4 +201,4 @@ Vec3 plate_axis(const TriangleMesh& piece, const Spread& spread, const Vec3& nor
   return (axis - normal * normal.dot(axis)).normalized();
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

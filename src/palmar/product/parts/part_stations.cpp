@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 // An offset of the middle of the product's surface from a part, as a share of the part's size,
@@ -132,4 +132,4 @@ std::vector<PartWaist> waists_of(const std::vector<PartSection>& sections) {
   return waists;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -7,7 +7,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/parts/product_parts.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Which way along the part runs: from its free end, else towards the middle of the product, else
 /// towards its thicker half. True if it has to be turned round.
@@ -24,4 +24,4 @@ std::vector<PartStation> stations_of(const std::vector<Vec3>& line, bool is_ring
 /// Where the girth of a body is least between larger ones, and its neck.
 std::vector<PartWaist> waists_of(const std::vector<PartSection>& sections);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -12,7 +12,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/product/parts/part_place.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kShortestTrigger = 10.0, kLongestTrigger = 70.0;  // mm
@@ -28,15 +28,15 @@ constexpr double kOffAxis = 0.5;          // radii that what it carries lies to 
 constexpr double kLeastDiameter = 14.0;   // mm; thinner bars aren't held in a fist
 
 // Where what lies beyond an end of a bar reaches out to: unit, across the bar's axis there.
-std::optional<Vec3> side_of_load(const TriangleMesh& mesh, const ProductPart& bar, const Vec3& end,
-                                 const Vec3& outwards) {
+std::optional<Vec3> side_of_load(const geometry::TriangleMesh& mesh, const ProductPart& bar,
+                                 const Vec3& end, const Vec3& outwards) {
   Vec3 moment = Vec3::Zero();
   double area = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     const Vec3 r = (a + b + c) / 3.0 - end;
     if (outwards.dot(r) < 0.0) continue;
-    const double weight = triangle_area(a, b, c);
+    const double weight = geometry::triangle_area(a, b, c);
     moment += weight * (r - outwards * outwards.dot(r));
     area += weight;
   }
@@ -46,7 +46,8 @@ std::optional<Vec3> side_of_load(const TriangleMesh& mesh, const ProductPart& ba
 
 // How far the product reaches from a point along a direction, seen from far off; mm, 0 if nothing
 // is met before the point.
-double front_at(const DistanceField& product, const Vec3& point, const Vec3& front, double far) {
+double front_at(const geometry::DistanceField& product, const Vec3& point, const Vec3& front,
+                double far) {
   double way = far;
   for (int step = 0; step < 300 && way > 0.0; ++step) {
     const double distance = product.at(point + way * front).distance;
@@ -67,7 +68,8 @@ double radius_towards(const ProductPart& bar, double along, const Vec3& directio
   return 0.5 * std::hypot(w * nearest->width, t * nearest->thickness);
 }
 
-std::optional<PartTrigger> trigger_at(const TriangleMesh& mesh, const DistanceField& surface,
+std::optional<PartTrigger> trigger_at(const geometry::TriangleMesh& mesh,
+                                      const geometry::DistanceField& surface,
                                       const ProductPart& bar, std::size_t end, double diagonal) {
   const Vec3 start = bar.ends[1 - end].point, last_point = bar.ends[end].point;
   const double chord = (last_point - start).norm();
@@ -148,8 +150,8 @@ std::optional<PartTrigger> trigger_at(const TriangleMesh& mesh, const DistanceFi
 std::vector<PartTrigger> triggers_of(const Product& product,
                                      const std::vector<ProductPart>& parts) {
   std::vector<PartTrigger> triggers;
-  std::shared_ptr<const DistanceField> surface = product.distance;
-  const double diagonal = bounding_box(product.mesh).diagonal().norm();
+  std::shared_ptr<const geometry::DistanceField> surface = product.distance;
+  const double diagonal = geometry::bounding_box(product.mesh).diagonal().norm();
   for (const ProductPart& part : parts) {
     if (part.kind != PartKind::kBar || part.diameter() < kLeastDiameter || part.sections.empty()) {
       continue;
@@ -163,7 +165,7 @@ std::vector<PartTrigger> triggers_of(const Product& product,
     const bool knows_ends = part.ends[0].joined || part.ends[1].joined;
     for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
       if (knows_ends ? !part.ends[end].joined : part.joined.size() < 2) continue;
-      if (!surface) surface = std::make_shared<MeshDistance>(product.mesh);
+      if (!surface) surface = std::make_shared<geometry::MeshDistance>(product.mesh);
       if (auto trigger = trigger_at(product.mesh, *surface, part, end, diagonal)) {
         triggers.push_back(*trigger);
       }
@@ -172,4 +174,4 @@ std::vector<PartTrigger> triggers_of(const Product& product,
   return triggers;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -6,7 +6,7 @@
 
 #include "palmar/product/parts/product_parts.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Triggers of bars that carry something at an end which reaches out to one side (a pistol). The
 /// bar is looked at from that side, in its mid-plane and 4 mm beside it: a trigger is a stretch of
@@ -20,7 +20,7 @@ std::vector<PartTrigger> triggers_of(const Product& product, const std::vector<P
 /// that its surface faces most sharply, what stands 1.5 to 15 mm out of the level that most of it
 /// has (a third at least), is 6 to 32 mm wide and long and no higher than 0.6 of that, and lies
 /// wholly on that level. The limits are our choice.
-std::vector<PartButton> buttons_of(const TriangleMesh& mesh,
+std::vector<PartButton> buttons_of(const geometry::TriangleMesh& mesh,
                                    const std::vector<int>& part_of_triangle);
 
-}  // namespace palmar
+}  // namespace palmar::product

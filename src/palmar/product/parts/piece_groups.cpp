@@ -11,7 +11,7 @@
 
 #include "palmar/product/parts/node_tree.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kStubLength = 2.0;  // depths of the body: its far side is one away
@@ -279,4 +279,4 @@ PieceGroups grouped_pieces(const SolidGrid& grid, const SkeletonPieces& skeleton
   return std::move(grouping).result();
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

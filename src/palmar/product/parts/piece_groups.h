@@ -8,7 +8,7 @@
 #include "palmar/product/parts/part_regions.h"
 #include "palmar/product/parts/skeleton_pieces.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Two pieces that share a node, a < b.
 struct PieceJoint {
@@ -31,4 +31,4 @@ struct PieceGroups {
 PieceGroups grouped_pieces(const SolidGrid& grid, const SkeletonPieces& skeleton,
                            const PartRegions& regions);
 
-}  // namespace palmar
+}  // namespace palmar::product

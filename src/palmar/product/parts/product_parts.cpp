@@ -24,7 +24,7 @@
 #include "palmar/product/parts/solid_grid.h"
 #include "palmar/product/parts/voxel_skeleton.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 double median_of(const std::vector<PartSection>& sections, double PartSection::*value) {
@@ -37,9 +37,10 @@ double median_of(const std::vector<PartSection>& sections, double PartSection::*
 }
 
 // A part along its own centre line, if it has one that is measured well.
-bool measure_as_bar(const TriangleMesh& mesh, const TriangleMesh& piece, const SolidGrid& grid,
-                    const std::vector<SolidBall>& balls, const RoughPart& rough, int id, double gap,
-                    ProductPart& part, std::vector<Vec3>& line) {
+bool measure_as_bar(const geometry::TriangleMesh& mesh, const geometry::TriangleMesh& piece,
+                    const SolidGrid& grid, const std::vector<SolidBall>& balls,
+                    const RoughPart& rough, int id, double gap, ProductPart& part,
+                    std::vector<Vec3>& line) {
   if (rough.line.size() < 4) return false;
   LineRequest request;
   for (const Vec3& p : rough.line) request.line.push_back(grid.product_from_grid * p);
@@ -71,8 +72,9 @@ bool measure_as_bar(const TriangleMesh& mesh, const TriangleMesh& piece, const S
   return true;
 }
 
-void measure_as_body(const TriangleMesh& piece, const Spread& spread, const Spread& facing,
-                     bool is_plate, ProductPart& part, std::vector<Vec3>& line) {
+void measure_as_body(const geometry::TriangleMesh& piece, const Spread& spread,
+                     const Spread& facing, bool is_plate, ProductPart& part,
+                     std::vector<Vec3>& line) {
   const Vec3 axis =
       is_plate ? plate_axis(piece, spread, facing.axes.col(0)) : body_axis(piece, spread, facing);
   MeasuredLine measured = measure_axis(piece, spread.middle, axis);
@@ -125,7 +127,7 @@ void PartOptions::check() const {
 
 ProductParts find_parts(const Product& product, const PartOptions& options) {
   options.check();
-  const TriangleMesh& mesh = product.mesh;
+  const geometry::TriangleMesh& mesh = product.mesh;
   ProductParts result;
   if (mesh.triangles.empty()) return result;
   SolidGridOptions solid;
@@ -142,7 +144,7 @@ ProductParts find_parts(const Product& product, const PartOptions& options) {
   RoughParts rough = rough_parts(grid, graph, girth_at);
   complete_rings(mesh, grid, graph, options.finger, rough);
   std::vector<int> label = labels_of(mesh, grid, rough);
-  const MeshTopology topology = build_topology(mesh);
+  const geometry::MeshTopology topology = geometry::build_topology(mesh);
   absorb_islands(mesh, topology, label);
   const Vec3 middle = surface_middle(mesh);
   const int count = static_cast<int>(rough.parts.size());
@@ -161,7 +163,7 @@ ProductParts find_parts(const Product& product, const PartOptions& options) {
   std::vector<std::vector<Vec3>> lines(count);
   std::vector<char> has_line(count, 0);
   for (int id = 0; id < count; ++id) {
-    const TriangleMesh piece = piece_of(mesh, label, id);
+    const geometry::TriangleMesh piece = piece_of(mesh, label, id);
     has_line[id] = measure_as_bar(mesh, piece, grid, rough.balls, rough.parts[id], id,
                                   options.finger, bars[id], lines[id])
                        ? 1
@@ -174,14 +176,14 @@ ProductParts find_parts(const Product& product, const PartOptions& options) {
   }
   absorb_islands(mesh, topology, label);
   for (int id = 0; id < count; ++id) {
-    const TriangleMesh piece = piece_of(mesh, label, id);
+    const geometry::TriangleMesh piece = piece_of(mesh, label, id);
     if (piece.triangles.empty()) continue;
     Found f;
     f.part = std::move(bars[id]);
     f.rough = id;
     ProductPart& part = f.part;
     part.volume = rough.parts[id].volume;
-    part.area = surface_area(piece);
+    part.area = geometry::surface_area(piece);
     const Spread spread = spread_of(piece);
     const Spread facing = facing_of(piece);
     const Vec3 face = facing.axes.col(0);
@@ -257,7 +259,7 @@ ProductParts find_parts(const Product& product, const PartOptions& options) {
   }
   result.triggers = triggers_of(product, result.parts);
   result.buttons = buttons_of(mesh, result.part_of_triangle);
-  const TopologyReport report = examine_topology(mesh, topology);
+  const geometry::TopologyReport report = geometry::examine_topology(mesh, topology);
   if (report.is_closed && report.is_two_manifold) {
     int loops = 0;
     for (const ProductPart& part : result.parts) loops += part.kind == PartKind::kLoop ? 1 : 0;
@@ -268,7 +270,7 @@ ProductParts find_parts(const Product& product, const PartOptions& options) {
 
 int ProductParts::nearest(const Product& product, const Vec3& point) const {
   if (parts.empty()) throw UsageError("product \"" + product.name + "\" has no parts");
-  const DistanceSample sample = product.distance->at(point);
+  const geometry::DistanceSample sample = product.distance->at(point);
   if (sample.triangle >= 0 && sample.triangle < static_cast<int>(part_of_triangle.size())) {
     return part_of_triangle[sample.triangle];
   }
@@ -288,4 +290,4 @@ int ProductParts::nearest(const Product& product, const Vec3& point) const {
   return best;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -11,7 +11,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::product {
 
 enum class PartKind {
   kBar,   ///< what a hand closes round: straight, curved or tapered
@@ -150,4 +150,4 @@ struct ProductParts {
 /// Throws UsageError for options out of range. A product without triangles has no parts.
 ProductParts find_parts(const Product& product, const PartOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::product

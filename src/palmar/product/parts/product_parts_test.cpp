@@ -18,19 +18,19 @@
 #include "palmar/product/parts/part_place.h"
 #include "palmar/product/parts/sdf_mesh_for_test.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kPartPi = std::numbers::pi;
 
-Product part_product(TriangleMesh mesh, const std::string& name = "test") {
+Product part_product(geometry::TriangleMesh mesh, const std::string& name = "test") {
   Product product;
   product.name = name;
   product.mesh = std::move(mesh);
   return product;
 }
 
-Product part_moved(const Product& product, const Rigid3& motion) {
+Product part_moved(const Product& product, const geometry::Rigid3& motion) {
   Product result = product;
   for (Vec3& p : result.mesh.vertices) p = motion * p;
   return result;
@@ -43,8 +43,8 @@ Product part_mirrored(const Product& product) {
   return result;
 }
 
-const Rigid3 kPartMotion = {Quat(Eigen::AngleAxisd(1.1, Vec3(0.3, -0.5, 0.8).normalized())),
-                            Vec3(123.0, -45.0, 67.0)};
+const geometry::Rigid3 kPartMotion = {
+    Quat(Eigen::AngleAxisd(1.1, Vec3(0.3, -0.5, 0.8).normalized())), Vec3(123.0, -45.0, 67.0)};
 
 std::string names_of(const ProductParts& found) {
   std::string names;
@@ -84,8 +84,8 @@ Product hammer(double spacing) {
 }
 
 TEST(FindParts, CylinderIsABarOfItsLengthAndGirth) {
-  const TriangleMesh mesh =
-      make_cylinder({.radius = 16.0, .length = 130.0, .segments = 96, .rings = 30});
+  const geometry::TriangleMesh mesh =
+      geometry::make_cylinder({.radius = 16.0, .length = 130.0, .segments = 96, .rings = 30});
   const ProductParts found = find_parts(part_product(mesh));
   ASSERT_EQ(found.parts.size(), 1U) << names_of(found);
   const ProductPart& bar = found.parts[0];
@@ -136,7 +136,7 @@ TEST(FindParts, BentTubeIsOneBarAlongItsArc) {
 }
 
 TEST(FindParts, TorusIsARingWithItsOpening) {
-  const ProductParts found = find_parts(part_product(make_torus(35.0, 7.0, 120, 40)));
+  const ProductParts found = find_parts(part_product(geometry::make_torus(35.0, 7.0, 120, 40)));
   ASSERT_EQ(found.parts.size(), 1U) << names_of(found);
   const ProductPart& ring = found.parts[0];
   EXPECT_EQ(ring.kind, PartKind::kLoop);
@@ -154,7 +154,7 @@ TEST(FindParts, TorusIsARingWithItsOpening) {
 
 TEST(FindParts, TooNarrowARingIsNoLoop) {
   // 8 mm of opening: no finger goes through.
-  const ProductParts found = find_parts(part_product(make_torus(14.0, 10.0, 80, 40)));
+  const ProductParts found = find_parts(part_product(geometry::make_torus(14.0, 10.0, 80, 40)));
   for (const ProductPart& part : found.parts) EXPECT_NE(part.kind, PartKind::kLoop);
   EXPECT_EQ(found.narrow_tunnels, 1);
 }
@@ -181,7 +181,7 @@ TEST(FindParts, CupHasABodyAndALoopWithRoomForFingers) {
 }
 
 TEST(FindParts, PlateBallPenAndBottleAreTold) {
-  const ProductParts plate = find_parts(part_product(make_box(Vec3(140, 70, 9), 30)));
+  const ProductParts plate = find_parts(part_product(geometry::make_box(Vec3(140, 70, 9), 30)));
   ASSERT_EQ(plate.parts.size(), 1U) << names_of(plate);
   EXPECT_EQ(plate.parts[0].kind, PartKind::kPlate);
   ASSERT_TRUE(plate.parts[0].face_normal);
@@ -190,13 +190,13 @@ TEST(FindParts, PlateBallPenAndBottleAreTold) {
   EXPECT_NEAR(plate.parts[0].width, 70.0, 0.01);
   EXPECT_NEAR(plate.parts[0].length, 140.0, 0.01);
 
-  const ProductParts ball = find_parts(part_product(make_icosphere(35.0, 4)));
+  const ProductParts ball = find_parts(part_product(geometry::make_icosphere(35.0, 4)));
   ASSERT_EQ(ball.parts.size(), 1U) << names_of(ball);
   EXPECT_EQ(ball.parts[0].kind, PartKind::kBall);
   EXPECT_NEAR(ball.parts[0].length, 70.0, 0.3);
 
-  const ProductParts pen = find_parts(
-      part_product(make_cylinder({.radius = 5.0, .length = 140.0, .segments = 40, .rings = 60})));
+  const ProductParts pen = find_parts(part_product(
+      geometry::make_cylinder({.radius = 5.0, .length = 140.0, .segments = 40, .rings = 60})));
   ASSERT_EQ(pen.parts.size(), 1U) << names_of(pen);
   EXPECT_EQ(pen.parts[0].kind, PartKind::kPen);
 
@@ -345,7 +345,7 @@ TEST(FindParts, RefusesOptionsOutOfRangeAndTakesAnEmptyProduct) {
   PartOptions options;
   options.finger = 0.0;
   try {
-    find_parts(part_product(make_icosphere(20.0, 2)), options);
+    find_parts(part_product(geometry::make_icosphere(20.0, 2)), options);
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("\"finger\""), std::string::npos);
@@ -363,7 +363,7 @@ std::filesystem::path scans() {
 }
 
 Product scan(const std::string& name) {
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   std::ifstream file(scans() / (name + ".obj"));
   std::string line;
   while (std::getline(file, line)) {
@@ -472,4 +472,4 @@ TEST(PartsOfScans, MovedOrMirroredTheyHaveTheSameParts) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::product

@@ -12,7 +12,7 @@
 #include "palmar/product/parts/loop_opening.h"
 #include "palmar/product/parts/skeleton_rings.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kThickestRing = 22.5;  // mm of depth: the thickest bar that a hand closes round
@@ -106,8 +106,8 @@ int split_off(const SkeletonRing& ring, int from, RoughParts& rough) {
 
 }  // namespace
 
-void complete_rings(const TriangleMesh& mesh, const SolidGrid& grid, const SkeletonGraph& graph,
-                    double finger, RoughParts& rough) {
+void complete_rings(const geometry::TriangleMesh& mesh, const SolidGrid& grid,
+                    const SkeletonGraph& graph, double finger, RoughParts& rough) {
   const std::vector<SkeletonRing> rings = rings_of(graph);
   if (rings.size() < 2) return;  // the line of a single ring is whole
   std::vector<PartOpening> known;
@@ -143,4 +143,4 @@ void complete_rings(const TriangleMesh& mesh, const SolidGrid& grid, const Skele
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

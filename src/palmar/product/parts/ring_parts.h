@@ -7,7 +7,7 @@
 #include "palmar/product/parts/solid_grid.h"
 #include "palmar/product/parts/voxel_skeleton.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// Rings that no part goes round yet: two rings that lie closer than a finger's breadth (those of
 /// scissors) meet in the grid, so that the line of one is cut where the other touches it, or both
@@ -15,7 +15,7 @@ namespace palmar {
 /// more than that, the ring becomes a part of its own; if the ring is a bar round at least 0.6 of
 /// its opening (no thicker than a hand closes round, nowhere there 1.6 times as thick as usual) and
 /// a disc of diameter `finger` [mm] passes through it.
-void complete_rings(const TriangleMesh& mesh, const SolidGrid& grid, const SkeletonGraph& graph,
-                    double finger, RoughParts& rough);
+void complete_rings(const geometry::TriangleMesh& mesh, const SolidGrid& grid,
+                    const SkeletonGraph& graph, double finger, RoughParts& rough);
 
-}  // namespace palmar
+}  // namespace palmar::product

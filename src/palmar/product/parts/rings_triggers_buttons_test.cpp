@@ -11,7 +11,7 @@
 #include "palmar/product/parts/sdf_mesh_for_test.h"
 #include "palmar/product/parts/skeleton_rings.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 std::vector<Vec3> circle(const Vec3& middle, double radius) {
@@ -114,7 +114,7 @@ TEST(Buttons, AreLowOnAFlatFace) {
   };
   const Box3 box(Vec3(-46, -36, -41), Vec3(46, 36, 26));
   const auto buttons = [&](const Sdf& sdf) {
-    const TriangleMesh mesh = mesh_of(sdf, box, 1.1);
+    const geometry::TriangleMesh mesh = mesh_of(sdf, box, 1.1);
     return buttons_of(mesh, std::vector<int>(mesh.triangles.size(), 0));
   };
   const std::vector<PartButton> found = buttons(on_box(9.0, 5.0));
@@ -129,4 +129,4 @@ TEST(Buttons, AreLowOnAFlatFace) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::product

@@ -9,7 +9,7 @@
 #include "palmar/product/parts/node_tree.h"
 #include "palmar/product/parts/piece_groups.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 // One ball per third of a depth is enough.
@@ -180,4 +180,4 @@ RoughParts rough_parts(const SolidGrid& grid, const SkeletonGraph& graph, const 
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

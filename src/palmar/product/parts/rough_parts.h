@@ -11,7 +11,7 @@
 #include "palmar/product/parts/solid_grid.h"
 #include "palmar/product/parts/voxel_skeleton.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// A part of a solid before it is measured.
 struct RoughPart {
@@ -34,4 +34,4 @@ struct RoughParts {
 /// however many lines run through it, is one part and a handle on it another.
 RoughParts rough_parts(const SolidGrid& grid, const SkeletonGraph& graph, const GirthAt& girth_at);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -12,13 +12,13 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::product {
 
 using Sdf = std::function<double(const Vec3&)>;
 
 /// Welded closed mesh of {sdf < 0} within a box, by marching tetrahedra on a lattice of `spacing`:
 /// unions of solids with a known answer for tests.
-inline TriangleMesh mesh_of(const Sdf& sdf, const Box3& box, double spacing) {
+inline geometry::TriangleMesh mesh_of(const Sdf& sdf, const Box3& box, double spacing) {
   std::array<int, 3> n{};
   for (std::size_t a = 0; a < 3; ++a) {
     n[a] = static_cast<int>(std::ceil((box.sizes()[a]) / spacing)) + 3;
@@ -38,7 +38,7 @@ inline TriangleMesh mesh_of(const Sdf& sdf, const Box3& box, double spacing) {
       }
     }
   }
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   std::unordered_map<std::int64_t, int> on_edge;
   const auto vertex = [&](std::int64_t a, std::int64_t b) {
     if (a > b) std::swap(a, b);
@@ -124,4 +124,4 @@ inline Sdf sdf_without(const Sdf& a, const Sdf& b) {
   return [=](const Vec3& p) { return std::max(a(p), -b(p)); };
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

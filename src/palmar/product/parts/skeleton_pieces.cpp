@@ -10,7 +10,7 @@
 
 #include "palmar/product/parts/node_tree.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kSteep = 0.35;      // radius per length; a bar's own taper is less (20 deg a side)
@@ -402,4 +402,4 @@ SkeletonPieces skeleton_pieces(const SkeletonGraph& graph, double spacing,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -10,7 +10,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/parts/voxel_skeleton.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// A stretch of a skeleton's lines on which the solid neither becomes much thinner nor goes round a
 /// corner; grid's frame, mm.
@@ -41,4 +41,4 @@ using GirthAt = std::function<double(const Vec3& point, const Vec3& direction)>;
 /// become one; then they are cut where the solid becomes much thinner or goes round a corner.
 SkeletonPieces skeleton_pieces(const SkeletonGraph& graph, double spacing, const GirthAt& girth_at);
 
-}  // namespace palmar
+}  // namespace palmar::product

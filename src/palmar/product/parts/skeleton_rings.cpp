@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 // A ring as the lines that it goes along, in order, and whether each is gone along backwards.
@@ -126,4 +126,4 @@ std::vector<SkeletonRing> rings_of(const SkeletonGraph& graph) {
   return rings;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

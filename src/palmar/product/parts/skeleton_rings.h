@@ -7,7 +7,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/parts/voxel_skeleton.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// A closed way through a skeleton; its first point isn't repeated. Grid's frame, mm.
 struct SkeletonRing {
@@ -25,4 +25,4 @@ struct SkeletonRing {
 /// other without it.
 std::vector<SkeletonRing> rings_of(const SkeletonGraph& graph);
 
-}  // namespace palmar
+}  // namespace palmar::product

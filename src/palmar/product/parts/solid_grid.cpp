@@ -9,7 +9,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/product/parts/voxel_distance.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 // A pocket without a floor is open on at most this share of its surface: a tube longer than wide on
@@ -25,7 +25,7 @@ constexpr double kOffsetU = 1.37e-4, kOffsetV = 0.91e-4;
 
 // Axes by where the surface faces, sum A n n^T: those of a cup are its own, however its handle sits
 // on it. Sums over area, so they don't depend on how the surface is cut into triangles.
-GridFrame own_frame(const TriangleMesh& mesh) {
+GridFrame own_frame(const geometry::TriangleMesh& mesh) {
   double area = 0.0;
   const Vec3 base = mesh.vertices[mesh.triangles.front()[0]];
   Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
@@ -45,7 +45,7 @@ GridFrame own_frame(const TriangleMesh& mesh) {
   const auto for_each = [&](const auto& body) {
     for (const Triangle& t : mesh.triangles) {
       const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-      body(frame.to_grid((a + b + c) / 3.0), triangle_area(a, b, c));
+      body(frame.to_grid((a + b + c) / 3.0), geometry::triangle_area(a, b, c));
     }
   };
   for_each([&](const Vec3& x, double A) { mean += 2.0 * A / area * x; });
@@ -266,7 +266,7 @@ double SolidGrid::depth_at(const Vec3& point) const {
   return sum;
 }
 
-SolidGrid make_solid_grid(const TriangleMesh& mesh, const SolidGridOptions& options) {
+SolidGrid make_solid_grid(const geometry::TriangleMesh& mesh, const SolidGridOptions& options) {
   SolidGrid grid;
   if (mesh.triangles.empty()) return grid;
   grid.product_from_grid = own_frame(mesh);
@@ -312,4 +312,4 @@ SolidGrid make_solid_grid(const TriangleMesh& mesh, const SolidGridOptions& opti
   return grid;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -9,7 +9,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::product {
 
 struct SolidGridOptions {
   double closing = 6.0;  ///< mm; what a ball of this radius can't enter counts as solid
@@ -59,6 +59,6 @@ struct SolidGrid {
 /// side only or on little of its surface. The opening of a handle is open on two wide sides and
 /// stays. Works on open and
 /// crossing meshes. A mesh without triangles gives an empty grid.
-SolidGrid make_solid_grid(const TriangleMesh& mesh, const SolidGridOptions& options = {});
+SolidGrid make_solid_grid(const geometry::TriangleMesh& mesh, const SolidGridOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -7,7 +7,7 @@
 
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr float kFar = 1e12F;
@@ -72,4 +72,4 @@ std::vector<float> squared_voxel_distance(const std::array<int, 3>& size,
   return field;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace palmar {
+namespace palmar::product {
 
 /// Squared distance of each voxel of a grid to the nearest one that is set in `feature`, in units
 /// of a voxel; exact. `size`: voxels along i, j, k; i runs fastest. Where nothing is set: 1e12.
@@ -15,4 +15,4 @@ namespace palmar {
 std::vector<float> squared_voxel_distance(const std::array<int, 3>& size,
                                           const std::vector<std::uint8_t>& feature);
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -9,7 +9,7 @@
 #include <queue>
 #include <utility>
 
-namespace palmar {
+namespace palmar::product {
 namespace {
 
 constexpr double kReach = 1.6;      // depths that a line stands for; a square corner is 1.42 away
@@ -495,4 +495,4 @@ SkeletonGraph skeleton_of(const SolidGrid& grid) {
   return graph;
 }
 
-}  // namespace palmar
+}  // namespace palmar::product

@@ -9,7 +9,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/parts/solid_grid.h"
 
-namespace palmar {
+namespace palmar::product {
 
 /// A line of a skeleton from node to node, in the grid's frame.
 struct SkeletonEdge {
@@ -39,4 +39,4 @@ bool can_leave(std::uint32_t around);
 /// Deterministic.
 SkeletonGraph skeleton_of(const SolidGrid& grid);
 
-}  // namespace palmar
+}  // namespace palmar::product

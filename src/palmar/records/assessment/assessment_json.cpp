@@ -17,37 +17,37 @@
 #include "palmar/study/assessment/error_budget.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 /// File names may hold bytes that are no UTF-8; they must not stop the output.
-Json posture_object(const Posture& angles) {
+Json posture_object(const hand::Posture& angles) {
   Json posture = Json::object();
-  for (int d = 0; d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
-    posture[std::string(name_of(dof)) + "_deg"] = angles[dof] * kDegreesPerRadian;
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
+    posture[std::string(name_of(dof)) + "_deg"] = angles[dof] * geometry::kDegreesPerRadian;
   }
   return posture;
 }
 
-Json runner_up_object(const GraspRunnerUp& other) {
+Json runner_up_object(const grasp::GraspRunnerUp& other) {
   return {{"grip", name_of(other.grip)},
           {"score", other.score},
           {"posture", posture_object(other.posture)},
           {"product_from_hand", placement_with_matrix(other.product_from_hand)}};
 }
 
-Json grasp_object(const Grasp& grasp) {
+Json grasp_object(const grasp::Grasp& grasp) {
   Json segments = Json::array();
-  for (const SegmentStop& stop : grasp.stops) {
+  for (const grasp::SegmentStop& stop : grasp.stops) {
     segments.push_back({{"segment", name_of(stop.segment)},
                         {"stopped_by", name_of(stop.reason)},
                         {"penetration_mm", stop.penetration}});
   }
   Json fingertips = Json::array();
-  for (const FingertipContact& tip : grasp.fingertips) {
+  for (const grasp::FingertipContact& tip : grasp.fingertips) {
     fingertips.push_back({{"finger", name_of(tip.finger)},
                           {"target_mm", vector3(tip.target)},
                           {"reached_mm", vector3(tip.reached)},
@@ -55,7 +55,8 @@ Json grasp_object(const Grasp& grasp) {
                           {"miss_mm", tip.miss}});
   }
   Json others = Json::array();
-  for (const GraspRunnerUp& other : grasp.runners_up) others.push_back(runner_up_object(other));
+  for (const grasp::GraspRunnerUp& other : grasp.runners_up)
+    others.push_back(runner_up_object(other));
   return {{"grip", name_of(grasp.grip)},
           {"status", name_of(grasp.status)},
           {"message", grasp.message},
@@ -71,7 +72,7 @@ Json grasp_object(const Grasp& grasp) {
           {"runners_up", std::move(others)}};
 }
 
-void add_totals(Json& json, const RegionContact& contact) {
+void add_totals(Json& json, const contact::RegionContact& contact) {
   json["force_n"] = contact.force;
   json["contact_area_mm2"] = contact.area;
   json["peak_pressure_mpa"] = contact.peak_pressure;
@@ -83,23 +84,23 @@ void add_totals(Json& json, const RegionContact& contact) {
   json["max_penetration_mm"] = contact.max_penetration;
 }
 
-std::string name_of_status(ContactStatus status) {
+std::string name_of_status(contact::ContactStatus status) {
   switch (status) {
-    case ContactStatus::kSolved:
+    case contact::ContactStatus::kSolved:
       return "solved";
-    case ContactStatus::kNoContact:
+    case contact::ContactStatus::kNoContact:
       return "no_contact";
-    case ContactStatus::kNotConverged:
+    case contact::ContactStatus::kNotConverged:
       return "not_converged";
-    case ContactStatus::kTooDeep:
+    case contact::ContactStatus::kTooDeep:
       return "too_deep";
   }
   return "unknown";
 }
 
 /// Low, nominal and high tissue. `is_low`, `is_high`: whether there is a solution for that tissue.
-Json band_object(const ContactBandRow& row, const RegionContact& nominal, bool is_low,
-                 bool is_high) {
+Json band_object(const contact::ContactBandRow& row, const contact::RegionContact& nominal,
+                 bool is_low, bool is_high) {
   const auto three = [&](double low, double middle, double high) {
     return Json{{"low", is_low ? Json(low) : Json(nullptr)},
                 {"nominal", middle},
@@ -116,30 +117,30 @@ Json band_object(const ContactBandRow& row, const RegionContact& nominal, bool i
 }
 
 /// The band of a region, or of the whole hand without one; null if there is none.
-Json band_or_null(const ContactResult& contact, const RegionContact* region) {
+Json band_or_null(const contact::ContactResult& contact, const contact::RegionContact* region) {
   if (!contact.band) return nullptr;
-  const ContactBand& band = *contact.band;
+  const contact::ContactBand& band = *contact.band;
   const bool is_low = band.total.force_low > 0.0;
   const bool is_high = band.total.force_high > 0.0;
   if (region == nullptr) return band_object(band.total, contact.total, is_low, is_high);
-  for (const ContactBandRow& row : band.regions) {
+  for (const contact::ContactBandRow& row : band.regions) {
     if (row.region == region->region) return band_object(row, *region, is_low, is_high);
   }
   return nullptr;
 }
 
-Json fallback_object(const ContactFallbacks& fallbacks) {
+Json fallback_object(const contact::ContactFallbacks& fallbacks) {
   Json json = Json::object();
-  for (const FallbackCount& one : kFallbackCounts) {
+  for (const contact::FallbackCount& one : contact::kFallbackCounts) {
     json[std::string(one.name)] = fallbacks.*one.count;
   }
   return json;
 }
 
 /// Skin of the hand on its own skin, per pair of regions.
-Json skin_on_skin_array(const ContactResult& contact) {
+Json skin_on_skin_array(const contact::ContactResult& contact) {
   Json pairs = Json::array();
-  for (const SkinOnSkin& both : contact.skin_on_skin) {
+  for (const contact::SkinOnSkin& both : contact.skin_on_skin) {
     pairs.push_back({{"region", name_of(both.region)},
                      {"other_region", name_of(both.other)},
                      {"skin_on_skin_force_n", both.force},
@@ -151,7 +152,7 @@ Json skin_on_skin_array(const ContactResult& contact) {
   return pairs;
 }
 
-Json refinement_or_null(const std::optional<ContactRefinement>& refinement) {
+Json refinement_or_null(const std::optional<contact::ContactRefinement>& refinement) {
   if (!refinement) return nullptr;
   return {{"halvings", refinement->levels},
           {"vertices_added", refinement->vertices},
@@ -161,13 +162,14 @@ Json refinement_or_null(const std::optional<ContactRefinement>& refinement) {
 }
 
 /// Of the contact as it is shown: of a grasp that slips out, as the hand was closed.
-Json contact_object(const ContactResult& contact, double grip_force, bool has_skin_on_skin) {
+Json contact_object(const contact::ContactResult& contact, double grip_force,
+                    bool has_skin_on_skin) {
   Json json = {{"status", name_of_status(contact.status)},
                {"message", contact.message},
                {"grip_force_n", grip_force}};
   add_totals(json, contact.total);
   json["band"] = band_or_null(contact, nullptr);
-  json["resolved"] = is_resolved(contact);
+  json["resolved"] = contact::is_resolved(contact);
   json["refinement"] = refinement_or_null(contact.refinement);
   json["complementarity_error_n_mm"] = contact.complementarity_error;
   json["residual_penetration_contact_mm"] = contact.residual_penetration_contact;
@@ -175,14 +177,14 @@ Json contact_object(const ContactResult& contact, double grip_force, bool has_sk
   if (has_skin_on_skin) {
     json["residual_crossing_mm"] = contact.residual_crossing;
     double by_skin = 0.0;
-    for (const SkinOnSkin& both : contact.skin_on_skin) by_skin += both.force;
+    for (const contact::SkinOnSkin& both : contact.skin_on_skin) by_skin += both.force;
     json["skin_on_skin_force_n"] = by_skin;
     json["skin_on_skin"] = skin_on_skin_array(contact);
   }
   json["iterations"] = contact.iterations;
   json["fallbacks"] = fallback_object(contact.fallbacks);
   Json regions = Json::array();
-  for (const RegionContact& region : contact.regions) {
+  for (const contact::RegionContact& region : contact.regions) {
     Json one = {{"region", name_of(region.region)}};
     add_totals(one, region);
     one["shear_modulus_mpa"] = region.shear_modulus;
@@ -193,8 +195,8 @@ Json contact_object(const ContactResult& contact, double grip_force, bool has_sk
   return json;
 }
 
-Json error_budget_object(const ErrorBudget& budget) {
-  const auto figures = [](const ErrorCase& one) {
+Json error_budget_object(const study::ErrorBudget& budget) {
+  const auto figures = [](const study::ErrorCase& one) {
     return Json{{"grip_force_n", one.grip_force},
                 {"force_n", one.force},
                 {"contact_area_mm2", one.area},
@@ -203,7 +205,7 @@ Json error_budget_object(const ErrorBudget& budget) {
                 {"mean_pressure_mpa", one.mean_pressure}};
   };
   Json cases = Json::array();
-  for (const ErrorCase& one : budget.cases) {
+  for (const study::ErrorCase& one : budget.cases) {
     Json entry = {{"source", name_of(one.source)}, {"changed", one.changed}};
     if (one.failure.empty()) {
       entry.update(figures(one));
@@ -215,12 +217,12 @@ Json error_budget_object(const ErrorBudget& budget) {
   return {{"nominal", figures(budget.nominal)}, {"cases", std::move(cases)}};
 }
 
-Json face_array(const Product& product, const std::vector<FaceContact>& contacts) {
+Json face_array(const product::Product& product, const std::vector<study::FaceContact>& contacts) {
   Json faces = Json::array();
-  for (const FaceContact& contact : contacts) {
-    const ProductFace& face = product.faces->face[contact.face];
+  for (const study::FaceContact& contact : contacts) {
+    const product::ProductFace& face = product.faces->face[contact.face];
     faces.push_back({{"face", face.number},
-                     {"title", title_of(face)},
+                     {"title", product::title_of(face)},
                      {"name", face.name},
                      {"part", face.part},
                      {"kind", name_of(face.kind)},
@@ -236,20 +238,21 @@ Json face_array(const Product& product, const std::vector<FaceContact>& contacts
   return faces;
 }
 
-Json wrench_object(const Wrench& wrench) {
+Json wrench_object(const contact::Wrench& wrench) {
   return {{"force_n", vector3(wrench.force)}, {"moment_about_origin_n_mm", vector3(wrench.moment)}};
 }
 
-Json motion_object(const SmallMotion& motion) {
+Json motion_object(const contact::SmallMotion& motion) {
   return {{"translation_mm", vector3(motion.translation)},
-          {"rotation_deg", vector3(motion.rotation * kDegreesPerRadian)},
+          {"rotation_deg", vector3(motion.rotation * geometry::kDegreesPerRadian)},
           {"about_mm", vector3(motion.about)}};
 }
 
-Json friction_object(const FrictionResult& friction, const FrictionOptions& options) {
-  const ProductLoad& load = options.load;
+Json friction_object(const contact::FrictionResult& friction,
+                     const contact::FrictionOptions& options) {
+  const contact::ProductLoad& load = options.load;
   Json regions = Json::array();
-  for (const RegionFriction& region : friction.regions) {
+  for (const contact::RegionFriction& region : friction.regions) {
     regions.push_back({{"region", name_of(region.region)},
                        {"normal_force_n", region.normal_force},
                        {"friction_limit_n", region.limit},
@@ -280,8 +283,8 @@ Json friction_object(const FrictionResult& friction, const FrictionOptions& opti
           {"regions", std::move(regions)}};
 }
 
-Json balance_object(const Balance& balance) {
-  if (balance.status == BalanceStatus::kOff) {
+Json balance_object(const grasp::Balance& balance) {
+  if (balance.status == grasp::BalanceStatus::kOff) {
     return {{"status", name_of(balance.status)}, {"message", balance.message}};
   }
   return {{"status", name_of(balance.status)},
@@ -295,13 +298,13 @@ Json balance_object(const Balance& balance) {
           {"friction_in_use", balance.friction_use},
           {"flexion_strength_in_use", or_null(balance.strength_use)},
           {"moved_mm", balance.moved},
-          {"turned_deg", balance.turned * kDegreesPerRadian},
+          {"turned_deg", balance.turned * geometry::kDegreesPerRadian},
           {"slip_direction_in_hand", balance.slip ? vector3(*balance.slip) : Json(nullptr)},
           {"iterations", balance.iterations},
           {"fallbacks", fallback_object(balance.fallbacks)}};
 }
 
-Json product_object(const Product& product) {
+Json product_object(const product::Product& product) {
   Box3 box;
   for (const Vec3& v : product.mesh.vertices) box.extend(v);
   return {{"name", product.name},
@@ -314,7 +317,7 @@ Json product_object(const Product& product) {
           {"notes", product.notes}};
 }
 
-Json hand_object(const Hand& hand) {
+Json hand_object(const hand::Hand& hand) {
   return {{"name", hand.name},
           {"side", name_of(hand.side)},
           {"hand_length_mm", hand.dimensions.hand_length},
@@ -327,15 +330,15 @@ Json hand_object(const Hand& hand) {
 }
 
 /// Measures of the grasp as a whole.
-Json indices_object(const ContactResult& contact, const GraspIndices& indices) {
-  std::set<Finger> fingers;
-  for (const RegionContact& region : contact.regions) {
-    const auto segment = segment_of(region.region);
-    const auto finger = segment ? finger_of(*segment) : std::nullopt;
+Json indices_object(const contact::ContactResult& contact, const grasp::GraspIndices& indices) {
+  std::set<hand::Finger> fingers;
+  for (const contact::RegionContact& region : contact.regions) {
+    const auto segment = hand::segment_of(region.region);
+    const auto finger = segment ? hand::finger_of(*segment) : std::nullopt;
     if (finger) fingers.insert(*finger);
   }
   Json in_contact = Json::array();
-  for (const Finger finger : fingers) in_contact.push_back(name_of(finger));
+  for (const hand::Finger finger : fingers) in_contact.push_back(name_of(finger));
   Json json = {{"fingers_in_contact", std::move(in_contact)},
                {"regions_in_contact", contact.regions.size()},
                {"net_force_n", contact.total.force_vector.norm()}};
@@ -343,9 +346,9 @@ Json indices_object(const ContactResult& contact, const GraspIndices& indices) {
   return json;
 }
 
-Json coating_array(const std::vector<Coating>& coatings) {
+Json coating_array(const std::vector<contact::Coating>& coatings) {
   Json array = Json::array();
-  for (const Coating& coating : coatings) {
+  for (const contact::Coating& coating : coatings) {
     Json box = nullptr;  // the whole product
     if (!coating.where.isEmpty()) {
       box = {vector3(coating.where.min()), vector3(coating.where.max())};
@@ -358,53 +361,55 @@ Json coating_array(const std::vector<Coating>& coatings) {
   return array;
 }
 
-Json doubts_array(const Assessment& assessment) {
+Json doubts_array(const study::Assessment& assessment) {
   Json doubts = Json::array();
-  for (const HoldDoubt& one : doubts_of(assessment)) {
+  for (const study::HoldDoubt& one : study::doubts_of(assessment)) {
     doubts.push_back({{"key", one.key}, {"words", one.words}});
   }
   return doubts;
 }
 
-Json settings_object(const Assessment& assessment) {
-  const AssessOptions& options = assessment.options;
-  const PlacementRequest& placed = options.grasp.power.placement;
-  return {{"palm_limit_depth_mm", options.grasp.power.palm_limit_depth},
-          {"finger_limit_depth_mm", options.grasp.power.finger_limit_depth},
-          {"at_mm", placed.at ? vector3(*placed.at) : Json(nullptr)},
-          {"axis", placed.axis ? vector3(*placed.axis) : Json(nullptr)},
-          {"turn_deg", placed.turn ? Json(*placed.turn * kDegreesPerRadian) : Json(nullptr)},
-          {"balance", options.balance.is_on},
-          {"balance_friction", options.balance.friction},
-          {"grip_force_asked_n", or_null(options.balance.asked_grip_force(assessment.grasp.grip))},
-          {"grip_force_from", options.balance.asked_words(assessment.grasp.grip)},
-          {"contact_model", name_of(assessment.contact.model)},
-          {"kernel", name_of(assessment.contact.model.kernel)},
-          {"tissue_model", name_of(assessment.contact.model.tissue)},
-          {"regions", name_of(assessment.contact.model.coupling)},
-          {"swelling", options.contact.swelling},
-          {"skin_on_skin", options.contact.skin_on_skin},
-          {"refine", options.contact.refine},
-          {"coatings", coating_array(options.contact.coatings)},
-          {"error_band", options.contact.error_band},
-          {"cell_area_mm2", options.contact.cell_area},
-          {"shear_modulus_mpa", or_null(options.contact.shear_modulus)},
-          {"seed", options.seed}};
+Json settings_object(const study::Assessment& assessment) {
+  const study::AssessOptions& options = assessment.options;
+  const grasp::PlacementRequest& placed = options.grasp.power.placement;
+  return {
+      {"palm_limit_depth_mm", options.grasp.power.palm_limit_depth},
+      {"finger_limit_depth_mm", options.grasp.power.finger_limit_depth},
+      {"at_mm", placed.at ? vector3(*placed.at) : Json(nullptr)},
+      {"axis", placed.axis ? vector3(*placed.axis) : Json(nullptr)},
+      {"turn_deg", placed.turn ? Json(*placed.turn * geometry::kDegreesPerRadian) : Json(nullptr)},
+      {"balance", options.balance.is_on},
+      {"balance_friction", options.balance.friction},
+      {"grip_force_asked_n", or_null(options.balance.asked_grip_force(assessment.grasp.grip))},
+      {"grip_force_from", options.balance.asked_words(assessment.grasp.grip)},
+      {"contact_model", name_of(assessment.contact.model)},
+      {"kernel", name_of(assessment.contact.model.kernel)},
+      {"tissue_model", name_of(assessment.contact.model.tissue)},
+      {"regions", name_of(assessment.contact.model.coupling)},
+      {"swelling", options.contact.swelling},
+      {"skin_on_skin", options.contact.skin_on_skin},
+      {"refine", options.contact.refine},
+      {"coatings", coating_array(options.contact.coatings)},
+      {"error_band", options.contact.error_band},
+      {"cell_area_mm2", options.contact.cell_area},
+      {"shear_modulus_mpa", or_null(options.contact.shear_modulus)},
+      {"seed", options.seed}};
 }
 
 }  // namespace
 
-std::string grasp_json(const Grasp& grasp) {
+std::string grasp_json(const grasp::Grasp& grasp) {
   Json json = grasp_object(grasp);
   json["hold"] = hold_object(grasp);
   return json_file_text(json);
 }
 
-std::string placements_json(const Grasp& grasp) {
+std::string placements_json(const grasp::Grasp& grasp) {
   Json list = Json::array();
   list.push_back(
       runner_up_object({grasp.grip, grasp.posture, grasp.product_from_hand, grasp.score}));
-  for (const GraspRunnerUp& other : grasp.runners_up) list.push_back(runner_up_object(other));
+  for (const grasp::GraspRunnerUp& other : grasp.runners_up)
+    list.push_back(runner_up_object(other));
   return json_file_text({{"status", name_of(grasp.status)},
                          {"message", grasp.message},
                          {"candidates", grasp.candidates},
@@ -417,14 +422,14 @@ bool is_assessment_json(const std::string& text) {
          json["versions"].is_object() && json["versions"].contains("palmar");
 }
 
-std::string assessment_json(const AssessmentSet& set, const VerdictWords& words) {
+std::string assessment_json(const study::AssessmentSet& set, const VerdictWords& words) {
   Json assessments = Json::array();
-  const SetVerdict verdict = verdict_of(set);
+  const study::SetVerdict verdict = study::verdict_of(set);
   std::vector<std::string> names;
-  for (const AssessedProduct& one : set.assessments) {
+  for (const study::AssessedProduct& one : set.assessments) {
     const std::size_t number = names.size();
     names.push_back(one.product.name);
-    const Assessment& assessment = one.assessment;
+    const study::Assessment& assessment = one.assessment;
     Json hand = set.hand ? hand_object(*set.hand) : Json{{"name", assessment.hand_name}};
     Json entry = {{"product", product_object(one.product)},
                   {"hand", std::move(hand)},
@@ -432,7 +437,7 @@ std::string assessment_json(const AssessmentSet& set, const VerdictWords& words)
                   {"doubts", doubts_array(assessment)},
                   {"grasp", grasp_object(assessment.grasp)},
                   {"balance", balance_object(assessment.balance)},
-                  {"contact", contact_object(assessment.contact, grip_force_of(one),
+                  {"contact", contact_object(assessment.contact, study::grip_force_of(one),
                                              assessment.options.contact.skin_on_skin)},
                   {"verdict", verdict_object(one, verdict.products[number],
                                              number < words.products.size() ? words.products[number]
@@ -455,4 +460,4 @@ std::string assessment_json(const AssessmentSet& set, const VerdictWords& words)
   return json_file_text(json);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

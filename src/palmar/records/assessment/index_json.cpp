@@ -11,14 +11,14 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string better_words(Better better) {
-  if (better == Better::kUp) return "more is better";
-  return better == Better::kDown ? "less is better" : "";
+std::string better_words(grasp::Better better) {
+  if (better == grasp::Better::kUp) return "more is better";
+  return better == grasp::Better::kDown ? "less is better" : "";
 }
 
 std::size_t width_of(const std::string& text) {
@@ -52,15 +52,15 @@ std::string unit_words(const std::string& unit) { return unit == "mm2" ? "mm²" 
 
 }  // namespace
 
-nlohmann::ordered_json index_values(const GraspIndices& indices) {
+nlohmann::ordered_json index_values(const grasp::GraspIndices& indices) {
   Json values = Json::object();
-  for (const GraspIndex& index : indices) values[index.key] = finite_or_null(index.value);
+  for (const grasp::GraspIndex& index : indices) values[index.key] = finite_or_null(index.value);
   return values;
 }
 
-nlohmann::ordered_json index_rows(const GraspIndices& indices) {
+nlohmann::ordered_json index_rows(const grasp::GraspIndices& indices) {
   Json rows = Json::array();
-  for (const GraspIndex& index : indices) {
+  for (const grasp::GraspIndex& index : indices) {
     rows.push_back({{"key", index.key},
                     {"name", index.name},
                     {"group", index.group},
@@ -77,10 +77,10 @@ nlohmann::ordered_json index_rows(const GraspIndices& indices) {
   return rows;
 }
 
-std::string index_text(const GraspIndices& indices) {
+std::string index_text(const grasp::GraspIndices& indices) {
   std::size_t name_width = 0, value_width = 0;
   std::vector<std::string> values;
-  for (const GraspIndex& index : indices) {
+  for (const grasp::GraspIndex& index : indices) {
     std::string value = "-";
     if (index.value) {
       value = three_digits(*index.value);
@@ -92,7 +92,7 @@ std::string index_text(const GraspIndices& indices) {
   }
   std::string text, group, remark;
   for (std::size_t k = 0; k < indices.size(); ++k) {
-    const GraspIndex& index = indices[k];
+    const grasp::GraspIndex& index = indices[k];
     if (index.group != group) {
       group = index.group;
       text += group + "\n";
@@ -108,4 +108,4 @@ std::string index_text(const GraspIndices& indices) {
   return text;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -8,27 +8,27 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
 
-GraspIndices two_rows() {
-  GraspIndex firm;
+grasp::GraspIndices two_rows() {
+  grasp::GraspIndex firm;
   firm.key = "epsilon_l1";
   firm.name = "largest disturbance";
   firm.group = "stability";
   firm.value = 0.1 + 0.2;
   firm.lowest = 0.0;
-  firm.better = Better::kUp;
+  firm.better = grasp::Better::kUp;
   firm.definition = "distance from 0, in \"wrench\" space";
   firm.source = "Ferrari and Canny 1992";
-  GraspIndex sore;
+  grasp::GraspIndex sore;
   sore.key = "skin_above_50_kpa_mm2";
   sore.name = "skin without blood flow";
   sore.group = "comfort";
   sore.unit = "mm2";
-  sore.better = Better::kDown;
+  sore.better = grasp::Better::kDown;
   sore.remark = "nothing is touched";
   return {firm, sore};
 }
@@ -52,7 +52,7 @@ TEST(IndexJson, RowsReportEverything) {
 }
 
 TEST(IndexJson, InfinityIsNull) {
-  GraspIndices rows = two_rows();
+  grasp::GraspIndices rows = two_rows();
   rows[0].value = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(index_values(rows)["epsilon_l1"].is_null());
 }
@@ -64,7 +64,7 @@ TEST(IndexJson, NoRowsAreEmptyAndValidJson) {
 }
 
 TEST(IndexJson, TextHasNoExponentsAndItsColumnsStandInLine) {
-  GraspIndices rows = two_rows();
+  grasp::GraspIndices rows = two_rows();
   rows[0].value = 0.001594;
   rows[1].value = 1972.4;
   rows[1].remark.clear();
@@ -90,4 +90,4 @@ TEST(IndexJson, TextGroupsRowsAndLeavesNoBlanksAtLineEnds) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -6,47 +6,51 @@
 
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using VerdictJson = nlohmann::ordered_json;
 
-VerdictJson onset_object(const std::optional<WorstRegion>& worst) {
+VerdictJson onset_object(const std::optional<grasp::WorstRegion>& worst) {
   if (!worst) return nullptr;
-  return {{"region", name_of(worst->region)},   {"pressure_mpa", worst->pressure},
-          {"onset_mpa", worst->onset},          {"share", worst->share()},
-          {"level", name_of(level_of(*worst))}, {"regions_above", worst->above}};
+  return {{"region", name_of(worst->region)},
+          {"pressure_mpa", worst->pressure},
+          {"onset_mpa", worst->onset},
+          {"share", worst->share()},
+          {"level", name_of(grasp::level_of(*worst))},
+          {"regions_above", worst->above}};
 }
 
-VerdictJson comfort_object(const ComfortResult& comfort, const std::string& sentence) {
+VerdictJson comfort_object(const grasp::ComfortResult& comfort, const std::string& sentence) {
   if (!comfort.pain) return nullptr;
   return {{"sentence", sentence},
           {"moment", onset_object(comfort.pain)},
           {"repeated", onset_object(comfort.discomfort)},
           {"minutes",
-           {{"limit_mpa", kBloodFlowStop},
+           {{"limit_mpa", grasp::kBloodFlowStop},
             {"share_of_skin", comfort.sustained_share},
             {"area_mm2", comfort.sustained_area}}},
           {"regions_touched", comfort.regions.size()}};
 }
 
-VerdictJson hardest_object(const AssessedProduct& product, const HardestPlace& place,
+VerdictJson hardest_object(const study::AssessedProduct& product, const study::HardestPlace& place,
                            const std::string& sentence) {
   const bool has_face = place.face && product.product.faces != nullptr;
-  return {{"sentence", sentence},
-          {"region", name_of(place.region)},
-          {"pressure_mpa", place.pressure},
-          {"on_product_mm", place.on_product ? vector3(*place.on_product) : VerdictJson(nullptr)},
-          {"face", has_face ? VerdictJson(title_of(product.product.faces->face[*place.face]))
-                            : VerdictJson(nullptr)}};
+  return {
+      {"sentence", sentence},
+      {"region", name_of(place.region)},
+      {"pressure_mpa", place.pressure},
+      {"on_product_mm", place.on_product ? vector3(*place.on_product) : VerdictJson(nullptr)},
+      {"face", has_face ? VerdictJson(product::title_of(product.product.faces->face[*place.face]))
+                        : VerdictJson(nullptr)}};
 }
 
 }  // namespace
 
-nlohmann::ordered_json verdict_object(const SetVerdict& verdict, const VerdictWords& words,
+nlohmann::ordered_json verdict_object(const study::SetVerdict& verdict, const VerdictWords& words,
                                       const std::vector<std::string>& names) {
   VerdictJson comparisons = VerdictJson::array();
-  for (const ProductComparison& one : verdict.comparisons) {
+  for (const study::ProductComparison& one : verdict.comparisons) {
     comparisons.push_back({{"better", names.at(one.better)},
                            {"worse", names.at(one.worse)},
                            {"verdict", name_of(one.verdict)},
@@ -60,11 +64,12 @@ nlohmann::ordered_json verdict_object(const SetVerdict& verdict, const VerdictWo
           {"next", words.next},
           {"command", words.command},
           {"best", verdict.best ? VerdictJson(names.at(*verdict.best)) : VerdictJson(nullptr)},
-          {"told_apart", kToldApart},
+          {"told_apart", grasp::kToldApart},
           {"comparisons", std::move(comparisons)}};
 }
 
-nlohmann::ordered_json verdict_object(const AssessedProduct& product, const ProductVerdict& verdict,
+nlohmann::ordered_json verdict_object(const study::AssessedProduct& product,
+                                      const study::ProductVerdict& verdict,
                                       const ProductWords& words) {
   VerdictJson strength = nullptr;
   if (verdict.strength) {
@@ -87,4 +92,4 @@ nlohmann::ordered_json verdict_object(const AssessedProduct& product, const Prod
                                       : VerdictJson(nullptr)}};
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -9,15 +9,16 @@
 #include "palmar/records/assessment/verdict_text.h"
 #include "palmar/study/assessment/verdict.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// {"sentence", "reasons", "next", "command", "best", "comparisons"}: what stands as "verdict" of a
 /// set of assessments. `names`: of the products.
-nlohmann::ordered_json verdict_object(const SetVerdict& verdict, const VerdictWords& words,
+nlohmann::ordered_json verdict_object(const study::SetVerdict& verdict, const VerdictWords& words,
                                       const std::vector<std::string>& names);
 
 /// {"held", "comfort", "strength", "hardest"} of one product.
-nlohmann::ordered_json verdict_object(const AssessedProduct& product, const ProductVerdict& verdict,
+nlohmann::ordered_json verdict_object(const study::AssessedProduct& product,
+                                      const study::ProductVerdict& verdict,
                                       const ProductWords& words);
 
-}  // namespace palmar
+}  // namespace palmar::records

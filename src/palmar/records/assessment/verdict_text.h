@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::records {
 
 /// What is said of one product.
 struct ProductWords {
@@ -24,4 +24,4 @@ struct VerdictWords {
   std::vector<ProductWords> products;
 };
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -13,7 +13,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/posture/placement_json.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using BenchJson = nlohmann::json;
@@ -88,22 +88,23 @@ std::string from_base64(std::string_view text) {
 
 BenchPose bench_pose(const BenchJson& json) {
   if (!json.is_object()) refuse_member("pose", json, "an object or null");
-  const std::string required = "a list of " + std::to_string(kDofCount) + " angles in degrees";
+  const std::string required =
+      "a list of " + std::to_string(hand::kDofCount) + " angles in degrees";
   const BenchJson& angles = needed(json, "posture_deg", required);
-  if (!angles.is_array() || angles.size() != kDofCount) {
+  if (!angles.is_array() || angles.size() != hand::kDofCount) {
     refuse_member("posture_deg", angles, required);
   }
   BenchPose pose;
-  for (std::size_t k = 0; k < kDofCount; ++k) {
+  for (std::size_t k = 0; k < hand::kDofCount; ++k) {
     const double angle = angles[k].is_number() ? angles[k].get<double>() : NAN;
     if (!(std::abs(angle) <= 360.0)) {
       refuse_member("posture_deg", angles[k], "an angle within a full turn");
     }
-    pose.posture.angle[k] = kDegree * angle;
+    pose.posture.angle[k] = geometry::kDegree * angle;
   }
   pose.product_from_hand = placement_from_json(json);
   const std::string grip = text_in(json, "grip");
-  pose.grip = grip_named(grip);
+  pose.grip = grasp::grip_named(grip);
   if (!pose.grip) refuse_member("grip", json["grip"], "a grip's name");
   return pose;
 }
@@ -126,7 +127,7 @@ BenchProject parse_bench_project(std::string_view text) {
   try {
     json = BenchJson::parse(text);
   } catch (const BenchJson::exception& error) {
-    throw InputError(json_reason(error));
+    throw InputError(formats::json_reason(error));
   }
   if (!json.is_object()) throw InputError("it is no project of the workbench: no JSON object");
   const std::string required = std::to_string(kBenchProjectVersion) + " (its version)";
@@ -138,7 +139,7 @@ BenchProject parse_bench_project(std::string_view text) {
   project.file_name = bench_file_name(product);
   const std::string unit = text_or_null_in(product, "unit");
   try {
-    if (!unit.empty()) project.unit = length_unit(unit);
+    if (!unit.empty()) project.unit = geometry::length_unit(unit);
   } catch (const UsageError& error) {
     throw InputError(std::string("\"unit\": ") + error.what());
   }
@@ -182,7 +183,7 @@ BenchProject parse_bench_project(std::string_view text) {
 }
 
 BenchProject read_bench_project(const std::filesystem::path& file) {
-  const std::string text = read_file(file);
+  const std::string text = formats::read_file(file);
   try {
     return parse_bench_project(text);
   } catch (const InputError& error) {
@@ -190,4 +191,4 @@ BenchProject read_bench_project(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

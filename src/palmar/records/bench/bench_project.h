@@ -12,16 +12,16 @@
 #include "palmar/grasp/grip.h"
 #include "palmar/hand/posture.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// What is done from a pose that was set by hand on the bench.
 enum class BenchSettle { kAsPlaced, kClose, kRest };
 
 /// Hand and product as they were set by hand.
 struct BenchPose {
-  Posture posture;
-  Rigid3 product_from_hand;
-  std::optional<Grip> grip;
+  hand::Posture posture;
+  geometry::Rigid3 product_from_hand;
+  std::optional<grasp::Grip> grip;
 };
 
 /// The file that the workbench saves (.palmar-project): a product and how it is held. JSON:
@@ -35,11 +35,11 @@ struct BenchPose {
 ///      "pose": null or {"posture_deg": [23], "quaternion_wxyz": [4], "translation_mm": [3],
 ///      "grip"}, "settle": null, "close" or "rest"}
 struct BenchProject {
-  std::string file_name;              ///< of the product; without folders
-  std::optional<LengthUnit> unit;     ///< of the product's file, as the user said
-  std::string bytes;                  ///< the product's file
-  std::string person;                 ///< by sex and size, "woman:P5"; "": the template
-  std::string hand_file, hand_bytes;  ///< a person's own hand in place of it; "": none
+  std::string file_name;                     ///< of the product; without folders
+  std::optional<geometry::LengthUnit> unit;  ///< of the product's file, as the user said
+  std::string bytes;                         ///< the product's file
+  std::string person;                        ///< by sex and size, "woman:P5"; "": the template
+  std::string hand_file, hand_bytes;         ///< a person's own hand in place of it; "": none
   bool is_left = false;
   std::optional<double> grip_force;  ///< N; unset: the usual one
   int hold = 1;                      ///< number in the list of holds; used without a pose
@@ -54,4 +54,4 @@ BenchProject parse_bench_project(std::string_view text);
 /// Throws InputError naming the file.
 BenchProject read_bench_project(const std::filesystem::path& file);
 
-}  // namespace palmar
+}  // namespace palmar::records

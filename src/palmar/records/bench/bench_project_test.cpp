@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::AllOf;
@@ -25,7 +25,7 @@ ProjectJson whole_project() {
           {"grip_force_n", 42.5},
           {"hold", 3},
           {"pose",
-           {{"posture_deg", std::vector<double>(kDofCount, 90.0)},
+           {{"posture_deg", std::vector<double>(hand::kDofCount, 90.0)},
             {"quaternion_wxyz", {0, 1, 0, 0}},
             {"translation_mm", {1.5, -2, 3}},
             {"grip", "medium_wrap"}}},
@@ -44,7 +44,7 @@ std::string complaint(const ProjectJson& json) {
 TEST(BenchProject, IsReadAsTheWorkbenchWritesIt) {
   const BenchProject project = parse_bench_project(whole_project().dump());
   EXPECT_EQ(project.file_name, "cup.stl");
-  EXPECT_EQ(project.unit, LengthUnit::kCentimetre);
+  EXPECT_EQ(project.unit, geometry::LengthUnit::kCentimetre);
   EXPECT_EQ(project.bytes, "fooba");
   EXPECT_EQ(project.person, "woman:P5");
   EXPECT_TRUE(project.is_left);
@@ -53,7 +53,7 @@ TEST(BenchProject, IsReadAsTheWorkbenchWritesIt) {
   ASSERT_TRUE(project.pose.has_value());
   EXPECT_DOUBLE_EQ(project.pose->posture.angle[5], std::numbers::pi / 2);
   EXPECT_EQ(project.pose->product_from_hand.translation, Vec3(1.5, -2, 3));
-  EXPECT_EQ(project.pose->grip, Grip::kMediumWrap);
+  EXPECT_EQ(project.pose->grip, grasp::Grip::kMediumWrap);
   EXPECT_EQ(project.settle, BenchSettle::kRest);
 }
 
@@ -125,4 +125,4 @@ TEST(BenchProject, WhatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

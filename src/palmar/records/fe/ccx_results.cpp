@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 class Lines {
@@ -126,7 +126,7 @@ std::vector<CcxStep> parse_ccx(const std::string& text, const std::string& frd,
 }
 
 std::vector<CcxStep> read_ccx(const std::string& stem) {
-  return parse_ccx(read_file(stem + ".dat"), read_file(stem + ".frd"), stem);
+  return parse_ccx(formats::read_file(stem + ".dat"), formats::read_file(stem + ".frd"), stem);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

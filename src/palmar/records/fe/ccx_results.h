@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// One step of a deck of inp_deck() as CalculiX solved it.
 struct CcxStep {
@@ -26,4 +26,4 @@ std::vector<CcxStep> parse_ccx(const std::string& text, const std::string& frd,
 /// Reads STEM.dat and STEM.frd. Throws InputError.
 std::vector<CcxStep> read_ccx(const std::string& stem);
 
-}  // namespace palmar
+}  // namespace palmar::records

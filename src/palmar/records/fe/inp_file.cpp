@@ -10,7 +10,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr double kPenaltyPerYoung = 300.0;  // 1/mm
@@ -35,8 +35,9 @@ void append_node_set(std::string& text, const std::string& name, const std::vect
 
 /// A grid of (columns + 1) x (rows + 1) points as triangles that face -z if x grows with the
 /// columns and y with the rows.
-TriangleMesh grid(int columns, int rows, const std::function<Vec3(double, double)>& place) {
-  TriangleMesh mesh;
+geometry::TriangleMesh grid(int columns, int rows,
+                            const std::function<Vec3(double, double)>& place) {
+  geometry::TriangleMesh mesh;
   for (int j = 0; j <= rows; ++j) {
     for (int i = 0; i <= columns; ++i) {
       mesh.vertices.push_back(
@@ -86,26 +87,27 @@ void PressDeck::check_test() const {
   }
 }
 
-TriangleMesh indenter_surface(const PressIndenter& indenter, const Rigid3& hand_from_indenter) {
+geometry::TriangleMesh indenter_surface(const contact::PressIndenter& indenter,
+                                        const geometry::Rigid3& hand_from_indenter) {
   constexpr double kReach = 12.0;  // mm to every side of the point of first touch
   constexpr double kEdge = 0.4;    // mm
   const double radius = indenter.radius;
   const double reach = std::min(kReach, 0.7 * radius);  // of a round one
   const int steps = std::max(2, 2 * static_cast<int>(std::ceil(reach / kEdge)));
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   switch (indenter.kind) {
-    case PressIndenter::Kind::kPlane:
+    case contact::PressIndenter::Kind::kPlane:
       mesh = grid(2, 2, [](double u, double v) {
         return Vec3(4.0 * kReach * (u - 0.5), 4.0 * kReach * (v - 0.5), 0.0);
       });
       break;
-    case PressIndenter::Kind::kCylinder:
+    case contact::PressIndenter::Kind::kCylinder:
       mesh = grid(steps, 2, [&](double u, double v) {
         const double x = 2.0 * reach * (u - 0.5);
         return Vec3(x, 4.0 * kReach * (v - 0.5), radius - std::sqrt(radius * radius - x * x));
       });
       break;
-    case PressIndenter::Kind::kSphere:
+    case contact::PressIndenter::Kind::kSphere:
       // A square grid keeps facets even; its corners lie at sqrt(2) 0.7 of the radius.
       mesh = grid(steps, steps, [&](double u, double v) {
         const double x = 2.0 * reach * (u - 0.5);
@@ -205,4 +207,4 @@ std::string inp_deck(const PressDeck& deck) {
   return text;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -10,7 +10,7 @@
 #include "palmar/geometry/rigid3.h"
 #include "palmar/records/fe/tet_mesh.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Law of the soft tissue in a finite-element deck.
 enum class DeckMaterial {
@@ -23,7 +23,7 @@ enum class DeckMaterial {
 struct PressDeck {
   std::string title;                ///< one line, a comment on top
   BlockMesh block;                  ///< tissue, mm
-  TriangleMesh indenter;            ///< its surface towards the skin, at first touch, mm
+  geometry::TriangleMesh indenter;  ///< its surface towards the skin, at first touch, mm
   Vec3 direction = -Vec3::UnitZ();  ///< unit; the way the indenter moves
   std::vector<double> depths;       ///< mm from first touch, ascending; one step each
   double shear_modulus = 0.01;      ///< MPa
@@ -48,6 +48,7 @@ std::string inp_deck(const PressDeck& deck);
 /// millimetres: a square plate, the cap of a sphere, part of a cylinder. Flat facets of 0.4 mm
 /// stand off a sphere of 10 mm by 0.002 mm. Throws UsageError on punches: a sharp edge needs a
 /// finer mesh than this one.
-TriangleMesh indenter_surface(const PressIndenter& indenter, const Rigid3& hand_from_indenter);
+geometry::TriangleMesh indenter_surface(const contact::PressIndenter& indenter,
+                                        const geometry::Rigid3& hand_from_indenter);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -14,7 +14,7 @@
 #include "palmar/records/fe/ccx_results.h"
 #include "palmar/records/fe/tetgen.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using testing::ElementsAre;
@@ -33,7 +33,7 @@ PressDeck one_tet_deck() {
   PressDeck deck;
   deck.title = "one tetrahedron";
   deck.block = one_tet();
-  deck.indenter = indenter_surface({.kind = PressIndenter::Kind::kPlane},
+  deck.indenter = indenter_surface({.kind = contact::PressIndenter::Kind::kPlane},
                                    {Quat::Identity(), Vec3(0.0, 0.0, 2.0)});
   deck.depths = {0.5, 1.0};
   return deck;
@@ -159,15 +159,15 @@ TEST(InpDeck, RefusesWhatCantBeSolved) {
 }
 
 TEST(IndenterSurface, SphereStandsOnItsLowestPoint) {
-  const TriangleMesh mesh =
-      indenter_surface({.kind = PressIndenter::Kind::kSphere, .radius = 10.0}, {});
+  const geometry::TriangleMesh mesh =
+      indenter_surface({.kind = contact::PressIndenter::Kind::kSphere, .radius = 10.0}, {});
   double lowest = 1.0;
   for (const Vec3& v : mesh.vertices) {
     EXPECT_NEAR((v - Vec3(0.0, 0.0, 10.0)).norm(), 10.0, 1e-9);
     lowest = std::min(lowest, v.z());
   }
   EXPECT_NEAR(lowest, 0.0, 1e-12);
-  EXPECT_THAT([] { indenter_surface({.kind = PressIndenter::Kind::kPunch}, {}); },
+  EXPECT_THAT([] { indenter_surface({.kind = contact::PressIndenter::Kind::kPunch}, {}); },
               ThrowsMessage<UsageError>(HasSubstr("has a sharp edge")));
 }
 
@@ -199,9 +199,9 @@ TEST(CcxResults, SaysThatNothingWasSolved) {
 }
 
 TEST(TetgenFiles, PolyNamesFacetsWithHolesAndMarks) {
-  TissueBlock block;
+  hand::TissueBlock block;
   block.vertices = kCorners;
-  block.facets = {{BlockFace::kCut, {{0, 1, 2}, {1, 2, 3}}, {Vec3(0.5, 0.25, 0.0)}}};
+  block.facets = {{hand::BlockFace::kCut, {{0, 1, 2}, {1, 2, 3}}, {Vec3(0.5, 0.25, 0.0)}}};
   block.hole = {Vec3(1.0, 0.0, 0.5)};
   const std::string text = tetgen_poly(block);
   EXPECT_THAT(text, HasSubstr("\n4 3 0 0\n0 0 0 0\n1 2 0 0\n"));
@@ -215,35 +215,36 @@ class TetgenFolder : public testing::Test {
     folder_ = std::filesystem::temp_directory_path() /
               ("palmar_tetgen_" +
                std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    create_folder(folder_);
+    formats::create_folder(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path folder_;
 };
 
 TEST_F(TetgenFolder, ReadsMeshThatCountsFromOne) {
-  write_file(folder_ / "t.node", "4 3 0 0\n 1 0 0 0\n 2 2 0 0\n 3 0 2 0 # comment\n 4 0 0 2\n");
-  write_file(folder_ / "t.ele", "1 4 0\n 1 1 2 3 4\n");
-  write_file(folder_ / "t.face", "1 1\n 1 1 3 2 3\n");
+  formats::write_file(folder_ / "t.node",
+                      "4 3 0 0\n 1 0 0 0\n 2 2 0 0\n 3 0 2 0 # comment\n 4 0 0 2\n");
+  formats::write_file(folder_ / "t.ele", "1 4 0\n 1 1 2 3 4\n");
+  formats::write_file(folder_ / "t.face", "1 1\n 1 1 3 2 3\n");
   const BlockMesh block = read_tetgen((folder_ / "t").string());
   EXPECT_NEAR(volume(block.mesh), 8.0 / 6.0, 1e-12);
   EXPECT_EQ(block.on_bone.size(), 6u);
 }
 
 TEST_F(TetgenFolder, NamesFileAndLineOfWhatIsWrong) {
-  write_file(folder_ / "t.node", "1 3 0 0\n 1 0 0 zero\n");
+  formats::write_file(folder_ / "t.node", "1 3 0 0\n 1 0 0 zero\n");
   EXPECT_THAT([&] { read_tetgen((folder_ / "t").string()); },
               ThrowsMessage<InputError>(HasSubstr("t.node:2: \"zero\" is no number")));
 }
 
 TEST_F(TetgenFolder, ProgramsReportTheirExitCode) {
-  EXPECT_EQ(find_program("no-such-program-anywhere"), std::nullopt);
-  const auto shell = find_program("sh");
+  EXPECT_EQ(formats::find_program("no-such-program-anywhere"), std::nullopt);
+  const auto shell = formats::find_program("sh");
   ASSERT_TRUE(shell);
-  EXPECT_EQ(run_program(*shell, {"-c", "echo said; exit 3"}, folder_, "log"), 3);
-  EXPECT_EQ(read_file(folder_ / "log"), "said\n");
-  EXPECT_EQ(run_program(*shell, {"-c", "kill -9 $$"}, folder_, "log"), 128 + 9);
+  EXPECT_EQ(formats::run_program(*shell, {"-c", "echo said; exit 3"}, folder_, "log"), 3);
+  EXPECT_EQ(formats::read_file(folder_ / "log"), "said\n");
+  EXPECT_EQ(formats::run_program(*shell, {"-c", "kill -9 $$"}, folder_, "log"), 128 + 9);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -13,7 +13,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::array<std::array<int, 2>, 6> kEdge = {
@@ -33,7 +33,7 @@ Triangle sorted(Triangle t) {
 /// Lines of numbers, '#' starts a comment.
 class NumberLines {
  public:
-  explicit NumberLines(const std::string& path) : path_(path), text_(read_file(path)) {}
+  explicit NumberLines(const std::string& path) : path_(path), text_(formats::read_file(path)) {}
 
   /// The next line that holds anything.
   std::vector<double> next(std::size_t at_least) {
@@ -129,7 +129,7 @@ BlockMesh make_block_mesh(const std::vector<Vec3>& nodes,
   std::set<int> cut;
   for (const MarkedFace& face : faces) {
     const Triangle key = sorted(face.corner);
-    if (face.mark == static_cast<int>(BlockFace::kRegion)) {
+    if (face.mark == static_cast<int>(hand::BlockFace::kRegion)) {
       const auto found = side_of.find(key);
       if (found == side_of.end()) {
         throw InputError(fmt::format("boundary face {} {} {} belongs to no tetrahedron", key[0],
@@ -138,8 +138,8 @@ BlockMesh make_block_mesh(const std::vector<Vec3>& nodes,
       block.pressed.push_back(found->second);
       continue;
     }
-    const bool is_bone = face.mark == static_cast<int>(BlockFace::kBone);
-    if (!is_bone && face.mark != static_cast<int>(BlockFace::kCut)) continue;
+    const bool is_bone = face.mark == static_cast<int>(hand::BlockFace::kBone);
+    if (!is_bone && face.mark != static_cast<int>(hand::BlockFace::kCut)) continue;
     std::set<int>& held = is_bone ? bone : cut;
     held.insert(key.begin(), key.end());
     for (const auto& [a, b] : {std::pair{0, 1}, std::pair{1, 2}, std::pair{0, 2}}) {
@@ -170,7 +170,7 @@ double volume(const TetMesh& mesh) {
   return sum;
 }
 
-std::string tetgen_poly(const TissueBlock& block) {
+std::string tetgen_poly(const hand::TissueBlock& block) {
   std::string text = fmt::format("# nodes, mm\n{} 3 0 0\n", block.vertices.size());
   for (std::size_t v = 0; v < block.vertices.size(); ++v) {
     const Vec3& p = block.vertices[v];
@@ -178,7 +178,7 @@ std::string tetgen_poly(const TissueBlock& block) {
   }
   text += fmt::format("# facets: 1 skin, 2 skin of the region, 3 bone, 4 cut\n{} 1\n",
                       block.facets.size());
-  for (const BlockFacet& facet : block.facets) {
+  for (const hand::BlockFacet& facet : block.facets) {
     text += fmt::format("{} {} {}\n", facet.loop.size(), facet.hole.size(),
                         static_cast<int>(facet.face));
     for (const std::vector<int>& loop : facet.loop) {
@@ -231,4 +231,4 @@ BlockMesh read_tetgen(const std::string& stem) {
   return make_block_mesh(nodes, tets, faces);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -9,7 +9,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/hand/tissue_block.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Second-order tetrahedra with straight edges; mm. Corners 0 to 3 (corner 3 on the side to which
 /// the normal of 0, 1, 2 points), then the middles of edges 0-1, 1-2, 2-0, 0-3, 1-3, 2-3: the
@@ -55,10 +55,10 @@ double volume(const TetMesh& mesh);
 
 /// A tissue block as input of TetGen (.poly, format of TetGen 1.5, section 5.2.2); the mark of a
 /// facet is its BlockFace.
-std::string tetgen_poly(const TissueBlock& block);
+std::string tetgen_poly(const hand::TissueBlock& block);
 
 /// TetGen's .node, .ele and .face files (first order) as a mesh. `name` is for messages. Throws
 /// InputError naming file and line.
 BlockMesh read_tetgen(const std::string& stem);
 
-}  // namespace palmar
+}  // namespace palmar::records

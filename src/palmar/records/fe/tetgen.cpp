@@ -7,7 +7,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/process/external_program.h"
 
-namespace palmar {
+namespace palmar::records {
 
 void check_largest_tet(double largest_volume) {
   if (largest_volume > 0.0) return;
@@ -15,19 +15,20 @@ void check_largest_tet(double largest_volume) {
       "finite elements: largest tetrahedron {} mm3; more than 0 is required", largest_volume));
 }
 
-BlockMesh mesh_by_tetgen(const TissueBlock& block, const std::filesystem::path& folder,
+BlockMesh mesh_by_tetgen(const hand::TissueBlock& block, const std::filesystem::path& folder,
                          double largest_volume) {
   check_largest_tet(largest_volume);
-  create_folder(folder);
+  formats::create_folder(folder);
   const std::filesystem::path surface = folder / "tissue.poly";
-  write_file(surface, tetgen_poly(block));
-  const auto tetgen = find_program("tetgen");
+  formats::write_file(surface, tetgen_poly(block));
+  const auto tetgen = formats::find_program("tetgen");
   if (!tetgen) {
-    throw ProgramMissing("the mesher tetgen is not installed (Debian: apt-get install tetgen); " +
-                         surface.string() + " holds the surface");
+    throw formats::ProgramMissing(
+        "the mesher tetgen is not installed (Debian: apt-get install tetgen); " + surface.string() +
+        " holds the surface");
   }
   // p: fill a surface, Y: keep its facets, q: ratio of radius to edge, a: largest volume.
-  const int code = run_program(
+  const int code = formats::run_program(
       *tetgen, {fmt::format("-pYq1.5a{:.6g}", largest_volume), surface.filename().string()}, folder,
       "tetgen.log");
   const std::filesystem::path stem = folder / "tissue.1";
@@ -38,4 +39,4 @@ BlockMesh mesh_by_tetgen(const TissueBlock& block, const std::filesystem::path& 
   return read_tetgen(stem.string());
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -10,20 +10,20 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/sha256.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::string_view kMagic = "palmar skin compliance 2\n";
 constexpr std::uint64_t kMostComplianceBytes = std::uint64_t{1} << 30;
 
-void append_mesh(std::string& bytes, const TriangleMesh& mesh) {
-  append_value<std::uint64_t>(bytes, mesh.vertices.size());
-  append_value<std::uint64_t>(bytes, mesh.triangles.size());
+void append_mesh(std::string& bytes, const geometry::TriangleMesh& mesh) {
+  formats::append_value<std::uint64_t>(bytes, mesh.vertices.size());
+  formats::append_value<std::uint64_t>(bytes, mesh.triangles.size());
   for (const Vec3& x : mesh.vertices) {
-    for (int k = 0; k < 3; ++k) append_value<double>(bytes, x[k]);
+    for (int k = 0; k < 3; ++k) formats::append_value<double>(bytes, x[k]);
   }
   for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) append_value<std::int32_t>(bytes, v);
+    for (const int v : t) formats::append_value<std::int32_t>(bytes, v);
   }
 }
 
@@ -38,7 +38,7 @@ class ByteReader {
       return T{};
     }
     at_ += sizeof(T);
-    return read_value<T>(bytes_, at_ - sizeof(T));
+    return formats::read_value<T>(bytes_, at_ - sizeof(T));
   }
   std::string_view text(std::size_t length) {
     if (at_ + length > bytes_.size()) {
@@ -76,7 +76,7 @@ bool read_ascending(ByteReader& reader, std::int64_t end, std::vector<int>& resu
 }
 
 /// Entries of the rows, one after the other; each row's last is its diagonal.
-bool read_rows(ByteReader& reader, SkinCompliance& result) {
+bool read_rows(ByteReader& reader, contact::SkinCompliance& result) {
   result.begin.push_back(0);
   for (std::size_t i = 0; i < result.vertex.size(); ++i) {
     std::vector<int> row;
@@ -90,14 +90,14 @@ bool read_rows(ByteReader& reader, SkinCompliance& result) {
   result.tensor.resize(result.other.size());
   for (std::size_t k = 0; k < result.tensor.size(); ++k) {
     for (std::size_t e = 0; e < 9; ++e) {
-      result.tensor[k].data()[e] = read_value<float>(values, sizeof(float) * (9 * k + e));
+      result.tensor[k].data()[e] = formats::read_value<float>(values, sizeof(float) * (9 * k + e));
     }
   }
   return true;
 }
 
-std::optional<SkinCompliance> compliance_from(ByteReader& reader, std::int64_t vertices) {
-  SkinCompliance result;
+std::optional<contact::SkinCompliance> compliance_from(ByteReader& reader, std::int64_t vertices) {
+  contact::SkinCompliance result;
   for (double& v : result.volume) v = reader.next<double>();
   if (!read_ascending(reader, vertices, result.vertex)) return std::nullopt;
   if (!read_rows(reader, result)) return std::nullopt;
@@ -106,28 +106,28 @@ std::optional<SkinCompliance> compliance_from(ByteReader& reader, std::int64_t v
 }
 
 void append_indices(std::string& bytes, const std::vector<int>& values) {
-  append_value<std::uint32_t>(bytes, static_cast<std::uint32_t>(values.size()));
-  for (const int v : values) append_value<std::int32_t>(bytes, v);
+  formats::append_value<std::uint32_t>(bytes, static_cast<std::uint32_t>(values.size()));
+  for (const int v : values) formats::append_value<std::int32_t>(bytes, v);
 }
 
 }  // namespace
 
-std::string compliance_key(const Hand& hand, const SkinComplianceOptions& options) {
+std::string compliance_key(const hand::Hand& hand, const contact::SkinComplianceOptions& options) {
   std::string bytes(kMagic);
   append_mesh(bytes, hand.skin);
-  for (const Segment segment : hand.segment) bytes += static_cast<char>(segment);
-  for (const Region region : hand.region) bytes += static_cast<char>(region);
-  for (const Bone& bone : hand.bones) append_mesh(bytes, bone.mesh);
-  append_value(bytes, options.mesh.finger_edge);
-  append_value(bytes, options.reach);
-  return sha256_hex(bytes);
+  for (const hand::Segment segment : hand.segment) bytes += static_cast<char>(segment);
+  for (const hand::Region region : hand.region) bytes += static_cast<char>(region);
+  for (const hand::Bone& bone : hand.bones) append_mesh(bytes, bone.mesh);
+  formats::append_value(bytes, options.mesh.finger_edge);
+  formats::append_value(bytes, options.reach);
+  return formats::sha256_hex(bytes);
 }
 
 void write_compliance(const std::filesystem::path& path, const std::string& key,
-                      const SkinCompliance& compliance) {
+                      const contact::SkinCompliance& compliance) {
   std::string bytes(kMagic);
   bytes += key;
-  for (const double v : compliance.volume) append_value(bytes, v);
+  for (const double v : compliance.volume) formats::append_value(bytes, v);
   append_indices(bytes, compliance.vertex);
   for (std::size_t i = 0; i < compliance.vertex.size(); ++i) {
     const auto first = compliance.other.begin();
@@ -135,13 +135,13 @@ void write_compliance(const std::filesystem::path& path, const std::string& key,
                            first + static_cast<std::ptrdiff_t>(compliance.begin[i + 1])});
   }
   for (const Eigen::Matrix3f& tensor : compliance.tensor) {
-    for (int e = 0; e < 9; ++e) append_value<float>(bytes, tensor.data()[e]);
+    for (int e = 0; e < 9; ++e) formats::append_value<float>(bytes, tensor.data()[e]);
   }
   // Two programs may write at once: each under a name of its own.
   std::filesystem::path part = path;
   part += "." + key.substr(0, 8) + "-" +
           std::to_string(reinterpret_cast<std::uintptr_t>(&part) % 1'000'000) + ".part";
-  write_file(part, bytes);
+  formats::write_file(part, bytes);
   std::error_code error;
   std::filesystem::rename(part, path, error);
   if (error) {
@@ -151,13 +151,14 @@ void write_compliance(const std::filesystem::path& path, const std::string& key,
   }
 }
 
-std::optional<SkinCompliance> read_compliance(const std::filesystem::path& path,
-                                              const std::string& key, const Hand& hand) {
+std::optional<contact::SkinCompliance> read_compliance(const std::filesystem::path& path,
+                                                       const std::string& key,
+                                                       const hand::Hand& hand) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
   std::string bytes;
   try {
-    bytes = read_file(path, kMostComplianceBytes);
+    bytes = formats::read_file(path, kMostComplianceBytes);
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -166,4 +167,4 @@ std::optional<SkinCompliance> read_compliance(const std::filesystem::path& path,
   return compliance_from(reader, hand.skin.vertex_count());
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -8,20 +8,22 @@
 
 #include "palmar/contact/bone/skin_compliance.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// What the compliance of a hand's skin depends on, as 64 hex digits: skin, bones, segments,
 /// regions, options, and the version of the method. Tissue (moduli) and name are not part of it.
-std::string compliance_key(const Hand& hand, const SkinComplianceOptions& options = {});
+std::string compliance_key(const hand::Hand& hand,
+                           const contact::SkinComplianceOptions& options = {});
 
 /// Binary file of a compliance; a cache, not for exchange. Responses in single precision. Written
 /// under another name and then renamed, so that nobody reads half a file. Throws OutputError.
 void write_compliance(const std::filesystem::path& path, const std::string& key,
-                      const SkinCompliance& compliance);
+                      const contact::SkinCompliance& compliance);
 
 /// Nothing if there is no such file, or one with another key, of another length or cut short: then
 /// it is to be made anew. `hand`: whose key it is.
-std::optional<SkinCompliance> read_compliance(const std::filesystem::path& path,
-                                              const std::string& key, const Hand& hand);
+std::optional<contact::SkinCompliance> read_compliance(const std::filesystem::path& path,
+                                                       const std::string& key,
+                                                       const hand::Hand& hand);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -10,27 +10,28 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
-Hand ball_on_bone() {
-  Hand hand;
-  hand.skin = make_icosphere(10.0, 2);
-  hand.tissue = Tissue{};
+hand::Hand ball_on_bone() {
+  hand::Hand hand;
+  hand.skin = geometry::make_icosphere(10.0, 2);
+  hand.tissue = hand::Tissue{};
   for (Vec3& x : hand.skin.vertices) x.y() += 20.0;
-  hand.region.assign(hand.skin.vertices.size(), Region::kIndexDistal);
-  hand.segment.assign(hand.skin.vertices.size(), Segment::kIndexDistal);
-  Bone& bone = hand.bones.emplace_back();
-  bone.mesh = make_icosphere(5.0, 2);
+  hand.region.assign(hand.skin.vertices.size(), hand::Region::kIndexDistal);
+  hand.segment.assign(hand.skin.vertices.size(), hand::Segment::kIndexDistal);
+  hand::Bone& bone = hand.bones.emplace_back();
+  bone.mesh = geometry::make_icosphere(5.0, 2);
   for (Vec3& x : bone.mesh.vertices) x.y() += 20.0;
   return hand;
 }
 
 TEST(ComplianceFile, GivesBackWhatWasWrittenAndNothingElse) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const std::filesystem::path path = folder / "ball.compliance";
-  const Hand hand = ball_on_bone();
-  const SkinCompliance made = skin_compliance(hand, skin_geometry(hand.skin));
+  const hand::Hand hand = ball_on_bone();
+  const contact::SkinCompliance made =
+      contact::skin_compliance(hand, contact::skin_geometry(hand.skin));
   const std::string key = compliance_key(hand);
   EXPECT_FALSE(read_compliance(path, key, hand));
   write_compliance(path, key, made);
@@ -49,17 +50,17 @@ TEST(ComplianceFile, GivesBackWhatWasWrittenAndNothingElse) {
 
   // Another hand's, a file cut short, a file with a byte too many.
   EXPECT_FALSE(read_compliance(path, std::string(64, '0'), hand));
-  const std::string bytes = read_file(path);
+  const std::string bytes = formats::read_file(path);
   for (const std::size_t length : {bytes.size() - 1, bytes.size() / 2, std::size_t{90}}) {
-    write_file(path, bytes.substr(0, length));
+    formats::write_file(path, bytes.substr(0, length));
     EXPECT_FALSE(read_compliance(path, key, hand)) << length;
   }
-  write_file(path, bytes + "x");
+  formats::write_file(path, bytes + "x");
   EXPECT_FALSE(read_compliance(path, key, hand));
 }
 
 TEST(ComplianceFile, KeyIsOfShapeAndOptionsNotOfTissue) {
-  Hand hand = ball_on_bone();
+  hand::Hand hand = ball_on_bone();
   const std::string key = compliance_key(hand);
   EXPECT_EQ(key.size(), 64U);
   hand.tissue.region[0].on_bone.nominal.g0 = 0.5;
@@ -67,10 +68,10 @@ TEST(ComplianceFile, KeyIsOfShapeAndOptionsNotOfTissue) {
   EXPECT_EQ(compliance_key(hand), key);
   hand.bones[0].mesh.vertices[3].x() += 1e-9;
   EXPECT_NE(compliance_key(hand), key);
-  SkinComplianceOptions finer;
+  contact::SkinComplianceOptions finer;
   finer.mesh.finger_edge = 1.5;
   EXPECT_NE(compliance_key(ball_on_bone(), finer), key);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

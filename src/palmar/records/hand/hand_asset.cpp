@@ -11,7 +11,7 @@
 #include "palmar/formats/json_whole.h"
 #include "palmar/formats/mesh/glb.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr double kMmPerM = 1000.0;
@@ -27,7 +27,7 @@ std::vector<double> numbers(const nlohmann::json& node, const char* key, std::si
   return value;
 }
 
-Rigid3 local_transform(const nlohmann::json& node, const std::string& what) {
+geometry::Rigid3 local_transform(const nlohmann::json& node, const std::string& what) {
   if (node.contains("matrix")) {
     throw InputError(what + ": is placed by a matrix; translation and rotation are needed");
   }
@@ -40,7 +40,7 @@ Rigid3 local_transform(const nlohmann::json& node, const std::string& what) {
       throw InputError(what + ": is scaled by " + std::to_string(factor) + "; 1 is needed");
     }
   }
-  Rigid3 transform;
+  geometry::Rigid3 transform;
   transform.rotation = Quat(r[3], r[0], r[1], r[2]);
   if (!(std::abs(transform.rotation.norm() - 1.0) < 1e-3)) {
     throw InputError(what + ": its rotation is no unit quaternion (length " +
@@ -51,17 +51,17 @@ Rigid3 local_transform(const nlohmann::json& node, const std::string& what) {
   return transform;
 }
 
-HandAsset read_checked(const Glb& glb, const std::string& path) {
+hand::HandAsset read_checked(const formats::Glb& glb, const std::string& path) {
   const nlohmann::json& nodes = glb.json.at("nodes");
   std::vector<int> parent(nodes.size(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!nodes[i].contains("children")) continue;
     for (const auto& child : nodes[i]["children"]) {
-      parent.at(json_whole<std::size_t>(child)) = static_cast<int>(i);
+      parent.at(formats::json_whole<std::size_t>(child)) = static_cast<int>(i);
     }
   }
   const auto scene_from_node = [&](std::size_t start) {
-    Rigid3 transform;
+    geometry::Rigid3 transform;
     std::size_t steps = 0;
     for (int at = static_cast<int>(start); at >= 0; at = parent[at]) {
       const nlohmann::json& node = nodes[at];
@@ -72,7 +72,7 @@ HandAsset read_checked(const Glb& glb, const std::string& path) {
     return transform;
   };
 
-  HandAsset asset;
+  hand::HandAsset asset;
   std::optional<std::size_t> skinned;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].contains("mesh") && nodes[i].contains("skin")) {
@@ -82,23 +82,24 @@ HandAsset read_checked(const Glb& glb, const std::string& path) {
   }
   if (!skinned) throw InputError(path + ": has no mesh with a skin; the generic hand has one");
   const nlohmann::json& skin =
-      glb.json.at("skins").at(json_whole<std::size_t>(nodes[*skinned].at("skin")));
+      glb.json.at("skins").at(formats::json_whole<std::size_t>(nodes[*skinned].at("skin")));
   for (const auto& joint : skin.at("joints")) {
-    const auto node = json_whole<std::size_t>(joint);
+    const auto node = formats::json_whole<std::size_t>(joint);
     asset.frames.push_back({nodes.at(node).at("name").get<std::string>(), scene_from_node(node)});
   }
 
   // Skinned vertices stand in the scene's frame in the bind posture; their node's own transform is
   // ignored (glTF 2.0, section 3.7.3.3).
   const nlohmann::json& mesh =
-      glb.json.at("meshes").at(json_whole<std::size_t>(nodes[*skinned].at("mesh")));
+      glb.json.at("meshes").at(formats::json_whole<std::size_t>(nodes[*skinned].at("mesh")));
   for (const auto& primitive : mesh.at("primitives")) {
-    if (json_whole_or<int>(primitive, "mode", 4) != 4) {
+    if (formats::json_whole_or<int>(primitive, "mode", 4) != 4) {
       throw InputError(path + ": the skin is not of triangles");
     }
-    const AccessorData position =
-        read_accessor(glb, json_whole<int>(primitive.at("attributes").at("POSITION")), path);
-    const AccessorData index = read_accessor(glb, json_whole<int>(primitive.at("indices")), path);
+    const formats::AccessorData position = formats::read_accessor(
+        glb, formats::json_whole<int>(primitive.at("attributes").at("POSITION")), path);
+    const formats::AccessorData index =
+        formats::read_accessor(glb, formats::json_whole<int>(primitive.at("indices")), path);
     if (position.components != 3 || index.components != 1 || index.count % 3 != 0) {
       throw InputError(path + ": the skin's positions or indices have the wrong shape");
     }
@@ -128,15 +129,15 @@ HandAsset read_checked(const Glb& glb, const std::string& path) {
 
 }  // namespace
 
-HandAsset read_hand_asset(const std::string& path) {
-  const Glb glb = read_glb(path);
+hand::HandAsset read_hand_asset(const std::string& path) {
+  const formats::Glb glb = formats::read_glb(path);
   try {
     return read_checked(glb, path);
   } catch (const nlohmann::json::exception& e) {
-    throw InputError(path + ": not the generic hand: " + json_reason(e));
+    throw InputError(path + ": not the generic hand: " + formats::json_reason(e));
   } catch (const std::out_of_range&) {
     throw InputError(path + ": not the generic hand: a node refers to a child that does not exist");
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

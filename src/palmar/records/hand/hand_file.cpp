@@ -13,7 +13,7 @@
 #include "palmar/records/hand/hand_scene.h"
 #include "palmar/records/hand/skeleton_json.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using PlainJson = nlohmann::json;
@@ -25,15 +25,15 @@ std::vector<double> flat(const std::vector<Vec3>& points) {
   return value;
 }
 
-PlainJson write_points(Glb& glb, const std::vector<Vec3>& points) {
-  return {{"count", points.size()}, {"buffer_view", add_doubles(glb, flat(points))}};
+PlainJson write_points(formats::Glb& glb, const std::vector<Vec3>& points) {
+  return {{"count", points.size()}, {"buffer_view", formats::add_doubles(glb, flat(points))}};
 }
 
-PlainJson write_numbers(Glb& glb, const std::vector<double>& value) {
-  return {{"count", value.size()}, {"buffer_view", add_doubles(glb, value)}};
+PlainJson write_numbers(formats::Glb& glb, const std::vector<double>& value) {
+  return {{"count", value.size()}, {"buffer_view", formats::add_doubles(glb, value)}};
 }
 
-PlainJson write_whole(Glb& glb, const std::vector<int>& value) {
+PlainJson write_whole(formats::Glb& glb, const std::vector<int>& value) {
   return write_numbers(glb, {value.begin(), value.end()});
 }
 
@@ -45,7 +45,7 @@ std::vector<double> codes(const std::vector<Name>& names) {
   return value;
 }
 
-PlainJson write_mesh(Glb& glb, const TriangleMesh& mesh) {
+PlainJson write_mesh(formats::Glb& glb, const geometry::TriangleMesh& mesh) {
   std::vector<double> corner;
   corner.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
@@ -58,16 +58,16 @@ PlainJson write_mesh(Glb& glb, const TriangleMesh& mesh) {
 /// Reads what the functions above wrote, with checks.
 class GlbReader {
  public:
-  GlbReader(const Glb& glb, std::string path) : glb_(glb), path_(std::move(path)) {}
+  GlbReader(const formats::Glb& glb, std::string path) : glb_(glb), path_(std::move(path)) {}
 
   [[noreturn]] void fail(const std::string& why) const {
     throw InputError(path_ + ": broken Palmar hand: " + why);
   }
 
   std::vector<double> numbers(const PlainJson& json) const {
-    const auto count = json_whole<std::size_t>(json.at("count"));
+    const auto count = formats::json_whole<std::size_t>(json.at("count"));
     std::vector<double> value =
-        read_doubles(glb_, json_whole<int>(json.at("buffer_view")), count, path_);
+        formats::read_doubles(glb_, formats::json_whole<int>(json.at("buffer_view")), count, path_);
     for (const double number : value) {
       if (!std::isfinite(number)) fail("a number is not finite");
     }
@@ -75,10 +75,10 @@ class GlbReader {
   }
 
   std::vector<Vec3> points(const PlainJson& json) const {
-    const auto count = json_whole<std::size_t>(json.at("count"));
+    const auto count = formats::json_whole<std::size_t>(json.at("count"));
     if (count > glb_.buffer.size()) fail("it promises more points than the file has bytes");
-    const std::vector<double> value =
-        read_doubles(glb_, json_whole<int>(json.at("buffer_view")), 3 * count, path_);
+    const std::vector<double> value = formats::read_doubles(
+        glb_, formats::json_whole<int>(json.at("buffer_view")), 3 * count, path_);
     std::vector<Vec3> result;
     result.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -107,8 +107,8 @@ class GlbReader {
     return result;
   }
 
-  TriangleMesh mesh(const PlainJson& json) const {
-    TriangleMesh result;
+  geometry::TriangleMesh mesh(const PlainJson& json) const {
+    geometry::TriangleMesh result;
     result.vertices = points(json.at("vertices_mm"));
     const std::vector<int> corner =
         whole(json.at("corners"), result.vertex_count(), "corner of a triangle");
@@ -119,9 +119,9 @@ class GlbReader {
     return result;
   }
 
-  JointWeights weights(const PlainJson& json, int vertex_count) const {
-    JointWeights result;
-    const auto id = joint_named(json.at("joint").get<std::string>());
+  hand::JointWeights weights(const PlainJson& json, int vertex_count) const {
+    hand::JointWeights result;
+    const auto id = hand::joint_named(json.at("joint").get<std::string>());
     if (!id) fail("joint \"" + json.at("joint").get<std::string>() + "\" is unknown");
     result.joint = *id;
     result.vertex = whole(json.at("vertex"), vertex_count, "weighted vertex");
@@ -145,11 +145,11 @@ class GlbReader {
   }
 
  private:
-  const Glb& glb_;
+  const formats::Glb& glb_;
   std::string path_;
 };
 
-PlainJson write_exact(Glb& glb, const Hand& hand) {
+PlainJson write_exact(formats::Glb& glb, const hand::Hand& hand) {
   PlainJson json;
   json["name"] = hand.name;
   json["side"] = name_of(hand.side);
@@ -159,7 +159,7 @@ PlainJson write_exact(Glb& glb, const Hand& hand) {
   json["region"] = write_numbers(glb, codes(hand.region));
   json["skeleton"] = skeleton_to_json(hand.skeleton);
   json["weights"] = PlainJson::array();
-  for (const JointWeights& weights : hand.weights) {
+  for (const hand::JointWeights& weights : hand.weights) {
     PlainJson entry = {{"joint", name_of(weights.joint)},
                        {"vertex", write_whole(glb, weights.vertex)},
                        {"w1", write_numbers(glb, weights.w1)},
@@ -175,7 +175,7 @@ PlainJson write_exact(Glb& glb, const Hand& hand) {
     json["thumb_ball"]["coefficient_mm"].push_back(write_points(glb, coefficient));
   }
   json["bones"] = PlainJson::array();
-  for (const Bone& bone : hand.bones) {
+  for (const hand::Bone& bone : hand.bones) {
     PlainJson entry = {{"name", bone.name},
                        {"is_thumb_metacarpal", bone.is_thumb_metacarpal},
                        {"mesh", write_mesh(glb, bone.mesh)}};
@@ -187,18 +187,18 @@ PlainJson write_exact(Glb& glb, const Hand& hand) {
   return json;
 }
 
-Hand read_exact(const GlbReader& reader, const PlainJson& json) {
-  Hand hand;
+hand::Hand read_exact(const GlbReader& reader, const PlainJson& json) {
+  hand::Hand hand;
   hand.name = json.at("name").get<std::string>();
   const auto side = json.at("side").get<std::string>();
-  if (side != name_of(Side::kRight) && side != name_of(Side::kLeft)) {
+  if (side != name_of(hand::Side::kRight) && side != name_of(hand::Side::kLeft)) {
     reader.fail("side \"" + side + "\"; right or left is allowed");
   }
-  hand.side = side == name_of(Side::kRight) ? Side::kRight : Side::kLeft;
+  hand.side = side == name_of(hand::Side::kRight) ? hand::Side::kRight : hand::Side::kLeft;
   hand.provenance = json.at("provenance").get<std::string>();
   hand.skin = reader.mesh(json.at("skin"));
-  hand.segment = reader.names<Segment>(json.at("segment"), kSegmentCount, "segment");
-  hand.region = reader.names<Region>(json.at("region"), kRegionCount, "region");
+  hand.segment = reader.names<hand::Segment>(json.at("segment"), hand::kSegmentCount, "segment");
+  hand.region = reader.names<hand::Region>(json.at("region"), hand::kRegionCount, "region");
   if (hand.segment.size() != hand.skin.vertices.size() ||
       hand.region.size() != hand.skin.vertices.size()) {
     reader.fail("segments and regions don't match the " + std::to_string(hand.skin.vertex_count()) +
@@ -220,11 +220,11 @@ Hand read_exact(const GlbReader& reader, const PlainJson& json) {
     }
   }
   for (const PlainJson& entry : json.at("bones")) {
-    Bone bone;
+    hand::Bone bone;
     bone.name = entry.at("name").get<std::string>();
     bone.is_thumb_metacarpal = entry.at("is_thumb_metacarpal").get<bool>();
     if (entry.contains("segment")) {
-      bone.segment = segment_named(entry.at("segment").get<std::string>());
+      bone.segment = hand::segment_named(entry.at("segment").get<std::string>());
       if (!bone.segment) reader.fail("bone \"" + bone.name + "\" is in an unknown segment");
     }
     bone.mesh = reader.mesh(entry.at("mesh"));
@@ -235,7 +235,7 @@ Hand read_exact(const GlbReader& reader, const PlainJson& json) {
   return hand;
 }
 
-PlainJson creases_to_json(const DrawnCreases& creases) {
+PlainJson creases_to_json(const hand::DrawnCreases& creases) {
   PlainJson json = PlainJson::object();
   for (const auto& [segment, plane] : creases) {
     const Vec3 &p = plane.point, &n = plane.normal;
@@ -245,8 +245,8 @@ PlainJson creases_to_json(const DrawnCreases& creases) {
   return json;
 }
 
-DrawnCreases creases_from_json(const GlbReader& reader, const PlainJson& json) {
-  DrawnCreases creases;
+hand::DrawnCreases creases_from_json(const GlbReader& reader, const PlainJson& json) {
+  hand::DrawnCreases creases;
   const auto vector = [&](const PlainJson& numbers) {
     const Vec3 v(numbers.at(0).get<double>(), numbers.at(1).get<double>(),
                  numbers.at(2).get<double>());
@@ -254,9 +254,9 @@ DrawnCreases creases_from_json(const GlbReader& reader, const PlainJson& json) {
     return v;
   };
   for (const auto& [name, entry] : json.items()) {
-    const auto segment = segment_named(name);
+    const auto segment = hand::segment_named(name);
     if (!segment) reader.fail("drawn crease of an unknown segment \"" + name + "\"");
-    CreasePlane& plane = creases[*segment];
+    hand::CreasePlane& plane = creases[*segment];
     plane = {vector(entry.at("point_mm")), vector(entry.at("normal"))};
     if (!(std::abs(plane.normal.norm() - 1.0) < 1e-6)) {
       reader.fail("drawn crease of \"" + name + "\": its normal is no unit vector");
@@ -265,8 +265,8 @@ DrawnCreases creases_from_json(const GlbReader& reader, const PlainJson& json) {
   return creases;
 }
 
-Glb make_glb(const Hand& hand, const DrawnCreases& creases = {}) {
-  Glb glb = make_hand_scene(hand);
+formats::Glb make_glb(const hand::Hand& hand, const hand::DrawnCreases& creases = {}) {
+  formats::Glb glb = make_hand_scene(hand);
   glb.json["extras"]["palmar_hand_version"] = kHandFileVersion;
   PlainJson exact = write_exact(glb, hand);
   if (!creases.empty()) exact["drawn_creases"] = creases_to_json(creases);
@@ -276,7 +276,7 @@ Glb make_glb(const Hand& hand, const DrawnCreases& creases = {}) {
 
 /// What `read` makes of the hand's own data in a file; throws as read_hand().
 template <class Read>
-auto read_extras(const Glb& glb, const std::string& path, const Read& read) {
+auto read_extras(const formats::Glb& glb, const std::string& path, const Read& read) {
   const auto extras = glb.json.find("extras");
   if (extras == glb.json.end() || !extras->is_object() ||
       !extras->contains("palmar_hand_version") ||
@@ -285,7 +285,7 @@ auto read_extras(const Glb& glb, const std::string& path, const Read& read) {
                      ": a glTF file, but no Palmar hand (no palmar_hand_version in its extras); "
                      "`palmar hand template` makes one");
   }
-  const auto version = json_whole<std::int64_t>((*extras)["palmar_hand_version"]);
+  const auto version = formats::json_whole<std::int64_t>((*extras)["palmar_hand_version"]);
   if (version < 1 || version > kHandFileVersion) {
     throw InputError(path + ": hand file of version " + std::to_string(version) +
                      "; this program reads up to version " + std::to_string(kHandFileVersion) +
@@ -295,37 +295,41 @@ auto read_extras(const Glb& glb, const std::string& path, const Read& read) {
   try {
     return read(reader, extras->at("palmar_hand"));
   } catch (const PlainJson::exception& e) {
-    reader.fail(json_reason(e));
+    reader.fail(formats::json_reason(e));
   } catch (const InputError& e) {
     if (std::string(e.what()).rfind(path, 0) == 0) throw;
     reader.fail(e.what());
   }
 }
 
-Hand hand_of(const Glb& glb, const std::string& path) { return read_extras(glb, path, read_exact); }
+hand::Hand hand_of(const formats::Glb& glb, const std::string& path) {
+  return read_extras(glb, path, read_exact);
+}
 
 }  // namespace
 
-void write_hand(const std::string& path, const Hand& hand, const DrawnCreases& creases) {
-  write_glb(make_glb(hand, creases), path);
+void write_hand(const std::string& path, const hand::Hand& hand,
+                const hand::DrawnCreases& creases) {
+  formats::write_glb(make_glb(hand, creases), path);
 }
 
-DrawnCreases read_drawn_creases(const std::string& path) {
-  return read_extras(read_glb(path), path, [](const GlbReader& reader, const PlainJson& json) {
-    const auto drawn = json.find("drawn_creases");
-    return drawn == json.end() ? DrawnCreases() : creases_from_json(reader, *drawn);
-  });
+hand::DrawnCreases read_drawn_creases(const std::string& path) {
+  return read_extras(
+      formats::read_glb(path), path, [](const GlbReader& reader, const PlainJson& json) {
+        const auto drawn = json.find("drawn_creases");
+        return drawn == json.end() ? hand::DrawnCreases() : creases_from_json(reader, *drawn);
+      });
 }
 
-Hand read_hand(const std::string& path) { return hand_of(read_glb(path), path); }
+hand::Hand read_hand(const std::string& path) { return hand_of(formats::read_glb(path), path); }
 
-std::string format_hand(const Hand& hand) {
-  const std::vector<std::uint8_t> bytes = format_glb(make_glb(hand));
+std::string format_hand(const hand::Hand& hand) {
+  const std::vector<std::uint8_t> bytes = formats::format_glb(make_glb(hand));
   return {bytes.begin(), bytes.end()};
 }
 
-Hand parse_hand(const std::string& bytes, const std::string& name) {
-  return hand_of(parse_glb({bytes.begin(), bytes.end()}, name), name);
+hand::Hand parse_hand(const std::string& bytes, const std::string& name) {
+  return hand_of(formats::parse_glb({bytes.begin(), bytes.end()}, name), name);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

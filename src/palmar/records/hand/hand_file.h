@@ -7,7 +7,7 @@
 #include "palmar/hand/hand.h"
 #include "palmar/hand/skin/drawn_creases.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Version of the hand files that this program writes; it reads this one and older ones.
 /// Version 1 has one stiffening law per region, that of the half-space: the layered tissue and the
@@ -24,17 +24,18 @@ inline constexpr int kHandFileVersion = 2;
 ///
 /// Throws OutputError if the file can't be written in full.
 /// `creases`: where this person's were seen, kept beside the hand.
-void write_hand(const std::string& path, const Hand& hand, const DrawnCreases& creases = {});
+void write_hand(const std::string& path, const hand::Hand& hand,
+                const hand::DrawnCreases& creases = {});
 
 /// Throws InputError naming the file for: missing, truncated, no glTF, a glTF that is no Palmar
 /// hand, a newer version than kHandFileVersion, and data that contradict themselves (counts,
 /// indices, weights outside [0, 1], numbers that are not finite).
-Hand read_hand(const std::string& path);
+hand::Hand read_hand(const std::string& path);
 /// The creases that were seen on this hand; none if nothing was written of them.
-DrawnCreases read_drawn_creases(const std::string& path);
+hand::DrawnCreases read_drawn_creases(const std::string& path);
 
 /// The bytes of such a file, the same for the same hand; and back, `name` standing for the path.
-std::string format_hand(const Hand& hand);
-Hand parse_hand(const std::string& bytes, const std::string& name);
+std::string format_hand(const hand::Hand& hand);
+hand::Hand parse_hand(const std::string& bytes, const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::records

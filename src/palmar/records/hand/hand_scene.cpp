@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using PlainJson = nlohmann::json;
@@ -15,16 +15,17 @@ using PlainJson = nlohmann::json;
 constexpr double kMPerMm = 0.001;
 // Node 0 is the palm, node 1 + j belongs to joint j (that of the wrist carries the forearm).
 constexpr int kPalmNode = 0;
-constexpr int kNodeCount = 1 + kJointCount;
+constexpr int kNodeCount = 1 + hand::kJointCount;
 
-int node_of(JointId joint) { return 1 + static_cast<int>(joint); }
+int node_of(hand::JointId joint) { return 1 + static_cast<int>(joint); }
 
 /// The next more proximal joint of the same ray; none for wrist, CMC and MCP.
-std::optional<JointId> parent_of(JointId joint) {
+std::optional<hand::JointId> parent_of(hand::JointId joint) {
   const int j = static_cast<int>(joint);
-  if (joint == JointId::kThumbMp || joint == JointId::kThumbIp) return static_cast<JointId>(j - 1);
-  const int first = static_cast<int>(JointId::kIndexMcp);
-  if (j >= first && (j - first) % 3 != 0) return static_cast<JointId>(j - 1);
+  if (joint == hand::JointId::kThumbMp || joint == hand::JointId::kThumbIp)
+    return static_cast<hand::JointId>(j - 1);
+  const int first = static_cast<int>(hand::JointId::kIndexMcp);
+  if (j >= first && (j - first) % 3 != 0) return static_cast<hand::JointId>(j - 1);
   return std::nullopt;
 }
 
@@ -39,7 +40,7 @@ std::vector<float> metres(const std::vector<Vec3>& points, const Vec3& origin = 
   return value;
 }
 
-std::vector<float> smooth_normals(const TriangleMesh& mesh) {
+std::vector<float> smooth_normals(const geometry::TriangleMesh& mesh) {
   std::vector<Vec3> normal(mesh.vertices.size(), Vec3::Zero());
   for (const Triangle& t : mesh.triangles) {
     const Vec3& a = mesh.vertices[t[0]];
@@ -56,7 +57,7 @@ std::vector<float> smooth_normals(const TriangleMesh& mesh) {
   return value;
 }
 
-std::vector<std::uint32_t> corners(const TriangleMesh& mesh) {
+std::vector<std::uint32_t> corners(const geometry::TriangleMesh& mesh) {
   std::vector<std::uint32_t> value;
   value.reserve(3 * mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) {
@@ -78,11 +79,11 @@ struct BlendWeights {
   std::vector<float> weight;        ///< 4 per vertex
 };
 
-BlendWeights blend_weights(const Hand& hand) {
+BlendWeights blend_weights(const hand::Hand& hand) {
   const auto n = static_cast<std::size_t>(hand.skin.vertex_count());
   std::vector<std::array<double, kNodeCount>> share(n, std::array<double, kNodeCount>{});
-  for (const JointWeights& weights : hand.weights) {
-    const std::optional<JointId> parent = parent_of(weights.joint);
+  for (const hand::JointWeights& weights : hand.weights) {
+    const std::optional<hand::JointId> parent = parent_of(weights.joint);
     const auto node = node_of(weights.joint);
     const auto parent_node = parent ? node_of(*parent) : kPalmNode;
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
@@ -111,7 +112,7 @@ BlendWeights blend_weights(const Hand& hand) {
   return blend;
 }
 
-void add_joint_nodes(Glb& glb, const Hand& hand) {
+void add_joint_nodes(formats::Glb& glb, const hand::Hand& hand) {
   PlainJson& nodes = glb.json["nodes"];
   nodes.push_back({{"name", "palm"}, {"children", PlainJson::array()}});
   std::vector<float> inverse_bind;
@@ -123,8 +124,8 @@ void add_joint_nodes(Glb& glb, const Hand& hand) {
     inverse_bind.push_back(1.0F);
   };
   add_inverse(Vec3::Zero());
-  for (const Joint& joint : hand.skeleton.joints) {
-    const std::optional<JointId> parent = parent_of(joint.id);
+  for (const hand::Joint& joint : hand.skeleton.joints) {
+    const std::optional<hand::JointId> parent = parent_of(joint.id);
     const Vec3 origin = parent ? hand.skeleton.joint(*parent).centre : Vec3::Zero();
     nodes.push_back({{"name", name_of(joint.id)},
                      {"translation", scene_json(kMPerMm * (joint.centre - origin))}});
@@ -133,7 +134,7 @@ void add_joint_nodes(Glb& glb, const Hand& hand) {
   }
   PlainJson joints = PlainJson::array();
   for (int i = 0; i < kNodeCount; ++i) joints.push_back(i);
-  const int matrices = add_floats(glb, inverse_bind, 16);
+  const int matrices = formats::add_floats(glb, inverse_bind, 16);
   glb.json["skins"] = PlainJson::array();
   glb.json["skins"].push_back({{"name", "hand"},
                                {"joints", joints},
@@ -141,20 +142,20 @@ void add_joint_nodes(Glb& glb, const Hand& hand) {
                                {"inverseBindMatrices", matrices}});
 }
 
-void add_skin(Glb& glb, const Hand& hand) {
+void add_skin(formats::Glb& glb, const hand::Hand& hand) {
   const BlendWeights blend = blend_weights(hand);
   PlainJson attributes;
-  attributes["POSITION"] = add_floats(glb, metres(hand.skin.vertices), 3, true);
-  attributes["NORMAL"] = add_floats(glb, smooth_normals(hand.skin), 3);
-  attributes["JOINTS_0"] = add_bytes(glb, blend.joint, 4);
-  attributes["WEIGHTS_0"] = add_floats(glb, blend.weight, 4);
+  attributes["POSITION"] = formats::add_floats(glb, metres(hand.skin.vertices), 3, true);
+  attributes["NORMAL"] = formats::add_floats(glb, smooth_normals(hand.skin), 3);
+  attributes["JOINTS_0"] = formats::add_bytes(glb, blend.joint, 4);
+  attributes["WEIGHTS_0"] = formats::add_floats(glb, blend.weight, 4);
   if (hand.segment.size() == hand.skin.vertices.size()) {
-    attributes["_SEGMENT"] = add_floats(glb, float_codes(hand.segment), 1);
+    attributes["_SEGMENT"] = formats::add_floats(glb, float_codes(hand.segment), 1);
   }
   if (hand.region.size() == hand.skin.vertices.size()) {
-    attributes["_REGION"] = add_floats(glb, float_codes(hand.region), 1);
+    attributes["_REGION"] = formats::add_floats(glb, float_codes(hand.region), 1);
   }
-  const int indices = add_indices(glb, corners(hand.skin));
+  const int indices = formats::add_indices(glb, corners(hand.skin));
   PlainJson primitive = {{"attributes", attributes}, {"indices", indices}, {"material", 0}};
   glb.json["meshes"].push_back({{"name", "skin"}, {"primitives", PlainJson::array({primitive})}});
   const int node = static_cast<int>(glb.json["nodes"].size());
@@ -163,25 +164,25 @@ void add_skin(Glb& glb, const Hand& hand) {
   glb.json["scenes"][0]["nodes"].push_back(node);
 }
 
-void add_bones(Glb& glb, const Hand& hand) {
-  for (const Bone& bone : hand.bones) {
+void add_bones(formats::Glb& glb, const hand::Hand& hand) {
+  for (const hand::Bone& bone : hand.bones) {
     if (bone.mesh.triangles.empty()) continue;
-    int parent = node_of(JointId::kWrist);  // radius and ulna
-    Vec3 origin = hand.skeleton.joint(JointId::kWrist).centre;
+    int parent = node_of(hand::JointId::kWrist);  // radius and ulna
+    Vec3 origin = hand.skeleton.joint(hand::JointId::kWrist).centre;
     if (bone.is_thumb_metacarpal) {
-      parent = node_of(JointId::kThumbCmc);
-      origin = hand.skeleton.joint(JointId::kThumbCmc).centre;
-    } else if (bone.segment == Segment::kPalm) {
+      parent = node_of(hand::JointId::kThumbCmc);
+      origin = hand.skeleton.joint(hand::JointId::kThumbCmc).centre;
+    } else if (bone.segment == hand::Segment::kPalm) {
       parent = kPalmNode;
       origin = Vec3::Zero();
     } else if (bone.segment) {
-      parent = node_of(joint_of(*bone.segment));
-      origin = hand.skeleton.joint(joint_of(*bone.segment)).centre;
+      parent = node_of(hand::joint_of(*bone.segment));
+      origin = hand.skeleton.joint(hand::joint_of(*bone.segment)).centre;
     }
     PlainJson attributes;
-    attributes["POSITION"] = add_floats(glb, metres(bone.mesh.vertices, origin), 3, true);
-    attributes["NORMAL"] = add_floats(glb, smooth_normals(bone.mesh), 3);
-    const int indices = add_indices(glb, corners(bone.mesh));
+    attributes["POSITION"] = formats::add_floats(glb, metres(bone.mesh.vertices, origin), 3, true);
+    attributes["NORMAL"] = formats::add_floats(glb, smooth_normals(bone.mesh), 3);
+    const int indices = formats::add_indices(glb, corners(bone.mesh));
     PlainJson primitive = {{"attributes", attributes}, {"indices", indices}, {"material", 1}};
     glb.json["meshes"].push_back(
         {{"name", bone.name}, {"primitives", PlainJson::array({primitive})}});
@@ -202,8 +203,8 @@ PlainJson material(const char* name, double r, double g, double b, double roughn
 
 }  // namespace
 
-Glb make_hand_scene(const Hand& hand) {
-  Glb glb;
+formats::Glb make_hand_scene(const hand::Hand& hand) {
+  formats::Glb glb;
   glb.json["asset"] = {{"version", "2.0"}, {"generator", "Palmar"}, {"copyright", hand.provenance}};
   glb.json["scene"] = 0;
   glb.json["scenes"] = PlainJson::array({{{"name", hand.name}, {"nodes", {kPalmNode}}}});
@@ -217,4 +218,4 @@ Glb make_hand_scene(const Hand& hand) {
   return glb;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

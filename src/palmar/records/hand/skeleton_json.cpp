@@ -13,7 +13,7 @@
 #include "palmar/core/error.h"
 #include "palmar/hand/tissue.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using PlainJson = nlohmann::json;
@@ -33,15 +33,15 @@ Vec3 vec3_from(const PlainJson& json) {
   return {finite(json[0]), finite(json[1]), finite(json[2])};
 }
 
-PlainJson to_json(const CmcLimit& limit) {
+PlainJson to_json(const hand::CmcLimit& limit) {
   return {{"q_xyzw", {limit.q.x(), limit.q.y(), limit.q.z(), limit.q.w()}},
           {"t_mm", to_json(limit.t)}};
 }
 
-CmcLimit limit_from(const PlainJson& json) {
+hand::CmcLimit limit_from(const PlainJson& json) {
   const PlainJson& q = json.at("q_xyzw");
   if (!q.is_array() || q.size() != 4) throw InputError("a quaternion needs 4 numbers");
-  CmcLimit limit;
+  hand::CmcLimit limit;
   limit.q = Quat(finite(q[3]), finite(q[0]), finite(q[1]), finite(q[2]));
   if (std::abs(limit.q.norm() - 1.0) > 1e-6) {
     throw InputError("a CMC limit posture has a quaternion of length " +
@@ -53,57 +53,59 @@ CmcLimit limit_from(const PlainJson& json) {
 
 struct LimitName {
   const char* name;
-  CmcLimit ThumbCmc::*limit;
+  hand::CmcLimit hand::ThumbCmc::*limit;
 };
-constexpr std::array<LimitName, 4> kLimits = {{{"flexion", &ThumbCmc::flexion},
-                                               {"extension", &ThumbCmc::extension},
-                                               {"abduction", &ThumbCmc::abduction},
-                                               {"adduction", &ThumbCmc::adduction}}};
+constexpr std::array<LimitName, 4> kLimits = {{{"flexion", &hand::ThumbCmc::flexion},
+                                               {"extension", &hand::ThumbCmc::extension},
+                                               {"abduction", &hand::ThumbCmc::abduction},
+                                               {"adduction", &hand::ThumbCmc::adduction}}};
 
 struct TissueName {
   const char* name;
-  double RegionTissue::*value;
+  double hand::RegionTissue::*value;
 };
 constexpr std::array<TissueName, 5> kTissue = {
-    {{"poisson_layered", &RegionTissue::poisson_layered},
-     {"swelling_height_mm", &RegionTissue::swelling_height},
-     {"swelling_radius_mm", &RegionTissue::swelling_radius},
-     {"swelling_width_mm", &RegionTissue::swelling_width},
-     {"neighbourhood_mm", &RegionTissue::neighbourhood}}};
+    {{"poisson_layered", &hand::RegionTissue::poisson_layered},
+     {"swelling_height_mm", &hand::RegionTissue::swelling_height},
+     {"swelling_radius_mm", &hand::RegionTissue::swelling_radius},
+     {"swelling_width_mm", &hand::RegionTissue::swelling_width},
+     {"neighbourhood_mm", &hand::RegionTissue::neighbourhood}}};
 
-PlainJson to_json(const StiffeningLaw& law) {
+PlainJson to_json(const hand::StiffeningLaw& law) {
   return {{"g0_mpa", law.g0}, {"g_limit_mpa", law.g_limit}, {"limit_depth_mm", law.limit_depth}};
 }
 
-StiffeningLaw law_from(const PlainJson& json) {
+hand::StiffeningLaw law_from(const PlainJson& json) {
   return {finite(json.at("g0_mpa")), finite(json.at("g_limit_mpa")),
           finite(json.at("limit_depth_mm"))};
 }
 
-PlainJson to_json(const TissueStiffness& stiffness) {
+PlainJson to_json(const hand::TissueStiffness& stiffness) {
   return {{"nominal", to_json(stiffness.nominal)},
           {"low", to_json(stiffness.low)},
           {"high", to_json(stiffness.high)}};
 }
 
-TissueStiffness stiffness_from(const PlainJson& json) {
+hand::TissueStiffness stiffness_from(const PlainJson& json) {
   return {law_from(json.at("nominal")), law_from(json.at("low")), law_from(json.at("high"))};
 }
 
-PlainJson to_json(const BoneTissueLaw& law) {
+PlainJson to_json(const hand::BoneTissueLaw& law) {
   return {{"g0_mpa", law.g0}, {"stiffening", law.stiffening}};
 }
 
-BoneTissueLaw bone_law_from(const PlainJson& json) {
+hand::BoneTissueLaw bone_law_from(const PlainJson& json) {
   return {finite(json.at("g0_mpa")), finite(json.at("stiffening"))};
 }
 
 /// Version 1 of the file has one law per region, that of the half-space.
-RegionTissue region_tissue_version_1(const PlainJson& json, const RegionTissue& standard) {
-  RegionTissue region = standard;
-  TissueStiffness& stiffness = region.half_space;
+hand::RegionTissue region_tissue_version_1(const PlainJson& json,
+                                           const hand::RegionTissue& standard) {
+  hand::RegionTissue region = standard;
+  hand::TissueStiffness& stiffness = region.half_space;
   stiffness.nominal = law_from(json);
-  for (double StiffeningLaw::*value : {&StiffeningLaw::g0, &StiffeningLaw::g_limit}) {
+  for (double hand::StiffeningLaw::*value :
+       {&hand::StiffeningLaw::g0, &hand::StiffeningLaw::g_limit}) {
     stiffness.low.*value = std::min(stiffness.low.*value, stiffness.nominal.*value);
     stiffness.high.*value = std::max(stiffness.high.*value, stiffness.nominal.*value);
   }
@@ -111,10 +113,10 @@ RegionTissue region_tissue_version_1(const PlainJson& json, const RegionTissue& 
   return region;
 }
 
-JointDof dof_from(const PlainJson& json) {
-  JointDof dof;
+hand::JointDof dof_from(const PlainJson& json) {
+  hand::JointDof dof;
   const auto name = json.at("dof").get<std::string>();
-  const auto known = dof_named(name);
+  const auto known = hand::dof_named(name);
   if (!known) throw InputError("degree of freedom \"" + name + "\" is unknown");
   dof.dof = *known;
   dof.axis = vec3_from(json.at("axis"));
@@ -141,13 +143,13 @@ JointDof dof_from(const PlainJson& json) {
 
 }  // namespace
 
-PlainJson skeleton_to_json(const Skeleton& skeleton) {
+PlainJson skeleton_to_json(const hand::Skeleton& skeleton) {
   PlainJson json;
   json["joints"] = PlainJson::array();
-  for (const Joint& joint : skeleton.joints) {
+  for (const hand::Joint& joint : skeleton.joints) {
     PlainJson entry = {{"joint", name_of(joint.id)}, {"centre_mm", to_json(joint.centre)}};
     entry["dofs"] = PlainJson::array();
-    for (const JointDof& dof : joint.dofs) {
+    for (const hand::JointDof& dof : joint.dofs) {
       entry["dofs"].push_back({{"dof", name_of(dof.dof)},
                                {"axis", to_json(dof.axis)},
                                {"centre_mm", to_json(dof.centre)},
@@ -166,22 +168,22 @@ PlainJson skeleton_to_json(const Skeleton& skeleton) {
   return json;
 }
 
-Skeleton skeleton_from_json(const PlainJson& json) {
-  Skeleton skeleton;
+hand::Skeleton skeleton_from_json(const PlainJson& json) {
+  hand::Skeleton skeleton;
   const PlainJson& joints = json.at("joints");
-  if (joints.size() != kJointCount) {
-    throw InputError(std::to_string(joints.size()) + " joints; " + std::to_string(kJointCount) +
-                     " are needed");
+  if (joints.size() != hand::kJointCount) {
+    throw InputError(std::to_string(joints.size()) + " joints; " +
+                     std::to_string(hand::kJointCount) + " are needed");
   }
-  std::array<bool, kDofCount> has_dof{};
+  std::array<bool, hand::kDofCount> has_dof{};
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const auto name = joints[j].at("joint").get<std::string>();
-    if (joint_named(name) != static_cast<JointId>(j)) {
+    if (hand::joint_named(name) != static_cast<hand::JointId>(j)) {
       throw InputError("joint " + std::to_string(j) + " is \"" + name + "\"; \"" +
-                       std::string(name_of(static_cast<JointId>(j))) + "\" is needed there");
+                       std::string(name_of(static_cast<hand::JointId>(j))) + "\" is needed there");
     }
-    Joint& joint = skeleton.joints[j];
-    joint.id = static_cast<JointId>(j);
+    hand::Joint& joint = skeleton.joints[j];
+    joint.id = static_cast<hand::JointId>(j);
     joint.centre = vec3_from(joints[j].at("centre_mm"));
     for (const PlainJson& entry : joints[j].at("dofs")) {
       joint.dofs.push_back(dof_from(entry));
@@ -190,51 +192,52 @@ Skeleton skeleton_from_json(const PlainJson& json) {
   }
   for (std::size_t d = 0; d < has_dof.size(); ++d) {
     if (!has_dof[d]) {
-      throw InputError("degree of freedom \"" + std::string(name_of(static_cast<Dof>(d))) +
+      throw InputError("degree of freedom \"" + std::string(name_of(static_cast<hand::Dof>(d))) +
                        "\" is missing");
     }
   }
   for (const LimitName& limit : kLimits) {
     skeleton.thumb_cmc.*limit.limit = limit_from(json.at("thumb_cmc").at(limit.name));
   }
-  for (std::size_t f = 0; f < kFingerCount; ++f) {
+  for (std::size_t f = 0; f < hand::kFingerCount; ++f) {
     skeleton.fingertips[f] = vec3_from(json.at("fingertips_mm").at(f));
   }
   return skeleton;
 }
 
-PlainJson dimensions_to_json(const HandDimensions& dimensions) {
+PlainJson dimensions_to_json(const hand::HandDimensions& dimensions) {
   PlainJson json = {{"hand_length_mm", dimensions.hand_length},
                     {"hand_circumference_mm", dimensions.hand_circumference},
                     {"hand_width_mm", dimensions.hand_width},
                     {"hand_thickness_mm", dimensions.hand_thickness}};
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const SegmentDimensions& one = dimensions.segment[s];
-    json["segments"][std::string(name_of(static_cast<Segment>(s)))] = {
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    const hand::SegmentDimensions& one = dimensions.segment[s];
+    json["segments"][std::string(name_of(static_cast<hand::Segment>(s)))] = {
         {"length_mm", one.length}, {"width_mm", one.width}, {"thickness_mm", one.thickness}};
   }
   return json;
 }
 
-HandDimensions dimensions_from_json(const PlainJson& json) {
-  HandDimensions dimensions;
+hand::HandDimensions dimensions_from_json(const PlainJson& json) {
+  hand::HandDimensions dimensions;
   dimensions.hand_length = finite(json.at("hand_length_mm"));
   dimensions.hand_circumference = finite(json.at("hand_circumference_mm"));
   dimensions.hand_width = finite(json.at("hand_width_mm"));
   dimensions.hand_thickness = finite(json.at("hand_thickness_mm"));
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const PlainJson& one = json.at("segments").at(std::string(name_of(static_cast<Segment>(s))));
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    const PlainJson& one =
+        json.at("segments").at(std::string(name_of(static_cast<hand::Segment>(s))));
     dimensions.segment[s] = {finite(one.at("length_mm")), finite(one.at("width_mm")),
                              finite(one.at("thickness_mm"))};
   }
   return dimensions;
 }
 
-PlainJson tissue_to_json(const Tissue& tissue) {
+PlainJson tissue_to_json(const hand::Tissue& tissue) {
   PlainJson json = {{"source", tissue.source}};
-  for (int r = 0; r < kRegionCount; ++r) {
-    PlainJson& entry = json["regions"][std::string(name_of(static_cast<Region>(r)))];
-    const RegionTissue& region = tissue.region[r];
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    PlainJson& entry = json["regions"][std::string(name_of(static_cast<hand::Region>(r)))];
+    const hand::RegionTissue& region = tissue.region[r];
     entry["half_space"] = to_json(region.half_space);
     entry["layered"] = to_json(region.layered);
     entry["on_bone"] = {{"nominal", to_json(region.on_bone.nominal)},
@@ -246,14 +249,14 @@ PlainJson tissue_to_json(const Tissue& tissue) {
   return json;
 }
 
-Tissue tissue_from_json(const PlainJson& json) {
-  const Tissue standard = default_tissue();
-  Tissue tissue;
+hand::Tissue tissue_from_json(const PlainJson& json) {
+  const hand::Tissue standard = hand::default_tissue();
+  hand::Tissue tissue;
   tissue.source = json.at("source").get<std::string>();
-  for (int r = 0; r < kRegionCount; ++r) {
-    const std::string name(name_of(static_cast<Region>(r)));
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    const std::string name(name_of(static_cast<hand::Region>(r)));
     const PlainJson& entry = json.at("regions").at(name);
-    RegionTissue& region = tissue.region[r];
+    hand::RegionTissue& region = tissue.region[r];
     const bool is_version_1 = entry.contains("g0_mpa");
     if (is_version_1) {
       region = region_tissue_version_1(entry, standard.region[r]);
@@ -270,13 +273,13 @@ Tissue tissue_from_json(const PlainJson& json) {
       region.source = entry.value("source", "");
     }
     for (const TissueName& item : kTissue) {
-      const bool is_newer = item.value == &RegionTissue::poisson_layered;
+      const bool is_newer = item.value == &hand::RegionTissue::poisson_layered;
       if (!(is_version_1 && is_newer)) region.*item.value = finite(entry.at(item.name));
     }
-    const std::string fault = fault_of(region);
+    const std::string fault = hand::fault_of(region);
     if (!fault.empty()) throw InputError("tissue of " + name + ": " + fault);
   }
   return tissue;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -23,7 +23,7 @@
 #include "palmar/hand/template/hand_frame.h"
 #include "palmar/records/hand/hand_asset.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
@@ -41,48 +41,49 @@ class TemplateHand : public ::testing::Test {
     }
   }
   /// Coarser than the default, so that the sanitized build stays quick.
-  static const Hand& hand() {
-    static const Hand made = build_template(read_hand_asset(asset_path()), {.edge_length = 3.0});
+  static const hand::Hand& hand() {
+    static const hand::Hand made =
+        hand::build_template(read_hand_asset(asset_path()), {.edge_length = 3.0});
     return made;
   }
 };
 
-TriangleMesh posed(const Hand& hand, const Posture& posture) {
-  TriangleMesh skin = hand.skin;
-  skin.vertices = pose_skin(hand, posture);
+geometry::TriangleMesh posed(const hand::Hand& hand, const hand::Posture& posture) {
+  geometry::TriangleMesh skin = hand.skin;
+  skin.vertices = hand::pose_skin(hand, posture);
   return skin;
 }
 
-Posture full_fist(const Skeleton& skeleton) {
-  Posture posture = reference_posture(skeleton);
-  for (int d = static_cast<int>(Dof::kIndexMcpFlexion); d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
+hand::Posture full_fist(const hand::Skeleton& skeleton) {
+  hand::Posture posture = hand::reference_posture(skeleton);
+  for (int d = static_cast<int>(hand::Dof::kIndexMcpFlexion); d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
     if (name_of(dof).ends_with("flexion")) posture[dof] = skeleton.dof(dof).upper;
   }
   return posture;
 }
 
 TEST_F(TemplateHand, IsAClosedRightHandOfHumanSize) {
-  require_closed_manifold(hand().skin, "template");
-  const Skeleton& s = hand().skeleton;
-  EXPECT_EQ(s.joint(JointId::kWrist).centre, Vec3::Zero());
+  geometry::require_closed_manifold(hand().skin, "template");
+  const hand::Skeleton& s = hand().skeleton;
+  EXPECT_EQ(s.joint(hand::JointId::kWrist).centre, Vec3::Zero());
   EXPECT_GT(s.fingertips[0].x(), s.fingertips[1].x());  // thumb radial
   EXPECT_GT(s.fingertips[1].x(), s.fingertips[4].x());  // index radial of little finger
   EXPECT_GT(s.fingertips[2].y(), s.fingertips[1].y());  // middle finger longest
-  EXPECT_GT(s.fingertips[0].z(), s.joint(JointId::kThumbCmc).centre.z());  // thumb palmar
+  EXPECT_GT(s.fingertips[0].z(), s.joint(hand::JointId::kThumbCmc).centre.z());  // thumb palmar
   // DESIGN.md: about 190 mm long, 335 ml with the wrist.
   EXPECT_NEAR(s.fingertips[2].y(), 190, 10);
-  EXPECT_NEAR(signed_volume(hand().skin) / 1000, 335, 12);
+  EXPECT_NEAR(geometry::signed_volume(hand().skin) / 1000, 335, 12);
 }
 
 TEST_F(TemplateHand, ReferencePostureMovesNothing) {
-  const std::vector<Vec3> skin = pose_skin(hand(), reference_posture(hand().skeleton));
+  const std::vector<Vec3> skin = hand::pose_skin(hand(), hand::reference_posture(hand().skeleton));
   EXPECT_EQ(skin, hand().skin.vertices);
 }
 
 TEST_F(TemplateHand, EveryAngleHasASourceAndARangeAboutTheReference) {
-  for (int d = 0; d < kDofCount; ++d) {
-    const JointDof& dof = hand().skeleton.dof(static_cast<Dof>(d));
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const hand::JointDof& dof = hand().skeleton.dof(static_cast<hand::Dof>(d));
     EXPECT_LE(dof.lower, dof.reference) << name_of(dof.dof);
     EXPECT_GE(dof.upper, dof.reference) << name_of(dof.dof);
     EXPECT_LT(dof.lower, dof.upper) << name_of(dof.dof);
@@ -92,40 +93,41 @@ TEST_F(TemplateHand, EveryAngleHasASourceAndARangeAboutTheReference) {
 }
 
 TEST_F(TemplateHand, FlexionBendsTowardsThePalmAndAbductionTowardsTheThumb) {
-  const Skeleton& s = hand().skeleton;
-  for (int f = 1; f < kFingerCount; ++f) {
+  const hand::Skeleton& s = hand().skeleton;
+  for (int f = 1; f < hand::kFingerCount; ++f) {
     const Vec3 tip = s.fingertips[f];
-    const std::size_t distal = index_of(*segments_of(static_cast<Finger>(f))[2]);
-    const int first = static_cast<int>(Dof::kIndexMcpFlexion) + 4 * (f - 1);
+    const std::size_t distal = index_of(*hand::segments_of(static_cast<hand::Finger>(f))[2]);
+    const int first = static_cast<int>(hand::Dof::kIndexMcpFlexion) + 4 * (f - 1);
     for (const int k : {0, 2, 3}) {
-      Posture posture = reference_posture(s);
-      posture[static_cast<Dof>(first + k)] += 30 * kDegree;
-      EXPECT_GT((pose_skeleton(s, posture).segment[distal] * tip).z(), tip.z() + 3);
+      hand::Posture posture = hand::reference_posture(s);
+      posture[static_cast<hand::Dof>(first + k)] += 30 * geometry::kDegree;
+      EXPECT_GT((hand::pose_skeleton(s, posture).segment[distal] * tip).z(), tip.z() + 3);
     }
-    Posture posture = reference_posture(s);
-    posture[static_cast<Dof>(first + 1)] += 10 * kDegree;
-    EXPECT_GT((pose_skeleton(s, posture).segment[distal] * tip).x(), tip.x() + 5);
+    hand::Posture posture = hand::reference_posture(s);
+    posture[static_cast<hand::Dof>(first + 1)] += 10 * geometry::kDegree;
+    EXPECT_GT((hand::pose_skeleton(s, posture).segment[distal] * tip).x(), tip.x() + 5);
   }
 }
 
 TEST_F(TemplateHand, FlexedFingersConvergeOnTheScaphoid) {
   // Side by side when straight, fingertips of a fist lie closer together than the knuckles.
-  const Skeleton& s = hand().skeleton;
-  const PosedSkeleton fist = pose_skeleton(s, full_fist(s));
-  const auto tip = [&](Finger finger) {
-    return Vec3(fist.segment[index_of(*segments_of(finger)[2])] * s.fingertips[index_of(finger)]);
+  const hand::Skeleton& s = hand().skeleton;
+  const hand::PosedSkeleton fist = hand::pose_skeleton(s, full_fist(s));
+  const auto tip = [&](hand::Finger finger) {
+    return Vec3(fist.segment[index_of(*hand::segments_of(finger)[2])] *
+                s.fingertips[index_of(finger)]);
   };
-  const double tips = (tip(Finger::kIndex) - tip(Finger::kLittle)).norm();
+  const double tips = (tip(hand::Finger::kIndex) - tip(hand::Finger::kLittle)).norm();
   const double knuckles =
-      (s.joint(JointId::kIndexMcp).centre - s.joint(JointId::kLittleMcp).centre).norm();
+      (s.joint(hand::JointId::kIndexMcp).centre - s.joint(hand::JointId::kLittleMcp).centre).norm();
   EXPECT_LT(tips, knuckles);
 }
 
 TEST_F(TemplateHand, WeightsAreSharesAndListedInOrder) {
-  ASSERT_EQ(std::ssize(hand().weights), kJointCount);
+  ASSERT_EQ(std::ssize(hand().weights), hand::kJointCount);
   for (std::size_t j = 0; j < hand().weights.size(); ++j) {
-    const JointWeights& weights = hand().weights[j];
-    EXPECT_EQ(weights.joint, static_cast<JointId>(j));
+    const hand::JointWeights& weights = hand().weights[j];
+    EXPECT_EQ(weights.joint, static_cast<hand::JointId>(j));
     EXPECT_TRUE(std::is_sorted(weights.vertex.begin(), weights.vertex.end()));
     for (std::size_t k = 0; k < weights.vertex.size(); ++k) {
       EXPECT_GT(weights.w1[k] * weights.w2[k], 0);
@@ -136,29 +138,30 @@ TEST_F(TemplateHand, WeightsAreSharesAndListedInOrder) {
 }
 
 TEST_F(TemplateHand, FingertipsMoveRigidlyAndNoFingerDragsItsNeighbour) {
-  const Skeleton& s = hand().skeleton;
-  Posture posture = reference_posture(s);
-  posture[Dof::kMiddleMcpFlexion] += 50 * kDegree;
-  posture[Dof::kMiddlePipFlexion] += 40 * kDegree;
-  const PosedSkeleton bones = pose_skeleton(s, posture);
-  const std::vector<Vec3> skin = pose_skin(hand(), posture);
+  const hand::Skeleton& s = hand().skeleton;
+  hand::Posture posture = hand::reference_posture(s);
+  posture[hand::Dof::kMiddleMcpFlexion] += 50 * geometry::kDegree;
+  posture[hand::Dof::kMiddlePipFlexion] += 40 * geometry::kDegree;
+  const hand::PosedSkeleton bones = hand::pose_skeleton(s, posture);
+  const std::vector<Vec3> skin = hand::pose_skin(hand(), posture);
   for (std::size_t v = 0; v < skin.size(); ++v) {
-    const auto finger = finger_of(hand().segment[v]);
-    if (hand().segment[v] == Segment::kMiddleDistal) {
-      const Vec3 rigid = bones.segment[index_of(Segment::kMiddleDistal)] * hand().skin.vertices[v];
+    const auto finger = hand::finger_of(hand().segment[v]);
+    if (hand().segment[v] == hand::Segment::kMiddleDistal) {
+      const Vec3 rigid =
+          bones.segment[index_of(hand::Segment::kMiddleDistal)] * hand().skin.vertices[v];
       ASSERT_NEAR((skin[v] - rigid).norm(), 0, 1e-9) << "vertex " << v;  // mm, rounding
-    } else if (finger && hand().segment[v] != *segments_of(*finger)[0] &&
-               *finger != Finger::kMiddle) {
+    } else if (finger && hand().segment[v] != *hand::segments_of(*finger)[0] &&
+               *finger != hand::Finger::kMiddle) {
       ASSERT_EQ(skin[v], hand().skin.vertices[v]) << "vertex " << v;
     }
   }
 }
 
 TEST_F(TemplateHand, SomeVerticesAloneGoWhereAllGo) {
-  const Posture posture = *named_posture(hand().skeleton, "fist");
-  const std::vector<Vec3> all = pose_skin(hand(), posture);
+  const hand::Posture posture = *hand::named_posture(hand().skeleton, "fist");
+  const std::vector<Vec3> all = hand::pose_skin(hand(), posture);
   const std::vector<int> some = {5, 900, 17, 5, hand().skin.vertex_count() - 1};
-  const std::vector<Vec3> alone = pose_skin_vertices(hand(), posture, some);
+  const std::vector<Vec3> alone = hand::pose_skin_vertices(hand(), posture, some);
   ASSERT_EQ(alone.size(), some.size());
   for (std::size_t k = 0; k < some.size(); ++k) {
     EXPECT_EQ(alone[k], all[some[k]]);
@@ -166,51 +169,52 @@ TEST_F(TemplateHand, SomeVerticesAloneGoWhereAllGo) {
 }
 
 TEST_F(TemplateHand, BendingKeepsTheVolumeWithinFivePercentOfTheFinger) {
-  const double straight = signed_volume(hand().skin);
+  const double straight = geometry::signed_volume(hand().skin);
   // Volumes of the fingers themselves, from sections of about 16 mm over their lengths: 12 to 19
   // ml; the smallest, the little finger, has about 8 ml. 5 % of those, mm^3:
   const double allowed[] = {0.05 * 18000, 0.05 * 16000, 0.05 * 18000, 0.05 * 15000, 0.05 * 9000};
-  for (int j = static_cast<int>(JointId::kThumbMp); j < kJointCount; ++j) {
-    const Joint& joint = hand().skeleton.joint(static_cast<JointId>(j));
-    const JointDof& flexion = joint.dofs.back();
-    Posture posture = reference_posture(hand().skeleton);
+  for (int j = static_cast<int>(hand::JointId::kThumbMp); j < hand::kJointCount; ++j) {
+    const hand::Joint& joint = hand().skeleton.joint(static_cast<hand::JointId>(j));
+    const hand::JointDof& flexion = joint.dofs.back();
+    hand::Posture posture = hand::reference_posture(hand().skeleton);
     posture[flexion.dof] = flexion.upper;
     const std::size_t finger = j < 4 ? 0 : static_cast<std::size_t>((j - 4) / 3 + 1);
-    EXPECT_NEAR(signed_volume(posed(hand(), posture)), straight, allowed[finger])
+    EXPECT_NEAR(geometry::signed_volume(posed(hand(), posture)), straight, allowed[finger])
         << name_of(joint.id);
   }
 }
 
 TEST_F(TemplateHand, NamedPosturesAreInRangeAndKeepTheVolumeOfTheHand) {
-  const double straight = signed_volume(hand().skin);
-  EXPECT_EQ(posture_names().size(), 10U);
-  for (const std::string& name : posture_names()) {
-    const auto posture = named_posture(hand().skeleton, name);
+  const double straight = geometry::signed_volume(hand().skin);
+  EXPECT_EQ(hand::posture_names().size(), 10U);
+  for (const std::string& name : hand::posture_names()) {
+    const auto posture = hand::named_posture(hand().skeleton, name);
     ASSERT_TRUE(posture);
-    EXPECT_TRUE(clamp_to_range(hand().skeleton, *posture).clamped.empty()) << name;
-    EXPECT_NEAR(signed_volume(posed(hand(), *posture)) / straight, 1, 0.05) << name;
+    EXPECT_TRUE(hand::clamp_to_range(hand().skeleton, *posture).clamped.empty()) << name;
+    EXPECT_NEAR(geometry::signed_volume(posed(hand(), *posture)) / straight, 1, 0.05) << name;
   }
-  EXPECT_FALSE(named_posture(hand().skeleton, "salute"));
+  EXPECT_FALSE(hand::named_posture(hand().skeleton, "salute"));
 }
 
 TEST_F(TemplateHand, OneFingerBentToItsLimitDoesNotCrossItself) {
   for (const char* finger : {"index", "ring"}) {
-    Posture posture = reference_posture(hand().skeleton);
+    hand::Posture posture = hand::reference_posture(hand().skeleton);
     for (const char* joint : {"_pip_flexion", "_dip_flexion"}) {
-      const Dof dof = *dof_named(std::string(finger) + joint);
+      const hand::Dof dof = *hand::dof_named(std::string(finger) + joint);
       posture[dof] = hand().skeleton.dof(dof).upper;
     }
-    EXPECT_LE(crossing_depth(posed(hand(), posture)).deepest, 1.0) << finger;  // mm, in the crease
+    EXPECT_LE(geometry::crossing_depth(posed(hand(), posture)).deepest, 1.0)
+        << finger;  // mm, in the crease
   }
 }
 
 TEST_F(TemplateHand, MirroredHandTakesTheMirroredPosture) {
-  const Hand left = mirrored(hand());
-  EXPECT_EQ(left.side, Side::kLeft);
-  EXPECT_GT(signed_volume(left.skin), 0);
-  const Posture posture = *named_posture(hand().skeleton, "thumb_to_little");
-  const std::vector<Vec3> right_skin = pose_skin(hand(), posture);
-  const std::vector<Vec3> left_skin = pose_skin(left, posture);
+  const hand::Hand left = hand::mirrored(hand());
+  EXPECT_EQ(left.side, hand::Side::kLeft);
+  EXPECT_GT(geometry::signed_volume(left.skin), 0);
+  const hand::Posture posture = *hand::named_posture(hand().skeleton, "thumb_to_little");
+  const std::vector<Vec3> right_skin = hand::pose_skin(hand(), posture);
+  const std::vector<Vec3> left_skin = hand::pose_skin(left, posture);
   for (std::size_t v = 0; v < right_skin.size(); ++v) {
     const Vec3 image(-right_skin[v].x(), right_skin[v].y(), right_skin[v].z());
     ASSERT_NEAR((left_skin[v] - image).norm(), 0, 1e-9) << "vertex " << v;  // mm, rounding
@@ -220,32 +224,33 @@ TEST_F(TemplateHand, MirroredHandTakesTheMirroredPosture) {
 TEST_F(TemplateHand, ThumbReachesTheLittleFingertipWithinTheRangeOfMotion) {
   std::vector<int> thumb, little;
   for (int v = 0; v < hand().skin.vertex_count(); ++v) {
-    const Region region = hand().region[v];
-    if (region == Region::kThumbDistal) thumb.push_back(v);
-    if (region == Region::kLittleDistal) little.push_back(v);
+    const hand::Region region = hand().region[v];
+    if (region == hand::Region::kThumbDistal) thumb.push_back(v);
+    if (region == hand::Region::kLittleDistal) little.push_back(v);
   }
-  const auto gap = [&](const Posture& posture) {
-    const std::vector<Vec3> a = pose_skin_vertices(hand(), posture, thumb);
-    const std::vector<Vec3> b = pose_skin_vertices(hand(), posture, little);
+  const auto gap = [&](const hand::Posture& posture) {
+    const std::vector<Vec3> a = hand::pose_skin_vertices(hand(), posture, thumb);
+    const std::vector<Vec3> b = hand::pose_skin_vertices(hand(), posture, little);
     double least = 1e30;
     for (const Vec3& p : a) {
       for (const Vec3& q : b) least = std::min(least, (p - q).norm());
     }
     return least;
   };
-  const Dof free[] = {Dof::kThumbCmcFlexion, Dof::kThumbCmcAbduction, Dof::kThumbMpFlexion,
-                      Dof::kThumbIpFlexion,  Dof::kLittleMcpFlexion,  Dof::kLittlePipFlexion,
-                      Dof::kLittleDipFlexion};
-  Posture best = reference_posture(hand().skeleton);
+  const hand::Dof free[] = {hand::Dof::kThumbCmcFlexion,  hand::Dof::kThumbCmcAbduction,
+                            hand::Dof::kThumbMpFlexion,   hand::Dof::kThumbIpFlexion,
+                            hand::Dof::kLittleMcpFlexion, hand::Dof::kLittlePipFlexion,
+                            hand::Dof::kLittleDipFlexion};
+  hand::Posture best = hand::reference_posture(hand().skeleton);
   double least = gap(best);
-  for (double step = 16 * kDegree; step > kDegree && least > 2.0; step /= 2) {
+  for (double step = 16 * geometry::kDegree; step > geometry::kDegree && least > 2.0; step /= 2) {
     for (bool improves = true; improves && least > 2.0;) {
       improves = false;
-      for (const Dof dof : free) {
+      for (const hand::Dof dof : free) {
         for (const double turn : {step, -step}) {
-          Posture next = best;
+          hand::Posture next = best;
           next[dof] += turn;
-          next = clamp_to_range(hand().skeleton, next).posture;
+          next = hand::clamp_to_range(hand().skeleton, next).posture;
           const double reached = gap(next);
           if (reached >= least - 1e-6) continue;
           least = reached;
@@ -259,32 +264,32 @@ TEST_F(TemplateHand, ThumbReachesTheLittleFingertipWithinTheRangeOfMotion) {
 }
 
 TEST_F(TemplateHand, ClampingNamesTheAngleAndKeepsTheRest) {
-  Posture posture = reference_posture(hand().skeleton);
-  posture[Dof::kIndexPipFlexion] = 130 * kDegree;
-  const ClampedPosture held = clamp_to_range(hand().skeleton, posture);
+  hand::Posture posture = hand::reference_posture(hand().skeleton);
+  posture[hand::Dof::kIndexPipFlexion] = 130 * geometry::kDegree;
+  const hand::ClampedPosture held = hand::clamp_to_range(hand().skeleton, posture);
   ASSERT_EQ(held.clamped.size(), 1U);
-  EXPECT_EQ(held.clamped[0].dof, Dof::kIndexPipFlexion);
-  EXPECT_NEAR(held.clamped[0].used, 100 * kDegree, 1e-12);  // clinical norm
-  EXPECT_NEAR(held.clamped[0].asked, 130 * kDegree, 1e-12);
+  EXPECT_EQ(held.clamped[0].dof, hand::Dof::kIndexPipFlexion);
+  EXPECT_NEAR(held.clamped[0].used, 100 * geometry::kDegree, 1e-12);  // clinical norm
+  EXPECT_NEAR(held.clamped[0].asked, 130 * geometry::kDegree, 1e-12);
 }
 
 TEST_F(TemplateHand, ALeftOrIncompleteAssetIsRefusedByName) {
-  HandAsset asset = read_hand_asset(asset_path());
+  hand::HandAsset asset = read_hand_asset(asset_path());
   EXPECT_EQ(asset.frames.size(), 25U);
-  HandAsset left = asset;
-  for (HandAsset::Frame& frame : left.frames) {
+  hand::HandAsset left = asset;
+  for (hand::HandAsset::Frame& frame : left.frames) {
     frame.asset_from_joint.translation.z() *= -1;  // asset: x dorsal, y proximal, z ulnar
   }
-  EXPECT_THROW(hand_from_asset(left), InputError);
+  EXPECT_THROW(hand::hand_from_asset(left), InputError);
   asset.frames.erase(asset.frames.begin() + 7);
   try {
-    build_template(asset);
+    hand::build_template(asset);
     FAIL() << "must throw";
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), HasSubstr("index-finger-phalanx-intermediate"));
   }
-  EXPECT_THROW(build_template(asset, {.edge_length = 0.2}), UsageError);
+  EXPECT_THROW(hand::build_template(asset, {.edge_length = 0.2}), UsageError);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -18,7 +18,7 @@
 #include "palmar/formats/toml_section.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::uint64_t kMostHoldBytes = 1 << 16;  // a hold of five fingertips has 1 kB
@@ -32,13 +32,13 @@ const char* const kHeader =
     "# and how turned about it; the same for hands of every size and for both sides.\n"
     "# palmar assess PRODUCT --hold FILE takes it. docs/using/holds.md says what the keys mean.\n";
 
-Grip read_grip(const TomlSection& section) {
+grasp::Grip read_grip(const formats::TomlSection& section) {
   const std::string name = section.need_text("grip");
-  if (const std::optional<Grip> grip = grip_named(name)) return *grip;
+  if (const std::optional<grasp::Grip> grip = grasp::grip_named(name)) return *grip;
   std::vector<std::string> known;
   std::string list;
-  for (int g = 0; g < kGripCount; ++g) {
-    known.emplace_back(name_of(static_cast<Grip>(g)));
+  for (int g = 0; g < grasp::kGripCount; ++g) {
+    known.emplace_back(name_of(static_cast<grasp::Grip>(g)));
     list += (list.empty() ? "" : ", ") + known.back();
   }
   const std::string nearest = nearest_name(name, known);
@@ -46,25 +46,26 @@ Grip read_grip(const TomlSection& section) {
                                    nearest.empty() ? "" : ", did you mean " + nearest + "?", list));
 }
 
-HoldFingertip read_fingertip(const TomlSection& section) {
+grasp::HoldFingertip read_fingertip(const formats::TomlSection& section) {
   section.allow({"finger", "along", "turn_deg", "height_mm"});
   const std::string name = section.need_text("finger");
-  const std::optional<Finger> finger = finger_named(name);
+  const std::optional<hand::Finger> finger = hand::finger_named(name);
   if (!finger) {
     section.fail("finger", fmt::format("is \"{}\", which is not known; thumb, index, middle, ring "
                                        "or little is allowed",
                                        name));
   }
-  HoldFingertip tip;
+  grasp::HoldFingertip tip;
   tip.finger = *finger;
   tip.place.along = section.need_number("along", "", -kFarthest, kFarthest);
-  tip.place.turn = kDegree * section.need_number("turn_deg", "deg", -kMostTurn, kMostTurn);
+  tip.place.turn =
+      geometry::kDegree * section.need_number("turn_deg", "deg", -kMostTurn, kMostTurn);
   tip.place.height = section.need_number("height_mm", "mm", -kMostHeight, kMostHeight);
   return tip;
 }
 
-void check_fingertips(const TomlSection& file, const Hold& hold) {
-  const bool needs_tips = !is_power(hold.grip) && !is_laid(hold.grip);
+void check_fingertips(const formats::TomlSection& file, const grasp::Hold& hold) {
+  const bool needs_tips = !grasp::is_power(hold.grip) && !grasp::is_laid(hold.grip);
   if (needs_tips && hold.fingertips.empty()) {
     file.fail("grip", fmt::format("is {}, which holds with fingertips; a "
                                   "[[fingertip]] is required for each finger",
@@ -76,8 +77,8 @@ void check_fingertips(const TomlSection& file, const Hold& hold) {
                           "hand",
                           name_of(hold.grip)));
   }
-  std::set<Finger> seen;
-  for (const HoldFingertip& tip : hold.fingertips) {
+  std::set<hand::Finger> seen;
+  for (const grasp::HoldFingertip& tip : hold.fingertips) {
     if (!seen.insert(tip.finger).second) {
       file.fail("fingertip",
                 fmt::format("gives {} twice; once per finger is allowed", name_of(tip.finger)));
@@ -87,24 +88,25 @@ void check_fingertips(const TomlSection& file, const Hold& hold) {
 
 /// Degrees that read back to an angle, with as few digits as say so; 45.0 for pi / 4.
 std::string degrees_text(double angle) {
-  const double about = angle * kDegreesPerRadian;
+  const double about = angle * geometry::kDegreesPerRadian;
   for (const int digits : {12, 15}) {
-    const double rounded = parse_double(fmt::format("{:.{}g}", about, digits)).value_or(about);
-    if (rounded * kDegree == angle) return toml_number(rounded);
+    const double rounded =
+        formats::parse_double(fmt::format("{:.{}g}", about, digits)).value_or(about);
+    if (rounded * geometry::kDegree == angle) return formats::toml_number(rounded);
   }
   constexpr double kEndless = std::numeric_limits<double>::infinity();
   const double up = std::nextafter(about, kEndless), down = std::nextafter(about, -kEndless);
   for (const double near : {about, up, down}) {
-    if (near * kDegree == angle) return toml_number(near);
+    if (near * geometry::kDegree == angle) return formats::toml_number(near);
   }
-  return toml_number(about);
+  return formats::toml_number(about);
 }
 
 }  // namespace
 
 HoldFile read_hold(const std::string& path) {
-  const toml::table table = parse_toml(read_file(path, kMostHoldBytes), path);
-  const TomlSection file(path, "", table);
+  const toml::table table = formats::parse_toml(formats::read_file(path, kMostHoldBytes), path);
+  const formats::TomlSection file(path, "", table);
   file.allow({"version", "product", "part", "part_name", "grip", "along", "edge", "toward",
               "turn_deg", "over_end", "fingertip"});
   // A newer file may hold more than this program knows, so its version is looked at first.
@@ -116,7 +118,7 @@ HoldFile read_hold(const std::string& path) {
   }
   HoldFile result;
   result.product = file.text("product").value_or("");
-  Hold& hold = result.hold;
+  grasp::Hold& hold = result.hold;
   const auto part = file.integer("part", 1, kMostParts);
   if (!part) file.fail("key \"part\" is missing; the number of the part that is held is required");
   hold.part = static_cast<int>(*part);
@@ -128,9 +130,10 @@ HoldFile read_hold(const std::string& path) {
     if (*toward == 0) file.fail("toward", "is 0; 1 or -1 is allowed");
     hold.toward = static_cast<int>(*toward);
   }
-  hold.turn = kDegree * file.number("turn_deg", "deg", -kMostTurn, kMostTurn).value_or(0.0);
+  hold.turn =
+      geometry::kDegree * file.number("turn_deg", "deg", -kMostTurn, kMostTurn).value_or(0.0);
   hold.is_over_end = file.boolean("over_end").value_or(false);
-  for (const TomlSection& tip : file.tables("fingertip")) {
+  for (const formats::TomlSection& tip : file.tables("fingertip")) {
     hold.fingertips.push_back(read_fingertip(tip));
   }
   check_fingertips(file, hold);
@@ -138,23 +141,24 @@ HoldFile read_hold(const std::string& path) {
 }
 
 std::string hold_toml(const HoldFile& file) {
-  const Hold& hold = file.hold;
+  const grasp::Hold& hold = file.hold;
   std::string text = kHeader;
   text += fmt::format("version = {}\n", kHoldFileVersion);
   if (!file.product.empty()) {
-    text += fmt::format("product = {}  # for information\n", toml_string(file.product));
+    text += fmt::format("product = {}  # for information\n", formats::toml_string(file.product));
   }
   text += fmt::format("part = {}  # its number; palmar product parts lists them\n", hold.part);
   if (!hold.part_name.empty()) {
-    text += fmt::format("part_name = {}  # for information\n", toml_string(hold.part_name));
+    text +=
+        fmt::format("part_name = {}  # for information\n", formats::toml_string(hold.part_name));
   }
-  text += fmt::format("grip = {}\n", toml_string(std::string(name_of(hold.grip))));
+  text += fmt::format("grip = {}\n", formats::toml_string(std::string(name_of(hold.grip))));
   text += fmt::format("along = {}  # where on the part, a fraction of its length\n",
-                      toml_number(hold.along));
+                      formats::toml_number(hold.along));
   text += fmt::format(
       "edge = {}  # what of the hand is there: 0 the middle of the fingers, 0.5 the\n"
       "            # index finger's outer edge, -0.5 the little finger's\n",
-      toml_number(hold.edge));
+      formats::toml_number(hold.edge));
   text += fmt::format(
       "toward = {}  # the thumb's side points to growing along (1) or to where it starts (-1)\n",
       hold.toward);
@@ -162,16 +166,17 @@ std::string hold_toml(const HoldFile& file) {
                       degrees_text(hold.turn));
   text += fmt::format("over_end = {}  # the palm lies over the end of the part\n",
                       hold.is_over_end ? "true" : "false");
-  for (const HoldFingertip& tip : hold.fingertips) {
+  for (const grasp::HoldFingertip& tip : hold.fingertips) {
     text += fmt::format("\n[[fingertip]]\nfinger = {}\nalong = {}\nturn_deg = {}\nheight_mm = {}\n",
-                        toml_string(std::string(name_of(tip.finger))), toml_number(tip.place.along),
-                        degrees_text(tip.place.turn), toml_number(tip.place.height));
+                        formats::toml_string(std::string(name_of(tip.finger))),
+                        formats::toml_number(tip.place.along), degrees_text(tip.place.turn),
+                        formats::toml_number(tip.place.height));
   }
   return text;
 }
 
 void write_hold(const std::string& path, const HoldFile& file) {
-  write_file(path, hold_toml(file));
+  formats::write_file(path, hold_toml(file));
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -6,7 +6,7 @@
 
 #include "palmar/grasp/hold_value.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Version of the hold files that this program writes; a newer one is refused.
 inline constexpr int kHoldFileVersion = 1;
@@ -29,7 +29,7 @@ inline constexpr int kHoldFileVersion = 1;
 ///     turn_deg = 30.0
 ///     height_mm = 12.0          # distance from the part's centre line
 struct HoldFile {
-  Hold hold;
+  grasp::Hold hold;
   std::string product;  ///< name of the product that it was found on; "": not said
 };
 
@@ -44,4 +44,4 @@ HoldFile read_hold(const std::string& path);
 void write_hold(const std::string& path, const HoldFile& file);
 std::string hold_toml(const HoldFile& file);
 
-}  // namespace palmar
+}  // namespace palmar::records

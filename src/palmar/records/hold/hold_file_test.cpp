@@ -11,7 +11,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::AllOf;
@@ -19,11 +19,11 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::string temporary_hold(const std::string& name) { return own_file(name); }
+std::string temporary_hold(const std::string& name) { return formats::own_file(name); }
 
 HoldFile read_hold_text(const std::string& toml) {
   const std::string path = temporary_hold("text.toml");
-  write_file(path, toml);
+  formats::write_file(path, toml);
   return read_hold(path);
 }
 
@@ -45,7 +45,7 @@ HoldFile hook_of_a_mug() {
   file.product = "a \"mug\"";
   file.hold.part = 2;
   file.hold.part_name = "handle";
-  file.hold.grip = Grip::kFixedHook;
+  file.hold.grip = grasp::Grip::kFixedHook;
   file.hold.along = 0.1 + 0.2;  // 17 digits
   file.hold.edge = 1.0 / 3.0;
   file.hold.toward = -1;
@@ -61,14 +61,14 @@ TEST(HoldFile, ReadBackIsTheSameHold) {
   EXPECT_EQ(back.product, "a \"mug\"");
   EXPECT_EQ(back.hold.part, 2);
   EXPECT_EQ(back.hold.part_name, "handle");
-  EXPECT_EQ(back.hold.grip, Grip::kFixedHook);
+  EXPECT_EQ(back.hold.grip, grasp::Grip::kFixedHook);
   EXPECT_EQ(back.hold.along, 0.1 + 0.2);
   EXPECT_EQ(back.hold.edge, 1.0 / 3.0);
   EXPECT_EQ(back.hold.toward, -1);
   EXPECT_EQ(back.hold.turn, std::numbers::pi / 4.0);
   EXPECT_FALSE(back.hold.is_over_end);
   EXPECT_TRUE(back.hold.fingertips.empty());
-  EXPECT_EQ(hold_toml(back), read_file(path)) << "writing again must give the same bytes";
+  EXPECT_EQ(hold_toml(back), formats::read_file(path)) << "writing again must give the same bytes";
 }
 
 TEST(HoldFile, AnglesAreWrittenInDegreesWithFewDigits) {
@@ -88,17 +88,17 @@ TEST(HoldFile, AnglesReadBackWithinTheLastDigitAndStayThere) {
 
 TEST(HoldFile, FingertipsAreInThePartsCoordinates) {
   HoldFile file;
-  file.hold.grip = Grip::kTripod;
+  file.hold.grip = grasp::Grip::kTripod;
   file.hold.is_over_end = true;
-  file.hold.fingertips = {{Finger::kThumb, {.along = -0.02, .turn = 1.0, .height = 5.25}},
-                          {Finger::kIndex, {.along = 0.04, .turn = -2.5, .height = 0.1}},
-                          {Finger::kMiddle, {.along = 0.05, .turn = 3.0, .height = 1e-9}}};
-  const Hold back = read_hold_text(hold_toml(file)).hold;
+  file.hold.fingertips = {{hand::Finger::kThumb, {.along = -0.02, .turn = 1.0, .height = 5.25}},
+                          {hand::Finger::kIndex, {.along = 0.04, .turn = -2.5, .height = 0.1}},
+                          {hand::Finger::kMiddle, {.along = 0.05, .turn = 3.0, .height = 1e-9}}};
+  const grasp::Hold back = read_hold_text(hold_toml(file)).hold;
   EXPECT_TRUE(back.is_over_end);
   ASSERT_EQ(back.fingertips.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
-    const HoldFingertip& a = back.fingertips[k];
-    const HoldFingertip& b = file.hold.fingertips[k];
+    const grasp::HoldFingertip& a = back.fingertips[k];
+    const grasp::HoldFingertip& b = file.hold.fingertips[k];
     EXPECT_EQ(a.finger, b.finger);
     EXPECT_EQ(a.place.along, b.place.along);
     EXPECT_DOUBLE_EQ(a.place.turn, b.place.turn);
@@ -113,7 +113,7 @@ TEST(HoldFile, WhatIsNotSaidHasItsDefault) {
   EXPECT_EQ(file.hold.turn, 0.0);
   EXPECT_EQ(file.hold.edge, 0.0);
   EXPECT_EQ(read_hold_text("part = 1\ngrip = \"cylinder\"\nalong = 1\n").hold.grip,
-            Grip::kMediumWrap);
+            grasp::Grip::kMediumWrap);
 }
 
 TEST(HoldFile, MalformedFilesAreRefusedByLineKeyAndValue) {
@@ -168,4 +168,4 @@ TEST(HoldFile, FingertipsGoWithPrecisionGripsOnceEach) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -12,17 +12,18 @@
 #include "palmar/records/json_values.h"
 #include "palmar/records/posture/placement_json.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using HoldJson = nlohmann::ordered_json;
 
-constexpr std::size_t kMostStations = 32;      // of a part's line
-constexpr double kAlongAxis = 20.0 * kDegree;  // a direction so near an axis is called by it
+constexpr std::size_t kMostStations = 32;  // of a part's line
+constexpr double kAlongAxis =
+    20.0 * geometry::kDegree;  // a direction so near an axis is called by it
 
-HoldJson terms_array(const std::vector<HoldTerm>& terms) {
+HoldJson terms_array(const std::vector<grasp::HoldTerm>& terms) {
   HoldJson array = HoldJson::array();
-  for (const HoldTerm& term : terms) {
+  for (const grasp::HoldTerm& term : terms) {
     array.push_back({{"name", term.name},
                      {"value", finite_or_null(term.value)},
                      {"unit", term.unit},
@@ -32,7 +33,7 @@ HoldJson terms_array(const std::vector<HoldTerm>& terms) {
   return array;
 }
 
-HoldJson plain_hold(const Hold& hold, const std::optional<PartKind>& kind,
+HoldJson plain_hold(const grasp::Hold& hold, const std::optional<product::PartKind>& kind,
                     const std::string& words) {
   HoldJson json = {{"part", hold.part},
                    {"part_name", hold.part_name},
@@ -41,23 +42,23 @@ HoldJson plain_hold(const Hold& hold, const std::optional<PartKind>& kind,
                    {"along", hold.along},
                    {"edge", hold.edge},
                    {"toward", hold.toward},
-                   {"turn_deg", hold.turn * kDegreesPerRadian},
+                   {"turn_deg", hold.turn * geometry::kDegreesPerRadian},
                    {"over_end", hold.is_over_end},
                    {"words", words}};
   if (hold.fingertips.empty()) return json;
   HoldJson tips = HoldJson::array();
-  for (const HoldFingertip& tip : hold.fingertips) {
+  for (const grasp::HoldFingertip& tip : hold.fingertips) {
     tips.push_back({{"finger", name_of(tip.finger)},
                     {"along", tip.place.along},
-                    {"turn_deg", tip.place.turn * kDegreesPerRadian},
+                    {"turn_deg", tip.place.turn * geometry::kDegreesPerRadian},
                     {"height_mm", tip.place.height}});
   }
   json["fingertips"] = std::move(tips);
   return json;
 }
 
-std::optional<PartKind> kind_of_part(int number, const ProductParts& parts) {
-  for (const ProductPart& part : parts.parts) {
+std::optional<product::PartKind> kind_of_part(int number, const product::ProductParts& parts) {
+  for (const product::ProductPart& part : parts.parts) {
     if (part.number == number) return part.kind;
   }
   return std::nullopt;
@@ -65,8 +66,8 @@ std::optional<PartKind> kind_of_part(int number, const ProductParts& parts) {
 
 }  // namespace
 
-Vec3 thumb_direction(const Grasp& grasp, Side side) {
-  return grasp.product_from_hand.rotation * Vec3(side == Side::kLeft ? -1.0 : 1.0, 0.0, 0.0);
+Vec3 thumb_direction(const grasp::Grasp& grasp, hand::Side side) {
+  return grasp.product_from_hand.rotation * Vec3(side == hand::Side::kLeft ? -1.0 : 1.0, 0.0, 0.0);
 }
 
 std::string direction_words(const Vec3& direction) {
@@ -80,29 +81,30 @@ std::string direction_words(const Vec3& direction) {
   return fmt::format("({:g}, {:g}, {:g})", digit(unit.x()), digit(unit.y()), digit(unit.z()));
 }
 
-HoldJson hold_object(const Grasp& grasp) {
+HoldJson hold_object(const grasp::Grasp& grasp) {
   if (!grasp.hold) return nullptr;
   HoldJson json = plain_hold(*grasp.hold, grasp.hold_kind, grasp.hold_words);
   if (grasp.hold_terms.empty()) return json;
   double score = 0.0;
-  for (const HoldTerm& term : grasp.hold_terms) score += term.score;
+  for (const grasp::HoldTerm& term : grasp.hold_terms) score += term.score;
   json["score"] = finite_or_null(score);
   json["terms"] = terms_array(grasp.hold_terms);
   return json;
 }
 
-std::string ranked_holds_json(const RankedHolds& ranked, const std::string& product, Side side) {
+std::string ranked_holds_json(const grasp::RankedHolds& ranked, const std::string& product,
+                              hand::Side side) {
   HoldJson parts = HoldJson::array();
   const auto rounded = [](const Vec3& v) {
     HoldJson place = HoldJson::array();
     for (int k = 0; k < 3; ++k) place.push_back(std::round(1000.0 * v[k]) / 1000.0 + 0.0);
     return place;
   };
-  for (const ProductPart& part : ranked.parts.parts) {
+  for (const product::ProductPart& part : ranked.parts.parts) {
     HoldJson line = HoldJson::array();
     const std::size_t step = 1 + part.line.size() / kMostStations;
     for (std::size_t k = 0; k < part.line.size(); k += step) {
-      const PartStation& station = part.line[k];
+      const product::PartStation& station = part.line[k];
       line.push_back({{"along", station.along},
                       {"centre_mm", rounded(station.centre)},
                       {"axis", rounded(station.axis)}});
@@ -115,7 +117,7 @@ std::string ranked_holds_json(const RankedHolds& ranked, const std::string& prod
                      {"line", std::move(line)}});
   }
   HoldJson holds = HoldJson::array();
-  for (const RankedHold& one : ranked.holds) {
+  for (const grasp::RankedHold& one : ranked.holds) {
     HoldJson json = {{"number", holds.size() + 1}};
     json.update(plain_hold(one.hold, kind_of_part(one.hold.part, ranked.parts), one.words));
     json["thumb_towards"] = vector3(thumb_direction(one.grasp, side));
@@ -133,4 +135,4 @@ std::string ranked_holds_json(const RankedHolds& ranked, const std::string& prod
   return json.dump(2, ' ', false, HoldJson::error_handler_t::replace);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -8,10 +8,10 @@
 
 #include "palmar/core/nearest_name.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
-using Kind = MarkLabel::Kind;
+using Kind = hand::MarkLabel::Kind;
 
 constexpr const char* kWrist = "wrist";
 constexpr const char* kNone = "none";
@@ -19,34 +19,35 @@ constexpr const char* kNone = "none";
 /// Names that a mark may have.
 std::vector<std::string> names_of(Kind kind) {
   std::vector<std::string> names{
-      kind == Kind::kCrease ? kWrist : std::string(name_of(Segment::kPalm)), kNone};
-  for (int k = 1; k < kSegmentCount; ++k) names.emplace_back(name_of(static_cast<Segment>(k)));
+      kind == Kind::kCrease ? kWrist : std::string(name_of(hand::Segment::kPalm)), kNone};
+  for (int k = 1; k < hand::kSegmentCount; ++k)
+    names.emplace_back(name_of(static_cast<hand::Segment>(k)));
   return names;
 }
 
 /// The segment of a name; nothing: no mark. `is_known` is false for what names nothing.
-std::optional<Segment> segment_of(const std::string& name, Kind kind, bool& is_known) {
+std::optional<hand::Segment> segment_of(const std::string& name, Kind kind, bool& is_known) {
   is_known = true;
   if (name == kNone) return {};
-  if (kind == Kind::kCrease && name == kWrist) return Segment::kPalm;
-  const auto segment = segment_named(name);
-  is_known = segment && (kind == Kind::kDot || *segment != Segment::kPalm);
+  if (kind == Kind::kCrease && name == kWrist) return hand::Segment::kPalm;
+  const auto segment = hand::segment_named(name);
+  is_known = segment && (kind == Kind::kDot || *segment != hand::Segment::kPalm);
   return segment;
 }
 
 }  // namespace
 
-std::string_view name_of(MarkLabel::Kind kind) {
+std::string_view name_of(hand::MarkLabel::Kind kind) {
   return kind == Kind::kCrease ? "crease" : "dot";
 }
 
-std::string mark_name(MarkLabel::Kind kind, const std::optional<Segment>& segment) {
+std::string mark_name(hand::MarkLabel::Kind kind, const std::optional<hand::Segment>& segment) {
   if (!segment) return {};
-  return kind == Kind::kCrease && *segment == Segment::kPalm ? kWrist
-                                                             : std::string(name_of(*segment));
+  return kind == Kind::kCrease && *segment == hand::Segment::kPalm ? kWrist
+                                                                   : std::string(name_of(*segment));
 }
 
-MarkText mark_text_of(const MarkLabel& label) {
+MarkText mark_text_of(const hand::MarkLabel& label) {
   return {.posture = std::string(name_of(label.posture)),
           .mark = (label.is_added ? "added_" : "") + std::string(name_of(label.kind)),
           .name = label.segment ? mark_name(label.kind, label.segment) : kNone,
@@ -54,16 +55,16 @@ MarkText mark_text_of(const MarkLabel& label) {
           .place = label.place};
 }
 
-std::optional<MarkLabel> mark_label_of(const MarkText& text,
-                                       const std::function<void(const std::string&)>& fail) {
-  MarkLabel label;
+std::optional<hand::MarkLabel> mark_label_of(const MarkText& text,
+                                             const std::function<void(const std::string&)>& fail) {
+  hand::MarkLabel label;
   label.place = text.place;
-  const auto known = scan_posture_in(text.posture);
+  const auto known = hand::scan_posture_in(text.posture);
   if (!known) {
     fail("\"" + text.posture +
          "\" is no posture; reference, finger_flexion, finger_abduction ... are allowed");
   }
-  label.posture = known.value_or(ScanPosture::kReference);
+  label.posture = known.value_or(hand::ScanPosture::kReference);
   label.is_added = text.mark == "added_crease" || text.mark == "added_dot";
   if (!label.is_added && text.mark != "crease" && text.mark != "dot") {
     fail("mark \"" + text.mark + "\"; crease, dot, added_crease or added_dot is allowed");
@@ -84,4 +85,4 @@ std::optional<MarkLabel> mark_label_of(const MarkText& text,
   return label;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

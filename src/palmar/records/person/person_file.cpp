@@ -8,31 +8,33 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/toml_section.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr double kFarthestCoordinate = 1e5;  // of a coordinate, in any unit
 
-std::optional<Vec3> point_of(const TomlSection& section, const char* key, const char* unit) {
+std::optional<Vec3> point_of(const formats::TomlSection& section, const char* key,
+                             const char* unit) {
   if (!section.has(key)) return {};
-  const std::vector<double> values = section.numbers(key, unit, -kFarthestCoordinate, kFarthestCoordinate);
+  const std::vector<double> values =
+      section.numbers(key, unit, -kFarthestCoordinate, kFarthestCoordinate);
   if (values.size() != 3) {
     section.fail(key, fmt::format("{} numbers; three are required: x, y, z", values.size()));
   }
   return Vec3(values[0], values[1], values[2]);
 }
 
-Vec3 need_point(const TomlSection& section) {
+Vec3 need_point(const formats::TomlSection& section) {
   const auto point = point_of(section, "at_mm", "mm");
   if (!point) section.fail("at_mm is missing: where it is, [x, y, z]");
   return *point;
 }
 
-std::string place_of(const TomlSection& section) {
+std::string place_of(const formats::TomlSection& section) {
   return section.path() + ":" + std::to_string(section.values().source().begin.line);
 }
 
-std::optional<MarkLabel> mark_of(const TomlSection& section) {
+std::optional<hand::MarkLabel> mark_of(const formats::TomlSection& section) {
   section.allow({"posture", "mark", "name", "at_mm"});
   MarkText text;
   text.posture = section.text("posture").value_or("reference");
@@ -43,22 +45,23 @@ std::optional<MarkLabel> mark_of(const TomlSection& section) {
   return mark_label_of(text, [&section](const std::string& why) { section.fail(why); });
 }
 
-std::optional<BoneLabel> bone_of(const TomlSection& section) {
+std::optional<hand::BoneLabel> bone_of(const formats::TomlSection& section) {
   section.allow({"name", "at_mm"});
-  BoneLabel bone{section.need_text("name"), need_point(section), place_of(section)};
+  hand::BoneLabel bone{section.need_text("name"), need_point(section), place_of(section)};
   if (bone.name.empty()) return {};
   return bone;
 }
 
-std::vector<SizedDimension> sizes_of(const TomlSection& section) {
+std::vector<hand::SizedDimension> sizes_of(const formats::TomlSection& section) {
   constexpr double kMost = 500.0;  // mm
-  std::vector<SizedDimension> sizes;
+  std::vector<hand::SizedDimension> sizes;
   for (const auto& [key, node] : section.values()) {
     const std::string name(key.str());
-    const auto dimension = hand_dimension_named(name);
+    const auto dimension = hand::hand_dimension_named(name);
     if (!dimension) {
       std::vector<std::string> names;
-      for (const HandDimension& one : all_hand_dimensions()) names.push_back(name_of(one));
+      for (const hand::HandDimension& one : hand::all_hand_dimensions())
+        names.push_back(name_of(one));
       section.fail(name, fmt::format("no dimension of a hand has this name; the nearest is \"{}\"",
                                      nearest_name(name, names)));
     }
@@ -68,8 +71,8 @@ std::vector<SizedDimension> sizes_of(const TomlSection& section) {
 }
 
 std::string list_of(const Vec3& point) {
-  return "[" + toml_number(point.x()) + ", " + toml_number(point.y()) + ", " +
-         toml_number(point.z()) + "]";
+  return "[" + formats::toml_number(point.x()) + ", " + formats::toml_number(point.y()) + ", " +
+         formats::toml_number(point.z()) + "]";
 }
 
 std::string head_of(const char* table, std::string_view comment) {
@@ -88,7 +91,7 @@ PersonFile merged(PersonFile person, const PersonFile& more) {
   if (more.pick_dot) person.pick_dot = more.pick_dot;
   person.marks.insert(person.marks.end(), more.marks.begin(), more.marks.end());
   person.bones.insert(person.bones.end(), more.bones.begin(), more.bones.end());
-  for (const SizedDimension& one : more.sizes) {
+  for (const hand::SizedDimension& one : more.sizes) {
     std::erase_if(person.sizes,
                   [&one](const auto& other) { return other.dimension == one.dimension; });
     person.sizes.push_back(one);
@@ -97,29 +100,29 @@ PersonFile merged(PersonFile person, const PersonFile& more) {
 }
 
 PersonFile read_person(const std::string& path) {
-  return parse_person(read_file(path, kMostPersonBytes), path);
+  return parse_person(formats::read_file(path, kMostPersonBytes), path);
 }
 
 PersonFile parse_person(const std::string& text, const std::string& path) {
-  const toml::table table = parse_toml(text, path);
-  const TomlSection file(path, "", table);
+  const toml::table table = formats::parse_toml(text, path);
+  const formats::TomlSection file(path, "", table);
   file.allow({"side", "scan", "mark", "bone", "measured_mm"});
   PersonFile person;
   if (const auto side = file.text("side")) {
     if (*side != "right" && *side != "left") {
       file.fail("side", "\"" + *side + "\"; right or left is allowed");
     }
-    person.side = *side == "left" ? Side::kLeft : Side::kRight;
+    person.side = *side == "left" ? hand::Side::kLeft : hand::Side::kRight;
   }
   if (const auto scan = file.table("scan")) {
     scan->allow({"pick_crease", "pick_dot"});
     person.pick_crease = point_of(*scan, "pick_crease", "");
     person.pick_dot = point_of(*scan, "pick_dot", "");
   }
-  for (const TomlSection& section : file.tables("mark")) {
+  for (const formats::TomlSection& section : file.tables("mark")) {
     if (const auto mark = mark_of(section)) person.marks.push_back(*mark);
   }
-  for (const TomlSection& section : file.tables("bone")) {
+  for (const formats::TomlSection& section : file.tables("bone")) {
     if (const auto bone = bone_of(section)) person.bones.push_back(*bone);
   }
   if (const auto sizes = file.table("measured_mm")) person.sizes = sizes_of(*sizes);
@@ -127,30 +130,32 @@ PersonFile parse_person(const std::string& text, const std::string& path) {
 }
 
 std::string format_person_mark(const MarkText& mark, std::string_view comment) {
-  return head_of("mark", comment) + "posture = " + toml_string(mark.posture) +
-         "\nmark = " + toml_string(mark.mark) + "\nname = " + toml_string(mark.name) +
-         "\nat_mm = " + list_of(mark.point) + "\n";
+  return head_of("mark", comment) + "posture = " + formats::toml_string(mark.posture) +
+         "\nmark = " + formats::toml_string(mark.mark) +
+         "\nname = " + formats::toml_string(mark.name) + "\nat_mm = " + list_of(mark.point) + "\n";
 }
 
-std::string format_person_bone(const BoneLabel& bone, std::string_view comment) {
-  return head_of("bone", comment) + "name = " + toml_string(bone.name) +
+std::string format_person_bone(const hand::BoneLabel& bone, std::string_view comment) {
+  return head_of("bone", comment) + "name = " + formats::toml_string(bone.name) +
          "\nat_mm = " + list_of(bone.point) + "\n";
 }
 
 std::string format_person(const PersonFile& person) {
   std::string text;
-  if (person.side) text += "side = " + toml_string(std::string(name_of(*person.side))) + "\n";
+  if (person.side)
+    text += "side = " + formats::toml_string(std::string(name_of(*person.side))) + "\n";
   if (person.pick_crease || person.pick_dot) text += "\n[scan]\n";
   if (person.pick_crease) text += "pick_crease = " + list_of(*person.pick_crease) + "\n";
   if (person.pick_dot) text += "pick_dot = " + list_of(*person.pick_dot) + "\n";
-  for (const MarkLabel& one : person.marks) text += "\n" + format_person_mark(mark_text_of(one));
-  for (const BoneLabel& one : person.bones) text += "\n" + format_person_bone(one);
+  for (const hand::MarkLabel& one : person.marks)
+    text += "\n" + format_person_mark(mark_text_of(one));
+  for (const hand::BoneLabel& one : person.bones) text += "\n" + format_person_bone(one);
   if (!person.sizes.empty()) text += "\n[measured_mm]\n";
-  for (const SizedDimension& one : person.sizes) {
-    text += name_of(one.dimension) + " = " + toml_number(one.value) + "\n";
+  for (const hand::SizedDimension& one : person.sizes) {
+    text += name_of(one.dimension) + " = " + formats::toml_number(one.value) + "\n";
   }
   if (text.starts_with('\n')) text.erase(0, 1);
   return text;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -12,16 +12,16 @@
 #include "palmar/population/population.h"
 #include "palmar/records/person/mark_text.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// What somebody knows of one person's hand: what corrects what the program finds in images, scans
 /// and photographs of it.
 struct PersonFile {
-  std::optional<Side> side;
+  std::optional<hand::Side> side;
   std::optional<Vec3> pick_crease, pick_dot;  ///< HandFromScanRequest
-  std::vector<MarkLabel> marks;               ///< on scans and photographs
-  std::vector<BoneLabel> bones;               ///< in the reference image
-  std::vector<SizedDimension> sizes;          ///< measured by hand, mm
+  std::vector<hand::MarkLabel> marks;         ///< on scans and photographs
+  std::vector<hand::BoneLabel> bones;         ///< in the reference image
+  std::vector<hand::SizedDimension> sizes;    ///< measured by hand, mm
 
   bool is_empty() const;  ///< says nothing
 };
@@ -57,6 +57,6 @@ PersonFile parse_person(const std::string& text, const std::string& path);
 std::string format_person(const PersonFile& person);
 /// One mark or bone of it; a comment, in one line, stands behind its head.
 std::string format_person_mark(const MarkText& mark, std::string_view comment = {});
-std::string format_person_bone(const BoneLabel& bone, std::string_view comment = {});
+std::string format_person_bone(const hand::BoneLabel& bone, std::string_view comment = {});
 
-}  // namespace palmar
+}  // namespace palmar::records

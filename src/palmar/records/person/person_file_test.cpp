@@ -9,20 +9,20 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 PersonFile person_in(const std::string& text) {
-  const TestFolder folder;
-  write_file(folder / "anna.toml", text);
+  const formats::TestFolder folder;
+  formats::write_file(folder / "anna.toml", text);
   return read_person((folder / "anna.toml").string());
 }
 
 std::string refusal(const std::string& text) {
-  return message_of<InputError>([&] { person_in(text); });
+  return formats::message_of<InputError>([&] { person_in(text); });
 }
 
 TEST(PersonFile, ReadsWhatIsKnown) {
@@ -48,22 +48,22 @@ at_mm = [3, -12.5, 40]
 [measured_mm]
 hand_length = 181
 )");
-  EXPECT_EQ(person.side, Side::kLeft);
+  EXPECT_EQ(person.side, hand::Side::kLeft);
   EXPECT_FALSE(person.pick_crease);
   ASSERT_TRUE(person.pick_dot);
   EXPECT_EQ(*person.pick_dot, Vec3(1, 2.5, -3));
   ASSERT_EQ(person.marks.size(), 2U);
-  EXPECT_EQ(person.marks[0].posture, ScanPosture::kReference);
-  EXPECT_EQ(person.marks[0].segment, Segment::kPalm);
+  EXPECT_EQ(person.marks[0].posture, hand::ScanPosture::kReference);
+  EXPECT_EQ(person.marks[0].segment, hand::Segment::kPalm);
   EXPECT_EQ(person.marks[0].point, Vec3(4, 5, 6));
   EXPECT_THAT(person.marks[0].place, HasSubstr("anna.toml:4"));
-  EXPECT_EQ(person.marks[1].posture, ScanPosture::kFingerFlexion);
+  EXPECT_EQ(person.marks[1].posture, hand::ScanPosture::kFingerFlexion);
   EXPECT_FALSE(person.marks[1].segment);
   ASSERT_EQ(person.bones.size(), 1U);
   EXPECT_EQ(person.bones[0].name, "scaphoid");
   EXPECT_EQ(person.bones[0].point, Vec3(3, -12.5, 40));
   ASSERT_EQ(person.sizes.size(), 1U);
-  EXPECT_EQ(person.sizes[0].dimension.kind, DimensionKind::kHandLength);
+  EXPECT_EQ(person.sizes[0].dimension.kind, hand::DimensionKind::kHandLength);
   EXPECT_EQ(person.sizes[0].value, 181.0);
 }
 
@@ -104,35 +104,35 @@ void expect_same(const PersonFile& one, const PersonFile& other) {
 }
 
 TEST(PersonFile, WhatIsWrittenIsReadAgain) {
-  using Kind = MarkLabel::Kind;
+  using Kind = hand::MarkLabel::Kind;
   PersonFile person;
-  person.side = Side::kLeft;
+  person.side = hand::Side::kLeft;
   person.pick_crease = Vec3(1e-7, -0.0, 1e5);
   person.pick_dot = Vec3(1.0 / 3.0, 2, -99999.999999999985);
   // Every posture, both kinds, found and added, and every name.
-  for (int p = 0; p < kScanPostureCount; ++p) {
-    for (int s = 0; s < kSegmentCount; ++s) {
+  for (int p = 0; p < hand::kScanPostureCount; ++p) {
+    for (int s = 0; s < hand::kSegmentCount; ++s) {
       for (const Kind kind : {Kind::kCrease, Kind::kDot}) {
         for (const bool is_added : {false, true}) {
-          person.marks.push_back({static_cast<ScanPosture>(p),
+          person.marks.push_back({static_cast<hand::ScanPosture>(p),
                                   kind,
                                   is_added,
-                                  static_cast<Segment>(s),
+                                  static_cast<hand::Segment>(s),
                                   Vec3(0.1 * p, -0.7 * s, 5),
                                   {}});
         }
       }
     }
     person.marks.push_back(
-        {static_cast<ScanPosture>(p), Kind::kDot, false, {}, Vec3(0.1, 0.2, 0.3), {}});
+        {static_cast<hand::ScanPosture>(p), Kind::kDot, false, {}, Vec3(0.1, 0.2, 0.3), {}});
   }
   for (const char* name : {"scaphoid", "with \"quotes\" and \\", "a\nnew line\ttab",
                            "Kahnbein \xc3\xa4", "\x7f", "# = [[bone]]", " "}) {
     person.bones.push_back({name, Vec3(0.1, 1e-300, 12345.678901234567), {}});
   }
-  person.sizes = {{{DimensionKind::kHandCircumference}, 500.0},  // by name
-                  {{DimensionKind::kHandLength}, 181.30000000000001},
-                  {{DimensionKind::kSegmentWidth, Segment::kThumbDistal}, 1.0}};
+  person.sizes = {{{hand::DimensionKind::kHandCircumference}, 500.0},  // by name
+                  {{hand::DimensionKind::kHandLength}, 181.30000000000001},
+                  {{hand::DimensionKind::kSegmentWidth, hand::Segment::kThumbDistal}, 1.0}};
   const std::string text = format_person(person);
   expect_same(parse_person(text, "anna.toml"), person);
   EXPECT_EQ(format_person(parse_person(text, "anna.toml")), text);
@@ -161,16 +161,16 @@ TEST(PersonFile, WhatIsSaidLaterCounts) {
       "at_mm = [1, 2, 3]\n[measured_mm]\nhand_length = 181\nhand_width = 80\n");
   PersonFile more;
   expect_same(merged(known, more), known);
-  more.side = Side::kRight;
-  more.sizes = {{{DimensionKind::kHandLength}, 183.0}};
+  more.side = hand::Side::kRight;
+  more.sizes = {{{hand::DimensionKind::kHandLength}, 183.0}};
   more.bones = {{"lunate", Vec3(4, 5, 6), {}}};
   const PersonFile both = merged(known, more);
-  EXPECT_EQ(both.side, Side::kRight);
+  EXPECT_EQ(both.side, hand::Side::kRight);
   EXPECT_EQ(*both.pick_dot, Vec3(1, 2, 3));
   ASSERT_EQ(both.bones.size(), 2U);
   EXPECT_EQ(both.bones[1].name, "lunate");
   ASSERT_EQ(both.sizes.size(), 2U);
-  EXPECT_EQ(both.sizes[0].dimension.kind, DimensionKind::kHandWidth);
+  EXPECT_EQ(both.sizes[0].dimension.kind, hand::DimensionKind::kHandWidth);
   EXPECT_EQ(both.sizes[1].value, 183.0);
 }
 
@@ -190,4 +190,4 @@ TEST(PersonFile, NamesLineAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -16,7 +16,7 @@
 #include "palmar/population/palm_ruler.h"
 #include "palmar/statistics/summary.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::uint64_t kMaxTableBytes = std::uint64_t{64} << 20;
@@ -33,7 +33,8 @@ bool is_missing(const std::string& cell) {
 /// One column of the file on its way into the table.
 class ColumnReader {
  public:
-  ColumnReader(const CsvFile& file, const std::vector<const CsvFile::Row*>& rows, std::size_t place)
+  ColumnReader(const formats::CsvFile& file, const std::vector<const formats::CsvFile::Row*>& rows,
+               std::size_t place)
       : file_(file), rows_(rows), place_(place) {}
 
   const std::string& cell(std::size_t row) const { return rows_[row]->cells[place_]; }
@@ -60,7 +61,7 @@ class ColumnReader {
     } else if (text.find('.') != text.npos) {
       point_line_ = rows_[row]->line;
     }
-    const auto value = parse_double(text);
+    const auto value = formats::parse_double(text);
     if (!value || !std::isfinite(*value)) return std::nullopt;
     return value;
   }
@@ -94,7 +95,7 @@ class ColumnReader {
       }
       const auto value = number(row);
       if (!value) {
-        fail(rows_[row]->line, in_quotes(cell(row)) + " is no number" + hint(cell(row)) +
+        fail(rows_[row]->line, formats::in_quotes(cell(row)) + " is no number" + hint(cell(row)) +
                                    "; a number is needed, or NA");
       }
       if (!(*value * factor > low && *value * factor < high)) {
@@ -128,20 +129,21 @@ class ColumnReader {
     return "";
   }
 
-  const CsvFile& file_;
-  const std::vector<const CsvFile::Row*>& rows_;
+  const formats::CsvFile& file_;
+  const std::vector<const formats::CsvFile::Row*>& rows_;
   std::size_t place_;
   bool has_comma_ = false;
   int point_line_ = 0;
 };
 
-bool is_segment_length(const TableColumn& column) {
-  return column.dimension && column.dimension->kind == DimensionKind::kSegmentLength;
+bool is_segment_length(const population::TableColumn& column) {
+  return column.dimension && column.dimension->kind == hand::DimensionKind::kSegmentLength;
 }
 
 /// Sizes that no hand has: in the wrong unit if half of them are, else single ones.
-void check_sizes(const DimensionTable& table, const TableColumn& column, double factor) {
-  const auto range = size_range(column.name);
+void check_sizes(const population::DimensionTable& table, const population::TableColumn& column,
+                 double factor) {
+  const auto range = population::size_range(column.name);
   if (!range) return;
   std::vector<double> sizes;
   for (const auto& value : column.values) {
@@ -149,13 +151,13 @@ void check_sizes(const DimensionTable& table, const TableColumn& column, double 
   }
   if (sizes.empty()) return;
   std::sort(sizes.begin(), sizes.end());
-  const double median = quantile(sizes, 0.5);
+  const double median = statistics::quantile(sizes, 0.5);
   const std::string allowed =
       significant(range->low, 4) + " to " + significant(range->high, 4) + " mm";
   if (median < range->low || median > range->high) {
     std::string fitting;
     for (const char* unit : {"mm", "cm", "in", "m"}) {
-      const double size = median / factor * millimetres_per(length_unit(unit));
+      const double size = median / factor * geometry::millimetres_per(geometry::length_unit(unit));
       if (size >= range->low && size <= range->high && fitting.empty()) fitting = unit;
     }
     table.fail(
@@ -186,9 +188,11 @@ void check_sizes(const DimensionTable& table, const TableColumn& column, double 
 }
 
 /// A column of the table, or nothing if it is to be left aside (reported in the notes).
-std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells, std::size_t place,
-                                       const TableReading& reading, DimensionTable& table,
-                                       double& factor) {
+std::optional<population::TableColumn> read_column(const formats::CsvFile& file,
+                                                   ColumnReader& cells, std::size_t place,
+                                                   const TableReading& reading,
+                                                   population::DimensionTable& table,
+                                                   double& factor) {
   const std::string& header = file.header[place];
   const std::string number = "column " + std::to_string(place + 1);
   if (header.empty()) {
@@ -196,33 +200,34 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
     if (!cells.is_empty()) table.notes.push_back(number + " has no name and is left aside");
     return std::nullopt;
   }
-  ColumnHeading heading = heading_of(header);
-  TableColumn column;
+  population::ColumnHeading heading = population::heading_of(header);
+  population::TableColumn column;
   column.name = heading.name;
   column.header = header;
   column.number = static_cast<int>(place) + 1;
   column.dimension = heading.dimension;
-  const bool is_size = size_range(heading.name).has_value();
-  if (is_size && heading.quantity != Quantity::kLength) {
+  const bool is_size = population::size_range(heading.name).has_value();
+  if (is_size && heading.quantity != population::Quantity::kLength) {
     if (!heading.unit.empty()) {
-      cells.fail(file.header_line,
-                 in_quotes(heading.unit) + " is no unit of length; mm, cm, m or in is needed");
+      cells.fail(file.header_line, formats::in_quotes(heading.unit) +
+                                       " is no unit of length; mm, cm, m or in is needed");
     }
     if (reading.unit.empty()) {
       cells.fail(file.header_line, "no unit; the heading has to name one, as in " +
-                                       in_quotes(header + "_mm") + " (or give setting \"unit\")");
+                                       formats::in_quotes(header + "_mm") +
+                                       " (or give setting \"unit\")");
     }
-    heading.quantity = Quantity::kLength;
+    heading.quantity = population::Quantity::kLength;
     heading.unit = reading.unit;
-    heading.factor = millimetres_per(length_unit(reading.unit));
+    heading.factor = geometry::millimetres_per(geometry::length_unit(reading.unit));
   }
   column.quantity = heading.quantity;
   factor = heading.factor;
   constexpr double kHuge = 1e15;
-  if (heading.quantity == Quantity::kLength) {
+  if (heading.quantity == population::Quantity::kLength) {
     column.unit = "mm";
     column.is_number = true;
-    const auto range = size_range(heading.name);
+    const auto range = population::size_range(heading.name);
     column.values = cells.numbers(
         heading.factor, 0.0, kLargestLength,
         "a length above 0 and below " + significant(kLargestLength / heading.factor, 4) + " " +
@@ -237,22 +242,23 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
     return column;
   }
   const auto [filled, numbers] = cells.counts();
-  if (heading.quantity == Quantity::kAge && numbers > 0 &&
+  if (heading.quantity == population::Quantity::kAge && numbers > 0 &&
       (2 * numbers >= filled || !heading.unit.empty())) {
     column.unit = "years";
     column.is_number = true;
     column.values = cells.numbers(heading.factor, -1e-9, 130.0, "0 to 130 years is allowed");
     return column;
   }
-  const bool must_be_number = heading.quantity == Quantity::kOther && !heading.unit.empty();
-  column.is_number = heading.quantity == Quantity::kOther &&
+  const bool must_be_number =
+      heading.quantity == population::Quantity::kOther && !heading.unit.empty();
+  column.is_number = heading.quantity == population::Quantity::kOther &&
                      (must_be_number || (numbers > 0 && numbers == filled));
   column.unit = heading.unit;
   if (column.is_number) {
     column.values = cells.numbers(1.0, -kHuge, kHuge, "too large");
   } else {
     column.texts = cells.texts();
-    if (heading.quantity != Quantity::kLabel && 2 * numbers > filled) {
+    if (heading.quantity != population::Quantity::kLabel && 2 * numbers > filled) {
       table.notes.push_back(number + " (" + header + ") is taken as text: line " +
                             std::to_string(cells.first_text_line()) + " holds no number");
     }
@@ -263,13 +269,13 @@ std::optional<TableColumn> read_column(const CsvFile& file, ColumnReader& cells,
 }  // namespace
 
 void TableReading::check() const {
-  if (!unit.empty() && !length_unit_named(unit)) {
+  if (!unit.empty() && !geometry::length_unit_named(unit)) {
     throw UsageError("unit \"" + unit + "\" is not known; mm, cm, m or in is allowed");
   }
 }
 
-DimensionTable parse_dimension_table(std::string_view text, const std::string& path,
-                                     const TableReading& reading) {
+population::DimensionTable parse_dimension_table(std::string_view text, const std::string& path,
+                                                 const TableReading& reading) {
   reading.check();
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     throw InputError(path + ": text in UTF-16; save it as CSV in UTF-8");
@@ -277,12 +283,12 @@ DimensionTable parse_dimension_table(std::string_view text, const std::string& p
   if (text.starts_with("PK\x03\x04")) {
     throw InputError(path + ": a spreadsheet or archive; save the sheet as CSV");
   }
-  const CsvFile file = parse_csv(text, path, CsvStyle::kSpreadsheet);
-  std::vector<const CsvFile::Row*> rows;
-  DimensionTable table;
+  const formats::CsvFile file = formats::parse_csv(text, path, formats::CsvStyle::kSpreadsheet);
+  std::vector<const formats::CsvFile::Row*> rows;
+  population::DimensionTable table;
   table.source = path;
   table.header_line = file.header_line;
-  for (const CsvFile::Row& row : file.rows) {
+  for (const formats::CsvFile::Row& row : file.rows) {
     const bool is_blank = std::all_of(row.cells.begin(), row.cells.end(),
                                       [](const std::string& cell) { return cell.empty(); });
     if (is_blank) continue;  // as spreadsheets leave them below a table
@@ -298,7 +304,7 @@ DimensionTable parse_dimension_table(std::string_view text, const std::string& p
     double factor = 1.0;
     auto column = read_column(file, cells, place, reading, table, factor);
     if (!column) continue;
-    for (const TableColumn& other : table.columns) {
+    for (const population::TableColumn& other : table.columns) {
       if (other.name == column->name) {
         file.fail(file.header_line, "columns " + std::to_string(other.number) + " (" +
                                         other.header + ") and " + std::to_string(column->number) +
@@ -311,13 +317,14 @@ DimensionTable parse_dimension_table(std::string_view text, const std::string& p
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     if (table.columns[i].is_number) check_sizes(table, table.columns[i], factors[i]);
   }
-  const std::string warning = palm_warning(table);
+  const std::string warning = population::palm_warning(table);
   if (!warning.empty()) table.notes.push_back(warning);
   return table;
 }
 
-DimensionTable read_dimension_table(const std::string& path, const TableReading& reading) {
-  return parse_dimension_table(read_file(path, kMaxTableBytes), path, reading);
+population::DimensionTable read_dimension_table(const std::string& path,
+                                                const TableReading& reading) {
+  return parse_dimension_table(formats::read_file(path, kMaxTableBytes), path, reading);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -7,7 +7,7 @@
 
 #include "palmar/population/dimension_table.h"
 
-namespace palmar {
+namespace palmar::records {
 
 struct TableReading {
   std::string unit;  ///< of lengths whose heading names none: "mm", "cm" ...; "": that is an error
@@ -26,8 +26,9 @@ struct TableReading {
 /// a size that no hand has (naming the unit that would fit); a column with cells but without name;
 /// no subject; more than 64 MB. A palm length that isn't Palmar's (population/palm_ruler.h) is
 /// reported in the notes.
-DimensionTable read_dimension_table(const std::string& path, const TableReading& reading = {});
-DimensionTable parse_dimension_table(std::string_view text, const std::string& path,
-                                     const TableReading& reading = {});
+population::DimensionTable read_dimension_table(const std::string& path,
+                                                const TableReading& reading = {});
+population::DimensionTable parse_dimension_table(std::string_view text, const std::string& path,
+                                                 const TableReading& reading = {});
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/test_files.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using testing::AllOf;
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Optional;
 
-DimensionTable parsed(const std::string& text, const TableReading& reading = {}) {
+population::DimensionTable parsed(const std::string& text, const TableReading& reading = {}) {
   return parse_dimension_table(text, "t.csv", reading);
 }
 
@@ -33,7 +33,7 @@ std::string fault(const std::string& text, const TableReading& reading = {}) {
 }
 
 TEST(DimensionTable, ReadsUnitsGroupsAndMissingValues) {
-  const DimensionTable table = parsed(
+  const population::DimensionTable table = parsed(
       "id,sex,age,hand_length_mm,handbreadth (cm),Hand circumference [in],thumb_span_mm\n"
       "a,F,23,181.5,8.1,7.5,140\n"
       "b,M,31,NA,8.9,8,-\n"
@@ -56,14 +56,14 @@ TEST(DimensionTable, ReadsUnitsGroupsAndMissingValues) {
 TEST(DimensionTable, ReadsWhatSpreadsheetsWrite) {
   // Byte order mark, separator stated, CRLF, decimal comma, quoted heading with the separator in
   // it, row numbers without a heading, an empty column and empty rows at the end.
-  const DimensionTable table = parsed(
+  const population::DimensionTable table = parsed(
       "\xEF\xBB\xBFsep=;\r\n;\"Hand length; right [mm]\";Hand length [mm];Geschlecht;\r\n"
       "1;181,5;182;w;\r\n2;193,25;194;m;\r\n3;176;177;w;\r\n;;;;\r\n;;;;\r\n");
   EXPECT_EQ(table.subjects(), 3);
   EXPECT_DOUBLE_EQ(*table.column("hand_length_right").values[1], 193.25);
   EXPECT_DOUBLE_EQ(*table.column("hand_length").values[2], 177.0);
   EXPECT_THAT(table.column("geschlecht").texts, ElementsAre("w", "m", "w"));
-  const DimensionTable tabs = parsed("hand_length_mm\tsex\n181,5\tF\n190\tM\n200\tM\n");
+  const population::DimensionTable tabs = parsed("hand_length_mm\tsex\n181,5\tF\n190\tM\n200\tM\n");
   EXPECT_DOUBLE_EQ(*tabs.column("hand_length").values[0], 181.5);
 }
 
@@ -71,7 +71,7 @@ TEST(DimensionTable, AUnitMayBeGivenForHeadingsWithout) {
   const std::string text = "handlength,handbreadth,weight\n181,81,60\n193,89,70\n176,76,80\n";
   EXPECT_THAT(fault(text), AllOf(HasSubstr("t.csv:1: column 1 (handlength): no unit"),
                                  HasSubstr("\"handlength_mm\""), HasSubstr("setting \"unit\"")));
-  const DimensionTable table = parsed(text, {.unit = "mm"});
+  const population::DimensionTable table = parsed(text, {.unit = "mm"});
   EXPECT_EQ(table.column("hand_width").unit, "mm");
   EXPECT_EQ(table.column("weight").unit, "");
   EXPECT_THROW(parsed(text, {.unit = "furlong"}), UsageError);
@@ -123,7 +123,7 @@ TEST(DimensionTable, WrongUnitsAreFoundByTheSizeOfHands) {
 }
 
 TEST(DimensionTable, FilesThatAreNoTablesAreRefused) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   EXPECT_THROW(read_dimension_table((folder / "none.csv").string()), InputError);
   EXPECT_THAT(fault(""), HasSubstr("t.csv"));
   EXPECT_THAT(fault(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)), HasSubstr("no text"));
@@ -133,28 +133,28 @@ TEST(DimensionTable, FilesThatAreNoTablesAreRefused) {
 }
 
 TEST(DimensionTable, PartsOfItAreChosenByConditionsAndGroups) {
-  const DimensionTable table = parsed(
+  const population::DimensionTable table = parsed(
       "sex,age,site,hand_length_mm\nF,23,1,181\nM,31,2,193\nf,44,1,176\nM,29,1,201\n,52,2,188\n");
-  EXPECT_EQ(where(table, "sex=F").subjects(), 2);
-  EXPECT_EQ(where(table, "sex != F").subjects(), 2);  // the fifth is not known
-  EXPECT_EQ(where(table, "age>=31").subjects(), 3);
-  EXPECT_EQ(where(table, "site=1").subjects(), 3);
-  EXPECT_EQ(where(where(table, "age<40"), "hand length>190").subjects(), 2);
+  EXPECT_EQ(population::where(table, "sex=F").subjects(), 2);
+  EXPECT_EQ(population::where(table, "sex != F").subjects(), 2);  // the fifth is not known
+  EXPECT_EQ(population::where(table, "age>=31").subjects(), 3);
+  EXPECT_EQ(population::where(table, "site=1").subjects(), 3);
+  EXPECT_EQ(population::where(population::where(table, "age<40"), "hand length>190").subjects(), 2);
   std::vector<std::string> notes;
-  const auto ages = grouped(table, "age", notes);
+  const auto ages = population::grouped(table, "age", notes);
   ASSERT_EQ(ages.size(), 4U);
   EXPECT_EQ(ages[0].name, "20-29");
   EXPECT_EQ(ages[0].table.subjects(), 2);
   EXPECT_THAT(notes, IsEmpty());
-  EXPECT_EQ(grouped(where(table, "sex=M"), "sex", notes).size(), 1U);
-  grouped(table, "sex", notes);
+  EXPECT_EQ(population::grouped(population::where(table, "sex=M"), "sex", notes).size(), 1U);
+  population::grouped(table, "sex", notes);
   EXPECT_THAT(notes, ElementsAre(HasSubstr("1 of 5 subjects have no sex")));
   for (const auto& [condition, why] :
        {std::pair{"sex", "not understood"}, std::pair{"sex~F", "not understood"},
         std::pair{"sex=X", "no subject"}, std::pair{"sex>F", "no numbers"},
         std::pair{"age=old", "is none"}, std::pair{"hand_lenght=1", "did you mean hand_length?"}}) {
     try {
-      where(table, condition);
+      population::where(table, condition);
       ADD_FAILURE() << condition;
     } catch (const UsageError& error) {
       EXPECT_THAT(error.what(), HasSubstr(why)) << condition;
@@ -164,10 +164,10 @@ TEST(DimensionTable, PartsOfItAreChosenByConditionsAndGroups) {
 
 // The hands of one or two people are a table too; statistics ask for more.
 TEST(DimensionTable, OnePersonIsEnough) {
-  const DimensionTable one = parsed("subject,hand_length_mm\nann,181\n");
+  const population::DimensionTable one = parsed("subject,hand_length_mm\nann,181\n");
   ASSERT_EQ(one.subjects(), 1);
   EXPECT_THAT(one.column("hand_length").values, ElementsAre(Optional(181.0)));
-  EXPECT_EQ(one.column("subject").quantity, Quantity::kLabel);
+  EXPECT_EQ(one.column("subject").quantity, population::Quantity::kLabel);
   EXPECT_EQ(parsed("label,hand_length_mm\n1,181\n2,181\n").column("label").texts[1], "2");
 }
 
@@ -220,10 +220,10 @@ TEST(DimensionTable, AnyBytesAreATableOrAnInputError) {
       }
     }
     try {
-      const DimensionTable table = parsed(text);
+      const population::DimensionTable table = parsed(text);
       ++tables;
       EXPECT_GE(table.subjects(), 1);
-      for (const TableColumn& column : table.columns) {
+      for (const population::TableColumn& column : table.columns) {
         EXPECT_EQ(column.is_number ? column.values.size() : column.texts.size(),
                   table.lines.size());
       }
@@ -235,4 +235,4 @@ TEST(DimensionTable, AnyBytesAreATableOrAnInputError) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -10,20 +10,20 @@
 #include "palmar/population/sex_names.h"
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string word_of(std::optional<Sex> sex) { return sex ? name_of(*sex) : ""; }
+std::string word_of(std::optional<grasp::Sex> sex) { return sex ? population::name_of(*sex) : ""; }
 
-Json json_word(std::optional<Sex> sex) { return sex ? Json(word_of(sex)) : Json(nullptr); }
+Json json_word(std::optional<grasp::Sex> sex) { return sex ? Json(word_of(sex)) : Json(nullptr); }
 
 // Dimensions of all hands, in the order in which they come up.
-std::vector<HandDimension> dimensions_of(const std::vector<HandSample>& hands) {
-  std::vector<HandDimension> list;
-  for (const HandSample& hand : hands) {
-    for (const SizedDimension& one : hand.dimensions) {
+std::vector<hand::HandDimension> dimensions_of(const std::vector<population::HandSample>& hands) {
+  std::vector<hand::HandDimension> list;
+  for (const population::HandSample& hand : hands) {
+    for (const hand::SizedDimension& one : hand.dimensions) {
       if (std::find(list.begin(), list.end(), one.dimension) == list.end()) {
         list.push_back(one.dimension);
       }
@@ -32,8 +32,8 @@ std::vector<HandDimension> dimensions_of(const std::vector<HandSample>& hands) {
   return list;
 }
 
-Json dimension_json(HandDimension dimension, double mean, double sd, Evidence evidence,
-                    const std::string& source) {
+Json dimension_json(hand::HandDimension dimension, double mean, double sd,
+                    population::Evidence evidence, const std::string& source) {
   return {{"dimension", name_of(dimension)},
           {"mean_mm", mean},
           {"sd_mm", sd > 0.0 ? Json(sd) : Json(nullptr)},
@@ -41,13 +41,14 @@ Json dimension_json(HandDimension dimension, double mean, double sd, Evidence ev
           {"source", source}};
 }
 
-Json stratum_json(const Stratum& stratum) {
+Json stratum_json(const population::Stratum& stratum) {
   Json dimensions = Json::array();
-  for (const DrivingDimension& one : stratum.driving) {
+  for (const population::DrivingDimension& one : stratum.driving) {
     dimensions.push_back(dimension_json(one.dimension, one.mean, one.sd, one.evidence, one.source));
   }
-  for (const DimensionRegression& one : stratum.regressions) {
-    const DimensionMoments moments = moments_of(stratum, one.dimension).value();
+  for (const population::DimensionRegression& one : stratum.regressions) {
+    const population::DimensionMoments moments =
+        population::moments_of(stratum, one.dimension).value();
     dimensions.push_back(
         dimension_json(one.dimension, moments.mean, moments.sd, one.evidence, one.source));
   }
@@ -67,16 +68,16 @@ Json stratum_json(const Stratum& stratum) {
 
 }  // namespace
 
-CsvTable hand_sample_table(const std::vector<HandSample>& hands) {
-  const std::vector<HandDimension> dimensions = dimensions_of(hands);
+CsvTable hand_sample_table(const std::vector<population::HandSample>& hands) {
+  const std::vector<hand::HandDimension> dimensions = dimensions_of(hands);
   CsvTable table;
   table.header = {"subject", "stratum", "sex", "age_years", "grip_strength_n"};
-  for (const HandDimension one : dimensions) table.header.push_back(name_of(one) + "_mm");
-  for (const HandSample& hand : hands) {
+  for (const hand::HandDimension one : dimensions) table.header.push_back(name_of(one) + "_mm");
+  for (const population::HandSample& hand : hands) {
     std::vector<std::string> row = {
         hand.label, hand.stratum, word_of(hand.sex), hand.age ? fmt::format("{}", *hand.age) : "",
         hand.grip_strength > 0.0 ? fmt::format("{:.1f}", hand.grip_strength) : ""};
-    for (const HandDimension one : dimensions) {
+    for (const hand::HandDimension one : dimensions) {
       const auto found = std::find_if(hand.dimensions.begin(), hand.dimensions.end(),
                                       [&](const auto& d) { return d.dimension == one; });
       row.push_back(found == hand.dimensions.end() ? "" : fmt::format("{:.3f}", found->value));
@@ -86,12 +87,13 @@ CsvTable hand_sample_table(const std::vector<HandSample>& hands) {
   return table;
 }
 
-std::string hand_sample_json(const Population& population, const SamplingOptions& options,
-                             const std::vector<HandSample>& hands) {
+std::string hand_sample_json(const population::Population& population,
+                             const population::SamplingOptions& options,
+                             const std::vector<population::HandSample>& hands) {
   Json list = Json::array();
-  for (const HandSample& hand : hands) {
+  for (const population::HandSample& hand : hands) {
     Json dimensions = Json::object();
-    for (const SizedDimension& one : hand.dimensions) {
+    for (const hand::SizedDimension& one : hand.dimensions) {
       dimensions[name_of(one.dimension) + "_mm"] = one.value;
     }
     list.push_back(
@@ -111,9 +113,10 @@ std::string hand_sample_json(const Population& population, const SamplingOptions
   return json.dump(2) + "\n";
 }
 
-std::string population_json(const Population& population) {
+std::string population_json(const population::Population& population) {
   Json strata = Json::array();
-  for (const Stratum& stratum : population.strata) strata.push_back(stratum_json(stratum));
+  for (const population::Stratum& stratum : population.strata)
+    strata.push_back(stratum_json(stratum));
   const Json json = {{"name", population.name},
                      {"title", population.title},
                      {"source", population.source},
@@ -122,4 +125,4 @@ std::string population_json(const Population& population) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -6,7 +6,7 @@
 
 #include "palmar/population/population.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Version of the population files that this program writes; a newer one is refused.
 inline constexpr int kPopulationFileVersion = 1;
@@ -46,16 +46,16 @@ inline constexpr int kPopulationFileVersion = 1;
 /// Throws InputError naming file, line, key, value and what is allowed: unreadable or no TOML, an
 /// unknown key, dimension or word (with the nearest known one), a value of the wrong kind or out of
 /// range, and what Population::check() refuses.
-Population read_population(const std::string& path);
+population::Population read_population(const std::string& path);
 /// The same from the text of such a file.
-Population parse_population(const std::string& text, const std::string& path);
+population::Population parse_population(const std::string& text, const std::string& path);
 
 /// The built-in population of that name, or the file if the name ends in ".toml". Throws
 /// InputError, UsageError naming the nearest built-in one.
-Population load_population(const std::string& name_or_path);
+population::Population load_population(const std::string& name_or_path);
 
 /// Reads back to the same value. Throws OutputError.
-void write_population(const std::string& path, const Population& population);
-std::string population_toml(const Population& population);
+void write_population(const std::string& path, const population::Population& population);
+std::string population_toml(const population::Population& population);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -12,7 +12,7 @@
 #include "palmar/population/hand_sample.h"
 #include "palmar/records/population/hand_sample_table.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::AllOf;
@@ -58,38 +58,39 @@ std::string message_with(const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  return message_of<InputError>([&] { parse_population(text, "women.toml"); });
+  return formats::message_of<InputError>([&] { parse_population(text, "women.toml"); });
 }
 
 TEST(PopulationFile, ReadsWhatItSays) {
-  const Population women = parse_population(kWomen, "women.toml");
+  const population::Population women = parse_population(kWomen, "women.toml");
   EXPECT_EQ(women.name, "our_women");
   EXPECT_EQ(women.cautions, std::vector<std::string>{"one plant only"});
   ASSERT_EQ(women.strata.size(), 1U);
-  const Stratum& stratum = women.strata.front();
-  EXPECT_EQ(stratum.sex, Sex::kFemale);
+  const population::Stratum& stratum = women.strata.front();
+  EXPECT_EQ(stratum.sex, grasp::Sex::kFemale);
   EXPECT_EQ(stratum.age, 35.0);
   EXPECT_EQ(stratum.share, 1.0);
   ASSERT_EQ(stratum.driving.size(), 2U);
-  EXPECT_EQ(stratum.driving[0].evidence, Evidence::kMeasured);
-  EXPECT_EQ(stratum.driving[1].evidence, Evidence::kScaled);
+  EXPECT_EQ(stratum.driving[0].evidence, population::Evidence::kMeasured);
+  EXPECT_EQ(stratum.driving[1].evidence, population::Evidence::kScaled);
   EXPECT_EQ(stratum.driving[1].sd, 8.0);
   EXPECT_EQ(stratum.correlation(0, 1), 0.55);
   ASSERT_EQ(stratum.regressions.size(), 1U);
   EXPECT_EQ(stratum.regressions[0].terms[0].slope, 0.12);
-  EXPECT_EQ(stratum.regressions[0].evidence, Evidence::kRegressed);
+  EXPECT_EQ(stratum.regressions[0].evidence, population::Evidence::kRegressed);
 }
 
 // Every number survives to the last bit: the hands that are drawn are the same.
 TEST(PopulationFile, WrittenPopulationsGiveTheSameHands) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const std::string path = (folder / "population.toml").string();
-  for (const Population& population : built_in_populations()) {
+  for (const population::Population& population : population::built_in_populations()) {
     write_population(path, population);
-    const Population back = load_population(path);
+    const population::Population back = load_population(path);
     EXPECT_EQ(back.source, population.source);
     EXPECT_EQ(back.cautions, population.cautions);
-    const auto before = sample_hands(population, {}), after = sample_hands(back, {});
+    const auto before = population::sample_hands(population, {}),
+               after = population::sample_hands(back, {});
     ASSERT_EQ(before.size(), after.size());
     for (std::size_t k = 0; k < before.size(); ++k) {
       EXPECT_EQ(before[k].grip_strength, after[k].grip_strength);
@@ -153,23 +154,24 @@ correlation = [
   { between = ["hand_circumference", "hand_width"], r = -0.9 },
 ]
 )";
-  EXPECT_THAT(message_of<InputError>([&] { parse_population(text, "three.toml"); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { parse_population(text, "three.toml"); }),
               AllOf(HasSubstr("three.toml:2"), HasSubstr("stratum \"people\""),
                     HasSubstr("positive definite")));
 }
 
 TEST(PopulationFile, NamesOrFiles) {
   EXPECT_EQ(load_population("xie2014").name, "xie2014");
-  EXPECT_THAT(message_of<UsageError>([] { load_population("xie2015"); }),
+  EXPECT_THAT(formats::message_of<UsageError>([] { load_population("xie2015"); }),
               HasSubstr("did you mean xie2014?"));
-  EXPECT_THAT(message_of<InputError>([] { load_population("not_there.toml"); }),
+  EXPECT_THAT(formats::message_of<InputError>([] { load_population("not_there.toml"); }),
               HasSubstr("not_there.toml"));
 }
 
 TEST(HandSampleTable, OneRowPerHandWithUnitsInTheHeader) {
-  SamplingOptions options;
-  options.design = SamplingDesign::kPercentiles;
-  const CsvTable table = hand_sample_table(sample_hands(population_named("xie2014"), options));
+  population::SamplingOptions options;
+  options.design = population::SamplingDesign::kPercentiles;
+  const CsvTable table =
+      hand_sample_table(population::sample_hands(population::population_named("xie2014"), options));
   EXPECT_EQ(table.header,
             (std::vector<std::string>{"subject", "stratum", "sex", "age_years", "grip_strength_n",
                                       "hand_length_mm", "hand_circumference_mm"}));
@@ -179,4 +181,4 @@ TEST(HandSampleTable, OneRowPerHandWithUnitsInTheHeader) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

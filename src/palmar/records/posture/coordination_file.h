@@ -6,7 +6,7 @@
 
 #include "palmar/grasp/indices/coordination.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// The basis of natural coordination from a file of measured grasp postures, in place of the
 /// built-in one: CSV (or JSON) as read_postures() has it, one posture per row, with a column for
@@ -15,6 +15,6 @@ namespace palmar {
 ///
 /// Throws InputError as read_postures() does, naming file, line, column and value; and naming the
 /// file, the row and what is missing: an angle, or rows (at least kLeastPostures).
-CoordinationBasis read_coordination(const std::string& path, const Skeleton& skeleton);
+grasp::CoordinationBasis read_coordination(const std::string& path, const hand::Skeleton& skeleton);
 
-}  // namespace palmar
+}  // namespace palmar::records

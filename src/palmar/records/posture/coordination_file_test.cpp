@@ -12,17 +12,17 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
 
 /// Joints with ranges alone.
-Skeleton bare_skeleton() {
-  Skeleton skeleton;
-  for (int d = 0; d < kDofCount; ++d) {
-    JointDof dof;
-    dof.dof = static_cast<Dof>(d);
+hand::Skeleton bare_skeleton() {
+  hand::Skeleton skeleton;
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    hand::JointDof dof;
+    dof.dof = static_cast<hand::Dof>(d);
     dof.lower = -1.5;
     dof.upper = 2.0;
     skeleton.joints[0].dofs.push_back(dof);
@@ -30,16 +30,16 @@ Skeleton bare_skeleton() {
   return skeleton;
 }
 
-std::string header(int count = kDigitDofCount) {
+std::string header(int count = grasp::kDigitDofCount) {
   std::string text;
   for (int k = 0; k < count; ++k) {
-    text += (k > 0 ? "," : "") + std::string(name_of(digit_dof(k))) + "_deg";
+    text += (k > 0 ? "," : "") + std::string(name_of(grasp::digit_dof(k))) + "_deg";
   }
   return text + "\n";
 }
 
 /// Row i: angle k is 20 + 10 sin(i + k) degrees.
-std::string rows(int count, int columns = kDigitDofCount) {
+std::string rows(int count, int columns = grasp::kDigitDofCount) {
   std::string text;
   for (int i = 0; i < count; ++i) {
     for (int k = 0; k < columns; ++k) {
@@ -51,8 +51,8 @@ std::string rows(int count, int columns = kDigitDofCount) {
 }
 
 std::string written_postures(const std::string& text) {
-  const std::string path = own_file("natural_postures.csv");
-  write_file(path, text);
+  const std::string path = formats::own_file("natural_postures.csv");
+  formats::write_file(path, text);
   return path;
 }
 
@@ -67,13 +67,13 @@ std::string coordination_message(const std::string& text) {
 
 TEST(CoordinationFile, GivesMeanAndComponentsOfItsRows) {
   const std::string path = written_postures(header() + rows(400));
-  const CoordinationBasis basis = read_coordination(path, bare_skeleton());
+  const grasp::CoordinationBasis basis = read_coordination(path, bare_skeleton());
   EXPECT_EQ(basis.postures, 400);
   EXPECT_EQ(basis.source, path);
-  EXPECT_NEAR(basis.mean[3] / kDegree, 20.0, 0.1);  // the sine's mean over 400 rad
+  EXPECT_NEAR(basis.mean[3] / geometry::kDegree, 20.0, 0.1);  // the sine's mean over 400 rad
   // sin(i + k) spans two dimensions, so two components carry all but what is regularised.
   EXPECT_EQ(basis.retained, 2);
-  EXPECT_NEAR(std::sqrt(basis.covariance(5, 5)) / kDegree, 10.0 / std::sqrt(2.0), 0.1);
+  EXPECT_NEAR(std::sqrt(basis.covariance(5, 5)) / geometry::kDegree, 10.0 / std::sqrt(2.0), 0.1);
 }
 
 TEST(CoordinationFile, TooFewRowsAreNamed) {
@@ -96,4 +96,4 @@ TEST(CoordinationFile, BadValueIsNamedWithItsPlace) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

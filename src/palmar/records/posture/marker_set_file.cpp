@@ -21,7 +21,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/hand/skin/landmarks.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using PlainJson = nlohmann::json;
@@ -40,7 +40,7 @@ struct Entry {
 
 class Builder {
  public:
-  explicit Builder(const Hand& hand) : hand_(&hand), landmarks_(hand) {}
+  explicit Builder(const hand::Hand& hand) : hand_(&hand), landmarks_(hand) {}
 
   void add(const Entry& entry) {
     if (entry.label.empty()) fail(entry, "a marker has no label");
@@ -67,7 +67,7 @@ class Builder {
     set_.label.push_back(entry.label);
   }
 
-  MarkerSet finish(const std::string& path) {
+  hand::MarkerSet finish(const std::string& path) {
     if (set_.label.empty()) throw InputError(path + ": it has no markers");
     set_.name = std::filesystem::path(path).stem().string();
     return std::move(set_);
@@ -75,19 +75,20 @@ class Builder {
 
  private:
   [[noreturn]] static void fail(const Entry& entry, const std::string& why) {
-    throw InputError(entry.place + ": " +
-                     (entry.label.empty() ? "" : "marker " + in_quotes(entry.label) + ": ") + why);
+    throw InputError(
+        entry.place + ": " +
+        (entry.label.empty() ? "" : "marker " + formats::in_quotes(entry.label) + ": ") + why);
   }
 
-  HandPoint point_of(const Entry& entry, double height) const {
+  hand::HandPoint point_of(const Entry& entry, double height) const {
     if (!entry.landmark.empty()) return landmarks_.at(entry.landmark, height);
     if (entry.vertex) {
       if (*entry.vertex != std::floor(*entry.vertex) || std::abs(*entry.vertex) > 1e9) {
         throw UsageError("vertex is no whole number");
       }
-      return skin_point(*hand_, static_cast<int>(*entry.vertex), height);
+      return hand::skin_point(*hand_, static_cast<int>(*entry.vertex), height);
     }
-    const HandPoint near = skin_point_near(*hand_, *entry.point);
+    const hand::HandPoint near = hand::skin_point_near(*hand_, *entry.point);
     const double off = (hand_->skin.vertices[*near.vertex] - *entry.point).norm();
     if (off > kFarFromSkin) {
       throw UsageError(fmt::format(
@@ -95,32 +96,32 @@ class Builder {
           "posture, mm)",
           off, kFarFromSkin));
     }
-    return entry.part.empty() ? near : part_point(entry.part, *entry.point);
+    return entry.part.empty() ? near : hand::part_point(entry.part, *entry.point);
   }
 
-  const Hand* hand_;
-  Landmarks landmarks_;
+  const hand::Hand* hand_;
+  hand::Landmarks landmarks_;
   std::set<std::string> taken_;
-  MarkerSet set_;
+  hand::MarkerSet set_;
 };
 
 const std::vector<std::string> kMarkerColumns = {"label", "landmark", "vertex", "part",
                                                  "x_mm",  "y_mm",     "z_mm",   "height_mm"};
 
-MarkerSet from_csv(const CsvFile& csv, const Hand& hand) {
+hand::MarkerSet from_csv(const formats::CsvFile& csv, const hand::Hand& hand) {
   for (const std::string& name : csv.header) {
     if (name == "comment" ||
         std::find(kMarkerColumns.begin(), kMarkerColumns.end(), name) != kMarkerColumns.end()) {
       continue;
     }
     csv.fail(csv.header_line,
-             "column " + in_quotes(name) + " is not known; " +
+             "column " + formats::in_quotes(name) + " is not known; " +
                  did_you_mean(name, kMarkerColumns,
                               "label, landmark, vertex, part, x_mm, y_mm, z_mm and height_mm are"));
   }
   if (csv.column("label") < 0) csv.fail(csv.header_line, "column label is missing");
   Builder builder(hand);
-  for (const CsvFile::Row& row : csv.rows) {
+  for (const formats::CsvFile::Row& row : csv.rows) {
     Entry entry;
     entry.place = csv.path + ":" + std::to_string(row.line);
     const auto cell = [&](const char* name) {
@@ -147,12 +148,13 @@ MarkerSet from_csv(const CsvFile& csv, const Hand& hand) {
   return builder.finish(csv.path);
 }
 
-MarkerSet from_json(const std::string& text, const std::string& path, const Hand& hand) {
+hand::MarkerSet from_json(const std::string& text, const std::string& path,
+                          const hand::Hand& hand) {
   PlainJson json;
   try {
     json = PlainJson::parse(text);
   } catch (const PlainJson::exception& error) {
-    throw InputError(path + ": no valid JSON: " + json_reason(error));
+    throw InputError(path + ": no valid JSON: " + formats::json_reason(error));
   }
   if (!json.is_object() || !json.contains("markers") || !json["markers"].is_array()) {
     throw InputError(path + ": \"markers\", a list, is needed");
@@ -164,7 +166,7 @@ MarkerSet from_json(const std::string& text, const std::string& path, const Hand
     entry.place = path + ": marker " + std::to_string(++index);
     if (!one.is_object()) throw InputError(entry.place + ": an object is needed");
     const auto wrong = [&](const std::string& key, const char* what) {
-      throw InputError(entry.place + ": " + in_quotes(key) + " is no " + what);
+      throw InputError(entry.place + ": " + formats::in_quotes(key) + " is no " + what);
     };
     for (const auto& [key, value] : one.items()) {
       if (key == "label" || key == "landmark" || key == "part") {
@@ -183,7 +185,7 @@ MarkerSet from_json(const std::string& text, const std::string& path, const Hand
       } else if (key != "comment") {
         const std::string nearest =
             nearest_name(key, {"label", "landmark", "vertex", "part", "point_mm", "height_mm"});
-        throw InputError(entry.place + ": " + in_quotes(key) + " is not known" +
+        throw InputError(entry.place + ": " + formats::in_quotes(key) + " is not known" +
                          (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
       }
     }
@@ -209,17 +211,17 @@ std::string some_of(const std::vector<std::string>& names) {
 
 }  // namespace
 
-MarkerSet read_marker_set(const std::string& path, const Hand& hand) {
-  const std::string text = read_file(path, kMostMarkerBytes);
-  if (!looks_like_text(std::string_view(text).substr(0, 4096))) {
+hand::MarkerSet read_marker_set(const std::string& path, const hand::Hand& hand) {
+  const std::string text = formats::read_file(path, kMostMarkerBytes);
+  if (!formats::looks_like_text(std::string_view(text).substr(0, 4096))) {
     throw InputError(path + ": no text; a marker set as JSON or CSV is needed");
   }
   const std::size_t start = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (start != text.npos && text[start] == '{') return from_json(text, path, hand);
-  return from_csv(parse_csv(text, path), hand);
+  return from_csv(formats::parse_csv(text, path), hand);
 }
 
-MatchedMarkers match_markers(const MarkerSet& set, const MarkerRecording& recording,
+MatchedMarkers match_markers(const hand::MarkerSet& set, const formats::MarkerRecording& recording,
                              const std::string& path) {
   MatchedMarkers matched;
   matched.set.name = set.name;
@@ -263,7 +265,7 @@ MatchedMarkers match_markers(const MarkerSet& set, const MarkerRecording& record
     matched.notes.push_back(fmt::format("{} markers of the recording are not in the set: {}",
                                         unused.size(), some_of(unused)));
   }
-  for (const MarkerRecording::Frame& frame : recording.frames) {
+  for (const formats::MarkerRecording::Frame& frame : recording.frames) {
     std::vector<std::optional<Vec3>> positions;
     positions.reserve(column.size());
     for (const std::size_t c : column) positions.push_back(frame.position[c]);
@@ -272,4 +274,4 @@ MatchedMarkers match_markers(const MarkerSet& set, const MarkerRecording& record
   return matched;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

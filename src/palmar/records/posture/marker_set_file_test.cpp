@@ -7,18 +7,18 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
 
 TEST(MarkerSetFile, LabelsAreMatchedWithoutSubjectAndCase) {
-  MarkerSet set;
+  hand::MarkerSet set;
   for (const char* label : {"index_nail", "thumb_nail", "ring_nail", "little_nail", "lost"}) {
     set.label.emplace_back(label);
     set.point.emplace_back();
   }
-  MarkerRecording recording;
+  formats::MarkerRecording recording;
   recording.labels = {"Anna:Thumb_Nail", "extra", "index_nail", "Anna:ring_nail", "LITTLE_NAIL"};
   recording.frames.push_back({1, {}, {}});
   for (int i = 0; i < 5; ++i) recording.frames[0].position.emplace_back(Vec3(i, 0, 0));
@@ -40,4 +40,4 @@ TEST(MarkerSetFile, LabelsAreMatchedWithoutSubjectAndCase) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/text_scan.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using PlainJson = nlohmann::json;
@@ -18,7 +18,7 @@ constexpr double kRoundingOfFiles = 0.01;  // of a unit length: numbers in files
 
 double finite_number(const PlainJson& json) {
   if (!json.is_number() || !std::isfinite(json.get<double>())) {
-    throw InputError(in_quotes(json.dump()) + " is where a number is needed");
+    throw InputError(formats::in_quotes(json.dump()) + " is where a number is needed");
   }
   return json.get<double>();
 }
@@ -32,7 +32,7 @@ const PlainJson& list_of(const PlainJson& json, const char* name, std::size_t si
   return list;
 }
 
-Rigid3 from_matrix(const PlainJson& json) {
+geometry::Rigid3 from_matrix(const PlainJson& json) {
   const PlainJson& rows = list_of(json, "matrix_rows_mm", 4);
   Eigen::Matrix4d m;
   for (std::size_t r = 0; r < 4; ++r) {
@@ -59,7 +59,7 @@ Rigid3 from_matrix(const PlainJson& json) {
 
 }  // namespace
 
-Rigid3 placement_from_json(const PlainJson& json) {
+geometry::Rigid3 placement_from_json(const PlainJson& json) {
   if (!json.is_object()) throw InputError("an object is needed");
   if (!json.contains("quaternion_wxyz") && json.contains("matrix_rows_mm")) {
     return from_matrix(json);
@@ -69,14 +69,15 @@ Rigid3 placement_from_json(const PlainJson& json) {
   const Quat turn(finite_number(q[0]), finite_number(q[1]), finite_number(q[2]),
                   finite_number(q[3]));
   if (!(std::abs(turn.norm() - 1.0) < kRoundingOfFiles)) {
-    throw InputError("\"quaternion_wxyz\" has length " + shortest(turn.norm()) + "; 1 is needed");
+    throw InputError("\"quaternion_wxyz\" has length " + formats::shortest(turn.norm()) +
+                     "; 1 is needed");
   }
   // A unit quaternion stays as it is to the last bit.
   return {std::abs(turn.norm() - 1.0) < 1e-14 ? turn : turn.normalized(),
           Vec3(finite_number(t[0]), finite_number(t[1]), finite_number(t[2]))};
 }
 
-nlohmann::ordered_json placement_with_matrix(const Rigid3& product_from_hand) {
+nlohmann::ordered_json placement_with_matrix(const geometry::Rigid3& product_from_hand) {
   using PlacementJson = nlohmann::ordered_json;
   const Quat& q = product_from_hand.rotation;
   const Eigen::Matrix3d r = q.toRotationMatrix();
@@ -89,4 +90,4 @@ nlohmann::ordered_json placement_with_matrix(const Rigid3& product_from_hand) {
           {"matrix_rows_mm", std::move(matrix)}};
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

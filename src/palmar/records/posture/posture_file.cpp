@@ -17,7 +17,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/posture/placement_json.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using PlainJson = nlohmann::json;
@@ -27,14 +27,14 @@ constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 /// What a name in a file means.
 struct AngleName {
-  Dof dof{};
+  hand::Dof dof{};
   double factor = 1.0;  ///< to rad
 };
 
 std::vector<std::string> known_names() {
   std::vector<std::string> names;
-  for (int d = 0; d < kDofCount; ++d) {
-    names.push_back(std::string(name_of(static_cast<Dof>(d))) + "_deg");
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    names.push_back(std::string(name_of(static_cast<hand::Dof>(d))) + "_deg");
   }
   return names;
 }
@@ -43,18 +43,18 @@ std::vector<std::string> known_names() {
 AngleName angle_named(const std::string& name) {
   const auto ends = [&](std::string_view end) { return name.size() > 4 && name.ends_with(end); };
   if (ends("_deg") || ends("_rad")) {
-    if (const auto dof = dof_named(name.substr(0, name.size() - 4))) {
-      return {*dof, ends("_deg") ? kDegree : 1.0};
+    if (const auto dof = hand::dof_named(name.substr(0, name.size() - 4))) {
+      return {*dof, ends("_deg") ? geometry::kDegree : 1.0};
     }
-  } else if (dof_named(name)) {
-    throw InputError(in_quotes(name) + " has no unit; " + name + "_deg or " + name +
+  } else if (hand::dof_named(name)) {
+    throw InputError(formats::in_quotes(name) + " has no unit; " + name + "_deg or " + name +
                      "_rad is needed");
   }
   std::string stem = name;
   if (ends("_rad")) stem = name.substr(0, name.size() - 4) + "_deg";
   if (!ends("_rad") && !ends("_deg")) stem += "_deg";
   throw InputError(
-      in_quotes(name) + " is no joint angle; " +
+      formats::in_quotes(name) + " is no joint angle; " +
       did_you_mean(stem, known_names(), "`palmar hand info` lists the degrees of freedom"));
 }
 
@@ -65,47 +65,49 @@ class AngleSet {
   void set(const std::string& name, double value) {
     const AngleName known = angle_named(name);
     std::optional<double>& angle = angle_[index_of(known.dof)];
-    if (angle) throw InputError(in_quotes(name) + " is given twice (in degrees and in radians?)");
-    if (!std::isfinite(value)) throw InputError(in_quotes(name) + " is not finite");
+    if (angle)
+      throw InputError(formats::in_quotes(name) + " is given twice (in degrees and in radians?)");
+    if (!std::isfinite(value)) throw InputError(formats::in_quotes(name) + " is not finite");
     const double radians = value * known.factor;
     if (std::abs(radians) > kFullTurn) {
       const bool is_rad = known.factor == 1.0;
-      throw InputError(in_quotes(name) + " is " + shortest(value) + (is_rad ? " rad" : " deg") +
-                       ", more than a full turn" + (is_rad ? "; is it in degrees (_deg)?" : ""));
+      throw InputError(formats::in_quotes(name) + " is " + formats::shortest(value) +
+                       (is_rad ? " rad" : " deg") + ", more than a full turn" +
+                       (is_rad ? "; is it in degrees (_deg)?" : ""));
     }
     angle = radians;
     is_empty_ = false;
   }
   bool is_empty() const { return is_empty_; }
 
-  void give(const Skeleton& skeleton, PostureFrame& frame) const {
-    Posture asked = reference_posture(skeleton);
-    for (int d = 0; d < kDofCount; ++d) {
+  void give(const hand::Skeleton& skeleton, PostureFrame& frame) const {
+    hand::Posture asked = hand::reference_posture(skeleton);
+    for (int d = 0; d < hand::kDofCount; ++d) {
       const std::optional<double>& angle = angle_[d];
       if (angle) {
-        asked[static_cast<Dof>(d)] = *angle;
+        asked[static_cast<hand::Dof>(d)] = *angle;
       } else {
-        frame.missing.push_back(static_cast<Dof>(d));
+        frame.missing.push_back(static_cast<hand::Dof>(d));
       }
     }
-    ClampedPosture held = clamp_to_range(skeleton, asked);
+    hand::ClampedPosture held = hand::clamp_to_range(skeleton, asked);
     frame.posture = held.posture;
     // Written in degrees and read back, a limit may come out one rounding beyond itself.
     constexpr double kRounding = 1e-12;  // rad
-    std::erase_if(held.clamped, [](const ClampedAngle& one) {
+    std::erase_if(held.clamped, [](const hand::ClampedAngle& one) {
       return std::abs(one.asked - one.used) < kRounding;
     });
     frame.clamped = std::move(held.clamped);
   }
 
  private:
-  std::array<std::optional<double>, kDofCount> angle_;
+  std::array<std::optional<double>, hand::kDofCount> angle_;
   bool is_empty_ = true;
 };
 
 class JsonPostures {
  public:
-  JsonPostures(const std::string& path, const Skeleton& skeleton)
+  JsonPostures(const std::string& path, const hand::Skeleton& skeleton)
       : path_(path), skeleton_(&skeleton) {}
 
   PostureFile read(const std::string& text) {
@@ -113,7 +115,7 @@ class JsonPostures {
     try {
       json = PlainJson::parse(text);
     } catch (const PlainJson::exception& error) {
-      throw InputError(path_ + ": no valid JSON: " + json_reason(error));
+      throw InputError(path_ + ": no valid JSON: " + formats::json_reason(error));
     }
     if (json.is_array()) {
       read_list(json, "entry");
@@ -160,7 +162,7 @@ class JsonPostures {
       if (value.is_null()) continue;
       try {
         if (!value.is_number()) {
-          throw InputError(in_quotes(key) + " is " + in_quotes(value.dump()) +
+          throw InputError(formats::in_quotes(key) + " is " + formats::in_quotes(value.dump()) +
                            "; a number is needed");
         }
         angles.set(key, value.get<double>());
@@ -173,7 +175,7 @@ class JsonPostures {
     if (json.contains("time_s") && json["time_s"].is_number()) {
       frame.time = json["time_s"].get<double>();
     }
-    const auto placement = [&](const char* key, std::optional<Rigid3>& to) {
+    const auto placement = [&](const char* key, std::optional<geometry::Rigid3>& to) {
       if (!json.contains(key)) return;
       try {
         to = placement_from_json(json[key]);
@@ -186,14 +188,14 @@ class JsonPostures {
     placement("mesh_from_hand", frame.measured_from_hand);
     if (json.contains("grip") && json["grip"].is_string()) {
       const auto grip = json["grip"].get<std::string>();
-      frame.grip = grip_named(grip);
-      if (!frame.grip) fail(name, "grip " + in_quotes(grip) + " is not known");
+      frame.grip = grasp::grip_named(grip);
+      if (!frame.grip) fail(name, "grip " + formats::in_quotes(grip) + " is not known");
     }
     file_.frames.push_back(std::move(frame));
   }
 
   std::string path_;
-  const Skeleton* skeleton_;
+  const hand::Skeleton* skeleton_;
   PostureFile file_;
 };
 
@@ -203,7 +205,7 @@ bool is_side_column(std::string_view name) {
          name == "comment";
 }
 
-PostureFile read_csv_postures(const CsvFile& csv, const Skeleton& skeleton) {
+PostureFile read_csv_postures(const formats::CsvFile& csv, const hand::Skeleton& skeleton) {
   PostureFile file;
   for (const std::string& name : csv.header) {
     if (is_side_column(name)) continue;
@@ -215,7 +217,7 @@ PostureFile read_csv_postures(const CsvFile& csv, const Skeleton& skeleton) {
   }
   const int time = csv.column("time_s");
   if (csv.rows.empty()) throw InputError(csv.path + ": it has no angles below the header");
-  for (const CsvFile::Row& row : csv.rows) {
+  for (const formats::CsvFile::Row& row : csv.rows) {
     PostureFrame frame;
     frame.name = "frame " + std::to_string(file.frames.size() + 1);
     AngleSet angles;
@@ -244,16 +246,16 @@ PostureFile read_csv_postures(const CsvFile& csv, const Skeleton& skeleton) {
 
 }  // namespace
 
-PostureFile read_postures(const std::string& path, const Skeleton& skeleton) {
-  const std::string text = read_file(path, kMaxPostureBytes);
-  if (!looks_like_text(std::string_view(text).substr(0, 4096))) {
+PostureFile read_postures(const std::string& path, const hand::Skeleton& skeleton) {
+  const std::string text = formats::read_file(path, kMaxPostureBytes);
+  if (!formats::looks_like_text(std::string_view(text).substr(0, 4096))) {
     throw InputError(path + ": no text; joint angles as JSON or CSV are needed");
   }
   const std::size_t start = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (start != text.npos && (text[start] == '{' || text[start] == '[')) {
     return JsonPostures(path, skeleton).read(text);
   }
-  return read_csv_postures(parse_csv(text, path), skeleton);
+  return read_csv_postures(formats::parse_csv(text, path), skeleton);
 }
 
 const PostureFrame& frame_of(const PostureFile& file, const std::string& path,
@@ -271,13 +273,13 @@ const PostureFrame& frame_of(const PostureFile& file, const std::string& path,
   return file.frames[wanted - 1];
 }
 
-std::string posture_json(const Posture& posture) {
+std::string posture_json(const hand::Posture& posture) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (int d = 0; d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
-    json[std::string(name_of(dof)) + "_deg"] = posture[dof] / kDegree;
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
+    json[std::string(name_of(dof)) + "_deg"] = posture[dof] / geometry::kDegree;
   }
   return json.dump(2);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -15,24 +15,24 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/records/posture/posture_report.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
 
 /// Every range -30 to 90 degrees, reference 5 degrees.
-Skeleton plain_skeleton() {
-  Skeleton skeleton;
-  for (int j = 0; j < kJointCount; ++j) {
-    skeleton.joints[j].id = static_cast<JointId>(j);
+hand::Skeleton plain_skeleton() {
+  hand::Skeleton skeleton;
+  for (int j = 0; j < hand::kJointCount; ++j) {
+    skeleton.joints[j].id = static_cast<hand::JointId>(j);
   }
-  for (int d = 0; d < kDofCount; ++d) {
-    JointDof dof;
-    dof.dof = static_cast<Dof>(d);
-    dof.reference = 5 * kDegree;
-    dof.lower = -30 * kDegree;
-    dof.upper = 90 * kDegree;
-    skeleton.joints[d % kJointCount].dofs.push_back(dof);
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    hand::JointDof dof;
+    dof.dof = static_cast<hand::Dof>(d);
+    dof.reference = 5 * geometry::kDegree;
+    dof.lower = -30 * geometry::kDegree;
+    dof.upper = 90 * geometry::kDegree;
+    skeleton.joints[d % hand::kJointCount].dofs.push_back(dof);
   }
   return skeleton;
 }
@@ -48,7 +48,7 @@ class PostureFileTest : public testing::Test {
 
   PostureFile read(const std::string& text, const std::string& name = "angles.json") {
     const std::string path = (folder_ / name).string();
-    write_file(path, text);
+    formats::write_file(path, text);
     return read_postures(path, skeleton_);
   }
   std::string message(const std::string& text) {
@@ -61,7 +61,7 @@ class PostureFileTest : public testing::Test {
   }
 
   std::filesystem::path folder_;
-  Skeleton skeleton_ = plain_skeleton();
+  hand::Skeleton skeleton_ = plain_skeleton();
 };
 
 TEST_F(PostureFileTest, AnObjectOfAnglesInDegreesOrRadians) {
@@ -69,9 +69,10 @@ TEST_F(PostureFileTest, AnObjectOfAnglesInDegreesOrRadians) {
       read(R"({"index_mcp_flexion_deg": 40, "thumb_ip_flexion_rad": 0.5, "time_s": 2.5})");
   ASSERT_EQ(file.frames.size(), 1U);
   const PostureFrame& frame = file.frames.front();
-  EXPECT_NEAR(frame.posture[Dof::kIndexMcpFlexion], 40 * kDegree, 1e-15);
-  EXPECT_EQ(frame.posture[Dof::kThumbIpFlexion], 0.5);
-  EXPECT_EQ(frame.posture[Dof::kRingDipFlexion], 5 * kDegree);  // not given: reference
+  EXPECT_NEAR(frame.posture[hand::Dof::kIndexMcpFlexion], 40 * geometry::kDegree, 1e-15);
+  EXPECT_EQ(frame.posture[hand::Dof::kThumbIpFlexion], 0.5);
+  EXPECT_EQ(frame.posture[hand::Dof::kRingDipFlexion],
+            5 * geometry::kDegree);  // not given: reference
   EXPECT_EQ(frame.missing.size(), 21U);
   EXPECT_TRUE(frame.clamped.empty());
   EXPECT_EQ(frame.time, 2.5);
@@ -81,9 +82,9 @@ TEST_F(PostureFileTest, AnglesBeyondTheRangeAreClampedAndReported) {
   const PostureFrame frame =
       read(R"({"index_pip_flexion_deg": 120, "index_dip_flexion_deg": 90})").frames.front();
   ASSERT_EQ(frame.clamped.size(), 1U);  // 90 degrees is the limit itself
-  EXPECT_EQ(frame.clamped[0].dof, Dof::kIndexPipFlexion);
-  EXPECT_NEAR(frame.clamped[0].asked, 120 * kDegree, 1e-12);
-  EXPECT_NEAR(frame.clamped[0].used, 90 * kDegree, 1e-12);
+  EXPECT_EQ(frame.clamped[0].dof, hand::Dof::kIndexPipFlexion);
+  EXPECT_NEAR(frame.clamped[0].asked, 120 * geometry::kDegree, 1e-12);
+  EXPECT_NEAR(frame.clamped[0].used, 90 * geometry::kDegree, 1e-12);
 }
 
 TEST_F(PostureFileTest, GraspsAssessmentsAndListsAreTakenApart) {
@@ -92,7 +93,7 @@ TEST_F(PostureFileTest, GraspsAssessmentsAndListsAreTakenApart) {
       "product_from_hand": {"quaternion_wxyz": [0.6, 0, 0.8, 0], "translation_mm": [1, 2, 3],
                             "matrix_rows_mm": []}})")
                                  .frames.front();
-  EXPECT_EQ(grasp.grip, Grip::kTripod);
+  EXPECT_EQ(grasp.grip, grasp::Grip::kTripod);
   ASSERT_TRUE(grasp.product_from_hand);
   EXPECT_EQ(grasp.product_from_hand->translation, Vec3(1, 2, 3));
   EXPECT_EQ(grasp.product_from_hand->rotation.y(), 0.8);
@@ -101,7 +102,7 @@ TEST_F(PostureFileTest, GraspsAssessmentsAndListsAreTakenApart) {
       {"grasp": {"posture": {"index_pip_flexion_deg": 20}}}]})");
   ASSERT_EQ(set.frames.size(), 2U);
   EXPECT_EQ(set.frames[1].name, "assessment 2");
-  EXPECT_NEAR(set.frames[1].posture[Dof::kIndexPipFlexion], 20 * kDegree, 1e-15);
+  EXPECT_NEAR(set.frames[1].posture[hand::Dof::kIndexPipFlexion], 20 * geometry::kDegree, 1e-15);
   EXPECT_THROW(frame_of(set, "x", {}), InputError);
   EXPECT_THROW(frame_of(set, "x", 3), UsageError);
   EXPECT_EQ(&frame_of(set, "x", 2), &set.frames[1]);
@@ -122,8 +123,9 @@ TEST_F(PostureFileTest, OneRowPerFrameInCsv) {
       "1,0.00,10,0.1\n2,0.01,,0.2\n");
   ASSERT_EQ(file.frames.size(), 2U);
   EXPECT_EQ(file.frames[1].time, 0.01);
-  EXPECT_NEAR(file.frames[0].posture[Dof::kIndexPipFlexion], 10 * kDegree, 1e-15);
-  EXPECT_EQ(file.frames[1].posture[Dof::kIndexPipFlexion], 5 * kDegree);  // an empty cell
+  EXPECT_NEAR(file.frames[0].posture[hand::Dof::kIndexPipFlexion], 10 * geometry::kDegree, 1e-15);
+  EXPECT_EQ(file.frames[1].posture[hand::Dof::kIndexPipFlexion],
+            5 * geometry::kDegree);  // an empty cell
   EXPECT_EQ(file.frames[1].missing.size(), 22U);
 }
 
@@ -133,7 +135,7 @@ TEST_F(PostureFileTest, WhatIsWrittenReadsBack) {
     FoundPosture found;
     found.number = f + 1;
     found.frame.time = 0.1 * f;
-    for (int d = 0; d < kDofCount; ++d) found.frame.posture.angle[d] = 0.01 * d * (f + 1);
+    for (int d = 0; d < hand::kDofCount; ++d) found.frame.posture.angle[d] = 0.01 * d * (f + 1);
     report.postures.push_back(found);
   }
   for (const std::string& text : {posture_report_json(report), posture_report_csv(report)}) {
@@ -142,7 +144,7 @@ TEST_F(PostureFileTest, WhatIsWrittenReadsBack) {
     for (std::size_t f = 0; f < 3; ++f) {
       EXPECT_EQ(file.frames[f].time, report.postures[f].frame.time);
       EXPECT_TRUE(file.frames[f].missing.empty());
-      for (std::size_t d = 0; d < kDofCount; ++d) {
+      for (std::size_t d = 0; d < hand::kDofCount; ++d) {
         EXPECT_NEAR(file.frames[f].posture.angle[d], report.postures[f].frame.posture.angle[d],
                     1e-15);
       }
@@ -180,4 +182,4 @@ TEST_F(PostureFileTest, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -9,21 +9,21 @@
 #include "palmar/records/csv.h"
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json placement_object(const Rigid3& placement) {
+Json placement_object(const geometry::Rigid3& placement) {
   const Quat& q = placement.rotation;
   const Vec3& t = placement.translation;
   return {{"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}},
           {"translation_mm", {t.x(), t.y(), t.z()}}};
 }
 
-Json names_of(const std::vector<Dof>& dofs) {
+Json names_of(const std::vector<hand::Dof>& dofs) {
   Json names = Json::array();
-  for (const Dof dof : dofs) names.push_back(name_of(dof));
+  for (const hand::Dof dof : dofs) names.push_back(name_of(dof));
   return names;
 }
 
@@ -33,7 +33,7 @@ Json labels_of(const std::vector<int>& indices, const std::vector<std::string>& 
   return names;
 }
 
-void add_markers(const PostureFit& fit, const std::vector<std::string>& labels, Json& json) {
+void add_markers(const hand::PostureFit& fit, const std::vector<std::string>& labels, Json& json) {
   json["status"] = name_of(fit.status);
   json["message"] = fit.message;
   json["measured_from_hand"] = placement_object(fit.measured_from_hand);
@@ -51,13 +51,13 @@ void add_markers(const PostureFit& fit, const std::vector<std::string>& labels, 
   json["not_observed"] = names_of(fit.not_observed);
   json["at_limit"] = names_of(fit.at_limit);
   Json sd = Json::object();
-  for (int d = 0; d < kDofCount; ++d) {
-    sd[std::string(name_of(static_cast<Dof>(d)))] = fit.sd[d] * kDegreesPerRadian;
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    sd[std::string(name_of(static_cast<hand::Dof>(d)))] = fit.sd[d] * geometry::kDegreesPerRadian;
   }
   json["sd_deg"] = std::move(sd);
 }
 
-void add_mesh(const MeshFit& fit, Json& json) {
+void add_mesh(const hand::MeshFit& fit, Json& json) {
   json["status"] = name_of(fit.status);
   json["message"] = fit.message;
   json["mesh_from_hand"] = placement_object(fit.mesh_from_hand);
@@ -81,9 +81,10 @@ Json posture_object(const PostureReport& report, const FoundPosture& found, bool
   if (!found.frame.missing.empty()) json["not_given"] = names_of(found.frame.missing);
   if (!found.frame.clamped.empty()) {
     Json clamped = Json::object();
-    for (const ClampedAngle& one : found.frame.clamped) {
-      clamped[std::string(name_of(one.dof))] = {{"asked_deg", one.asked * kDegreesPerRadian},
-                                                {"used_deg", one.used * kDegreesPerRadian}};
+    for (const hand::ClampedAngle& one : found.frame.clamped) {
+      clamped[std::string(name_of(one.dof))] = {
+          {"asked_deg", one.asked * geometry::kDegreesPerRadian},
+          {"used_deg", one.used * geometry::kDegreesPerRadian}};
     }
     json["clamped"] = std::move(clamped);
   }
@@ -111,21 +112,21 @@ std::string posture_report_json(const PostureReport& report) {
 std::string posture_report_csv(const PostureReport& report) {
   CsvTable table;
   table.header = {"frame", "time_s"};
-  for (int d = 0; d < kDofCount; ++d) {
-    table.header.push_back(std::string(name_of(static_cast<Dof>(d))) + "_deg");
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    table.header.push_back(std::string(name_of(static_cast<hand::Dof>(d))) + "_deg");
   }
   bool has_rms = false;
   for (const FoundPosture& one : report.postures) has_rms = has_rms || one.markers.has_value();
   if (has_rms) table.header.emplace_back("rms_mm");
   for (const FoundPosture& one : report.postures) {
     std::vector<std::string> row = {std::to_string(one.number),
-                                    one.frame.time ? shortest(*one.frame.time) : ""};
+                                    one.frame.time ? formats::shortest(*one.frame.time) : ""};
     for (const double angle : one.frame.posture.angle)
-      row.push_back(shortest(angle * kDegreesPerRadian));
-    if (has_rms) row.push_back(one.markers ? shortest(one.markers->rms) : "");
+      row.push_back(formats::shortest(angle * geometry::kDegreesPerRadian));
+    if (has_rms) row.push_back(one.markers ? formats::shortest(one.markers->rms) : "");
     table.rows.push_back(std::move(row));
   }
   return format_csv(table);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

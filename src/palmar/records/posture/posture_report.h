@@ -9,14 +9,14 @@
 #include "palmar/hand/posture/posture_from_mesh.h"
 #include "palmar/records/posture/posture_file.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// A posture and how it was found.
 struct FoundPosture {
   PostureFrame frame;
-  int number = 1;                     ///< as the recording counts frames
-  std::optional<PostureFit> markers;  ///< found from markers
-  std::optional<MeshFit> mesh;        ///< found from a mesh
+  int number = 1;                           ///< as the recording counts frames
+  std::optional<hand::PostureFit> markers;  ///< found from markers
+  std::optional<hand::MeshFit> mesh;        ///< found from a mesh
 };
 
 /// Postures of one measurement.
@@ -36,4 +36,4 @@ std::string posture_report_json(const PostureReport& report);
 /// frame, time_s, the 23 angles, and rms_mm where there are markers.
 std::string posture_report_csv(const PostureReport& report);
 
-}  // namespace palmar
+}  // namespace palmar::records

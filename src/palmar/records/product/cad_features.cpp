@@ -10,7 +10,7 @@
 #include "palmar/formats/json_reason.h"
 #include "palmar/records/product/cad_format.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,9 +103,10 @@ ChangedCad change_features(const CadFeatureRequest& request, const CadLimits& li
     changed.fillets = fillets_in(answer);
     for (const Json& note : answer.at("notes")) changed.notes.push_back(note.get<std::string>());
     if (request.mesh) changed.mesh = read_face_mesh(folder.path() / "mesh.bin");
-    if (request.step) changed.step = read_file(folder.path() / "product.step");
+    if (request.step) changed.step = formats::read_file(folder.path() / "product.step");
   } catch (const Json::exception& error) {
-    throw InputError(object + ": the CAD program's answer is damaged: " + json_reason(error));
+    throw InputError(object +
+                     ": the CAD program's answer is damaged: " + formats::json_reason(error));
   } catch (const InputError& error) {
     throw InputError(object + ": the CAD program's answer can't be used: " + error.what());
   }
@@ -122,8 +123,9 @@ std::vector<ChosenEdges> describe_features(const CadFeatureRequest& request,
   try {
     return fillets_in(Json::parse(reply));
   } catch (const Json::exception& error) {
-    throw InputError(object + ": the CAD program's answer is damaged: " + json_reason(error));
+    throw InputError(object +
+                     ": the CAD program's answer is damaged: " + formats::json_reason(error));
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

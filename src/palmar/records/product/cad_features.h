@@ -13,7 +13,7 @@
 #include "palmar/records/product/face_mesh_file.h"
 #include "palmar/records/product/made_product.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Where a solid comes from: a STEP or IGES file, or a kind made from parameters.
 struct CadSource {
@@ -79,4 +79,4 @@ std::vector<ChosenEdges> describe_features(const CadFeatureRequest& request,
                                            const CadLimits& limits = {},
                                            const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::records

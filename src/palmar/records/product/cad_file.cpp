@@ -10,7 +10,7 @@
 #include "palmar/formats/json_reason.h"
 #include "palmar/records/product/cad_format.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +23,8 @@ auto take_reply(const std::string& reply, const std::string& object, const Take&
   try {
     return take(Json::parse(reply));
   } catch (const Json::exception& error) {
-    throw InputError(object + ": the CAD program's answer is damaged: " + json_reason(error));
+    throw InputError(object +
+                     ": the CAD program's answer is damaged: " + formats::json_reason(error));
   }
 }
 
@@ -89,7 +90,7 @@ void convert_to_step(const fs::path& path, const fs::path& out,
   if (millimetres_per_unit) request["millimetres_per_unit"] = *millimetres_per_unit;
   const CadFolder folder;
   run_cad("convert", request.dump(), folder, path.string(), limits, progress);
-  write_file(out, read_file(folder.path() / "product.step"));
+  formats::write_file(out, formats::read_file(folder.path() / "product.step"));
 }
 
 CadVerdict check_cad_file(const fs::path& path, std::optional<double> millimetres_per_unit,
@@ -116,4 +117,4 @@ CadVerdict check_cad_file(const fs::path& path, std::optional<double> millimetre
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

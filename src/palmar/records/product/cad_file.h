@@ -12,7 +12,7 @@
 #include "palmar/records/product/cad_worker.h"
 #include "palmar/records/product/face_mesh_file.h"
 
-namespace palmar {
+namespace palmar::records {
 
 struct ImportCadOptions {
   std::optional<double> millimetres_per_unit = {};  ///< unset: as the file says
@@ -61,4 +61,4 @@ CadVerdict check_cad_file(const std::filesystem::path& path,
                           std::optional<double> millimetres_per_unit = {},
                           const CadLimits& limits = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::records

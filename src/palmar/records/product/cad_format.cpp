@@ -9,7 +9,7 @@
 #include "palmar/core/text.h"
 #include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::size_t kEnds = 16384;  // bytes looked at on both ends
@@ -56,7 +56,7 @@ std::optional<CadFormat> cad_format_of_name(const std::filesystem::path& path) {
 
 bool is_cad_file(const std::filesystem::path& path) {
   try {
-    if (cad_format_of_content(read_ends(path, kEnds).head)) return true;
+    if (cad_format_of_content(formats::read_ends(path, kEnds).head)) return true;
   } catch (const Error&) {
     // Said by whoever reads it.
   }
@@ -65,7 +65,7 @@ bool is_cad_file(const std::filesystem::path& path) {
 
 CadFormatCheck check_cad_format(const std::filesystem::path& path) {
   const std::string object = path.string();
-  FileEnds ends = read_ends(path, kEnds);
+  formats::FileEnds ends = formats::read_ends(path, kEnds);
   const std::optional<CadFormat> format = cad_format_of_content(ends.head);
   if (!format) {
     throw InputError(object +
@@ -84,4 +84,4 @@ CadFormatCheck check_cad_format(const std::filesystem::path& path) {
   return {*format, std::move(ends.head)};
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::records {
 
 enum class CadFormat { kStep, kIges };
 std::string name_of(CadFormat format);  ///< "STEP", "IGES"
@@ -29,4 +29,4 @@ struct CadFormatCheck {
 /// missing, empty, neither STEP nor IGES (and what it is, if known), cut off before its end.
 CadFormatCheck check_cad_format(const std::filesystem::path& path);
 
-}  // namespace palmar
+}  // namespace palmar::records

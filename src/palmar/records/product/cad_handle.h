@@ -10,7 +10,7 @@
 #include "palmar/records/product/face_mesh_file.h"
 #include "palmar/redesign/handle_shape.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// A handle as a solid: valid, closed, read back from its STEP file.
 struct HandleSolid {
@@ -31,8 +31,8 @@ struct MadeHandle {
 /// Made in the child process (run_cad()). `source`: of the product that goes on beyond the handle,
 /// if it has a solid. Throws NumericalError if no valid solid comes out, Cancelled. `object` names
 /// the product in messages.
-MadeHandle make_handle(const HandleShape& shape, const std::string& object,
+MadeHandle make_handle(const redesign::HandleShape& shape, const std::string& object,
                        const std::optional<CadSource>& source = {}, double chordal_error = 0.01,
                        const CadLimits& limits = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::records

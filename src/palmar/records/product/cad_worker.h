@@ -4,10 +4,10 @@
 
 #include "palmar/formats/process/worker.h"
 
-namespace palmar {
+namespace palmar::records {
 
-using CadLimits = WorkerLimits;
-using CadFolder = WorkerFolder;
+using CadLimits = formats::WorkerLimits;
+using CadFolder = formats::WorkerFolder;
 
 /// Runs `palmar-cad VERB FOLDER` (beside this program, or $PALMAR_CAD) as a child; see
 /// run_worker().
@@ -15,4 +15,4 @@ std::string run_cad(const std::string& verb, const std::string& request, const C
                     const std::string& object, const CadLimits& limits = {},
                     const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -11,7 +11,7 @@
 #include "palmar/formats/bytes.h"
 #include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::string_view kFacesMagic = "PalmarPF";
@@ -28,7 +28,7 @@ class Taker {
   template <typename T>
   T take() {
     if (bytes_.size() < sizeof(T)) fail("it ends too early");
-    const T value = read_value<T>(bytes_, 0);
+    const T value = formats::read_value<T>(bytes_, 0);
     bytes_.remove_prefix(sizeof(T));
     return value;
   }
@@ -88,12 +88,12 @@ class Taker {
 
 void append_short_text(std::string& bytes, const std::string& text) {
   const std::string_view kept = std::string_view(text).substr(0, kLongestText);
-  append_value(bytes, static_cast<std::uint32_t>(kept.size()));
+  formats::append_value(bytes, static_cast<std::uint32_t>(kept.size()));
   bytes += kept;
 }
 
 void append_point(std::string& bytes, const Vec3& point) {
-  for (int c = 0; c < 3; ++c) append_value(bytes, point[c]);
+  for (int c = 0; c < 3; ++c) formats::append_value(bytes, point[c]);
 }
 
 std::uint32_t checksum(std::string_view bytes) {
@@ -101,7 +101,7 @@ std::uint32_t checksum(std::string_view bytes) {
       crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-void append_checksum(std::string& bytes) { append_value(bytes, checksum(bytes)); }
+void append_checksum(std::string& bytes) { formats::append_value(bytes, checksum(bytes)); }
 
 /// The content between magic, version and checksum.
 Taker open_checked(std::string_view bytes, std::string_view magic, const std::string& what) {
@@ -109,7 +109,7 @@ Taker open_checked(std::string_view bytes, std::string_view magic, const std::st
   if (!bytes.starts_with(magic)) taker.fail("it doesn't begin as it must");
   if (bytes.size() < magic.size() + 8) taker.fail("it ends too early");
   const std::string_view body = bytes.substr(0, bytes.size() - 4);
-  if (read_value<std::uint32_t>(bytes, body.size()) != checksum(body)) {
+  if (formats::read_value<std::uint32_t>(bytes, body.size()) != checksum(body)) {
     taker.fail("its checksum is wrong");
   }
   Taker content(body.substr(magic.size()), what);
@@ -120,28 +120,29 @@ Taker open_checked(std::string_view bytes, std::string_view magic, const std::st
   return content;
 }
 
-void append_face(std::string& bytes, const ProductFace& face) {
-  append_value(bytes, static_cast<std::int32_t>(face.number));
+void append_face(std::string& bytes, const product::ProductFace& face) {
+  formats::append_value(bytes, static_cast<std::int32_t>(face.number));
   append_short_text(bytes, face.name);
   append_short_text(bytes, face.part);
-  append_value(bytes, static_cast<std::uint8_t>(face.kind));
-  append_value(bytes, face.radius);
-  append_value(bytes, static_cast<std::uint8_t>(face.is_concave));
-  append_value(bytes, static_cast<std::uint8_t>(face.is_fillet));
-  append_value(bytes, face.area);
-  append_value(bytes, static_cast<std::uint8_t>(face.colour.has_value()));
+  formats::append_value(bytes, static_cast<std::uint8_t>(face.kind));
+  formats::append_value(bytes, face.radius);
+  formats::append_value(bytes, static_cast<std::uint8_t>(face.is_concave));
+  formats::append_value(bytes, static_cast<std::uint8_t>(face.is_fillet));
+  formats::append_value(bytes, face.area);
+  formats::append_value(bytes, static_cast<std::uint8_t>(face.colour.has_value()));
   if (!face.colour) return;
-  for (const float share : *face.colour) append_value(bytes, share);
+  for (const float share : *face.colour) formats::append_value(bytes, share);
 }
 
-ProductFace take_face(Taker& taker) {
-  ProductFace face;
+product::ProductFace take_face(Taker& taker) {
+  product::ProductFace face;
   face.number = taker.take<std::int32_t>();
   face.name = taker.take_text();
   face.part = taker.take_text();
   const auto kind = taker.take<std::uint8_t>();
-  if (kind > static_cast<std::uint8_t>(FaceKind::kFreeform)) taker.fail("a face's kind is unknown");
-  face.kind = static_cast<FaceKind>(kind);
+  if (kind > static_cast<std::uint8_t>(product::FaceKind::kFreeform))
+    taker.fail("a face's kind is unknown");
+  face.kind = static_cast<product::FaceKind>(kind);
   face.radius = taker.take_number();
   face.is_concave = taker.take_bool();
   face.is_fillet = taker.take_bool();
@@ -157,19 +158,19 @@ ProductFace take_face(Taker& taker) {
   return face;
 }
 
-void append_edge(std::string& bytes, const ProductEdge& edge) {
-  append_value(bytes, static_cast<std::int32_t>(edge.number));
-  for (const int face : edge.faces) append_value(bytes, static_cast<std::int32_t>(face));
-  append_value(bytes, static_cast<std::uint8_t>(edge.is_convex));
-  append_value(bytes, static_cast<std::uint8_t>(edge.is_smooth));
-  append_value(bytes, edge.angle);
-  append_value(bytes, edge.length);
-  append_value(bytes, static_cast<std::uint32_t>(edge.points.size()));
+void append_edge(std::string& bytes, const product::ProductEdge& edge) {
+  formats::append_value(bytes, static_cast<std::int32_t>(edge.number));
+  for (const int face : edge.faces) formats::append_value(bytes, static_cast<std::int32_t>(face));
+  formats::append_value(bytes, static_cast<std::uint8_t>(edge.is_convex));
+  formats::append_value(bytes, static_cast<std::uint8_t>(edge.is_smooth));
+  formats::append_value(bytes, edge.angle);
+  formats::append_value(bytes, edge.length);
+  formats::append_value(bytes, static_cast<std::uint32_t>(edge.points.size()));
   for (const Vec3& point : edge.points) append_point(bytes, point);
 }
 
-ProductEdge take_edge(Taker& taker, std::size_t faces) {
-  ProductEdge edge;
+product::ProductEdge take_edge(Taker& taker, std::size_t faces) {
+  product::ProductEdge edge;
   edge.number = taker.take<std::int32_t>();
   for (int& face : edge.faces) face = taker.take_index(faces);
   edge.is_convex = taker.take_bool();
@@ -183,29 +184,30 @@ ProductEdge take_edge(Taker& taker, std::size_t faces) {
 
 }  // namespace
 
-std::string faces_bytes(const ProductFaces& faces) {
+std::string faces_bytes(const product::ProductFaces& faces) {
   std::string bytes(kFacesMagic);
-  append_value(bytes, kVersion);
-  append_value(bytes, static_cast<std::uint32_t>(faces.face.size()));
-  for (const ProductFace& face : faces.face) append_face(bytes, face);
-  append_value(bytes, static_cast<std::uint32_t>(faces.edge.size()));
-  for (const ProductEdge& edge : faces.edge) append_edge(bytes, edge);
-  append_value(bytes, static_cast<std::uint32_t>(faces.face_of_triangle.size()));
+  formats::append_value(bytes, kVersion);
+  formats::append_value(bytes, static_cast<std::uint32_t>(faces.face.size()));
+  for (const product::ProductFace& face : faces.face) append_face(bytes, face);
+  formats::append_value(bytes, static_cast<std::uint32_t>(faces.edge.size()));
+  for (const product::ProductEdge& edge : faces.edge) append_edge(bytes, edge);
+  formats::append_value(bytes, static_cast<std::uint32_t>(faces.face_of_triangle.size()));
   for (const int face : faces.face_of_triangle) {
-    append_value(bytes, static_cast<std::int32_t>(face));
+    formats::append_value(bytes, static_cast<std::int32_t>(face));
   }
   append_checksum(bytes);
   return bytes;
 }
 
-ProductFaces faces_from_bytes(std::string_view bytes, int triangles, const std::string& what) {
+product::ProductFaces faces_from_bytes(std::string_view bytes, int triangles,
+                                       const std::string& what) {
   Taker taker = open_checked(bytes, kFacesMagic, what);
-  ProductFaces faces;
+  product::ProductFaces faces;
   constexpr std::size_t kLeastFace = 32, kLeastEdge = 34;  // bytes
   faces.face.resize(taker.take_count(kLeastFace));
-  for (ProductFace& face : faces.face) face = take_face(taker);
+  for (product::ProductFace& face : faces.face) face = take_face(taker);
   faces.edge.resize(taker.take_count(kLeastEdge));
-  for (ProductEdge& edge : faces.edge) edge = take_edge(taker, faces.face.size());
+  for (product::ProductEdge& edge : faces.edge) edge = take_edge(taker, faces.face.size());
   faces.face_of_triangle.resize(taker.take_count(sizeof(std::int32_t)));
   const std::size_t expected = faces.face.empty() ? 0 : static_cast<std::size_t>(triangles);
   if (faces.face_of_triangle.size() != expected) {
@@ -222,15 +224,15 @@ ProductFaces faces_from_bytes(std::string_view bytes, int triangles, const std::
 
 std::string face_mesh_bytes(const FaceMesh& mesh) {
   std::string bytes(kMeshMagic);
-  append_value(bytes, kVersion);
-  append_value(bytes, static_cast<std::uint32_t>(mesh.mesh.vertices.size()));
+  formats::append_value(bytes, kVersion);
+  formats::append_value(bytes, static_cast<std::uint32_t>(mesh.mesh.vertices.size()));
   for (const Vec3& vertex : mesh.mesh.vertices) append_point(bytes, vertex);
-  append_value(bytes, static_cast<std::uint32_t>(mesh.mesh.triangles.size()));
+  formats::append_value(bytes, static_cast<std::uint32_t>(mesh.mesh.triangles.size()));
   for (const Triangle& triangle : mesh.mesh.triangles) {
-    for (const int v : triangle) append_value(bytes, static_cast<std::int32_t>(v));
+    for (const int v : triangle) formats::append_value(bytes, static_cast<std::int32_t>(v));
   }
   const std::string faces = faces_bytes(mesh.faces);
-  append_value(bytes, static_cast<std::uint64_t>(faces.size()));
+  formats::append_value(bytes, static_cast<std::uint64_t>(faces.size()));
   bytes += faces;
   append_checksum(bytes);
   return bytes;
@@ -256,11 +258,11 @@ FaceMesh face_mesh_from_bytes(std::string_view bytes, const std::string& what) {
 }
 
 void write_face_mesh(const std::filesystem::path& path, const FaceMesh& mesh) {
-  write_file(path, face_mesh_bytes(mesh));
+  formats::write_file(path, face_mesh_bytes(mesh));
 }
 
 FaceMesh read_face_mesh(const std::filesystem::path& path) {
-  return face_mesh_from_bytes(read_file(path), path.string());
+  return face_mesh_from_bytes(formats::read_file(path), path.string());
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

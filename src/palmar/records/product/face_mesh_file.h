@@ -9,12 +9,12 @@
 #include "palmar/geometry/types.h"
 #include "palmar/product/product_faces.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// A mesh and the CAD faces that its triangles lie on.
 struct FaceMesh {
-  TriangleMesh mesh;   ///< mm
-  ProductFaces faces;  ///< may be empty; else with a face for every triangle
+  geometry::TriangleMesh mesh;  ///< mm
+  product::ProductFaces faces;  ///< may be empty; else with a face for every triangle
 };
 
 // Compact bytes, little endian: "PalmarFM", version, counts, texts behind their length, numbers as
@@ -23,9 +23,10 @@ struct FaceMesh {
 // what doesn't fit throws InputError "WHAT is damaged: ...". Writing the same gives the same bytes.
 
 /// Faces and edges without the mesh.
-std::string faces_bytes(const ProductFaces& faces);
+std::string faces_bytes(const product::ProductFaces& faces);
 /// `triangles` is the number that face_of_triangle must have, if there are faces.
-ProductFaces faces_from_bytes(std::string_view bytes, int triangles, const std::string& what);
+product::ProductFaces faces_from_bytes(std::string_view bytes, int triangles,
+                                       const std::string& what);
 
 std::string face_mesh_bytes(const FaceMesh& mesh);
 FaceMesh face_mesh_from_bytes(std::string_view bytes, const std::string& what);
@@ -33,4 +34,4 @@ FaceMesh face_mesh_from_bytes(std::string_view bytes, const std::string& what);
 void write_face_mesh(const std::filesystem::path& path, const FaceMesh& mesh);
 FaceMesh read_face_mesh(const std::filesystem::path& path);
 
-}  // namespace palmar
+}  // namespace palmar::records

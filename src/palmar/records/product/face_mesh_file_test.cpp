@@ -8,7 +8,7 @@
 #include "gmock/gmock.h"
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::HasSubstr;
@@ -18,27 +18,27 @@ FaceMesh small_mesh() {
   FaceMesh mesh;
   mesh.mesh.vertices = {{0, 0, 0}, {10, 0, 0}, {0, 20, 0}, {0, 0, 0.1}};
   mesh.mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-  ProductFace floor;
+  product::ProductFace floor;
   floor.number = 1;
   floor.name = "Boden ü";
   floor.part = "drill / handle";
-  floor.kind = FaceKind::kPlane;
+  floor.kind = product::FaceKind::kPlane;
   floor.area = 100.0;
   floor.colour = {1.0F, 0.5F, 0.0F};
-  ProductFace roof;
+  product::ProductFace roof;
   roof.number = 2;
-  roof.kind = FaceKind::kTorus;
+  roof.kind = product::FaceKind::kTorus;
   roof.radius = 3.0;
   roof.is_concave = roof.is_fillet = true;
   mesh.faces.face = {floor, roof};
-  ProductEdge edge;
+  product::ProductEdge edge;
   edge.number = 1;
   edge.faces = {0, 1};
   edge.is_convex = true;
   edge.angle = 1.5;
   edge.length = 10.0;
   edge.points = {{0, 0, 0}, {10, 0, 0}};
-  ProductEdge free;
+  product::ProductEdge free;
   free.number = 2;
   free.faces = {1, -1};
   mesh.faces.edge = {edge, free};
@@ -66,7 +66,7 @@ TEST(FaceMeshFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.faces.face[0].name, "Boden ü");
   EXPECT_EQ(back.faces.face[0].part, "drill / handle");
   EXPECT_EQ(back.faces.face[0].colour, mesh.faces.face[0].colour);
-  EXPECT_EQ(back.faces.face[1].kind, FaceKind::kTorus);
+  EXPECT_EQ(back.faces.face[1].kind, product::FaceKind::kTorus);
   EXPECT_EQ(back.faces.face[1].radius, 3.0);
   EXPECT_TRUE(back.faces.face[1].is_fillet && back.faces.face[1].is_concave);
   EXPECT_EQ(back.faces.edge[0].points, mesh.faces.edge[0].points);
@@ -111,11 +111,12 @@ TEST(FaceMeshFile, WhatCannotBeIsRefusedThoughItsChecksumIsRight) {
               HasSubstr("3 triangles have a face; there are 4"));
   EXPECT_THAT(refused([](FaceMesh& m) { m.faces.edge[0].faces[0] = 9; }),
               HasSubstr("out of range"));
-  EXPECT_THAT(refused([](FaceMesh& m) { m.faces.face[0].kind = static_cast<FaceKind>(17); }),
-              HasSubstr("kind is unknown"));
+  EXPECT_THAT(
+      refused([](FaceMesh& m) { m.faces.face[0].kind = static_cast<product::FaceKind>(17); }),
+      HasSubstr("kind is unknown"));
   EXPECT_THAT(refused([](FaceMesh& m) { (*m.faces.face[0].colour)[1] = 7.0F; }),
               HasSubstr("colour"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -15,7 +15,7 @@
 #include "palmar/product/primitives.h"
 #include "palmar/product/scaled_product.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -23,46 +23,47 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view kMade = "made: ";
 constexpr std::size_t kKept = 64;  // solids; a sweep's worth
 
-KindValues values_of(const MadeProduct& product) {
-  return complete_values(parametric_kind(product.kind), product.given);
+product::KindValues values_of(const MadeProduct& product) {
+  return product::complete_values(product::parametric_kind(product.kind), product.given);
 }
 
-Product make_analytic(const MadeProduct& product, const SolidOptions& options) {
-  const KindValues values = values_of(product);
+product::Product make_analytic(const MadeProduct& product, const SolidOptions& options) {
+  const product::KindValues values = values_of(product);
   const auto mm = [&](const char* name) { return options.size * values.at(name); };
-  const MeshFineness fineness{.chordal_error = options.chordal_error};
+  const product::MeshFineness fineness{.chordal_error = options.chordal_error};
   if (product.kind == "cylinder") {
-    return make_cylinder_product(
+    return product::make_cylinder_product(
         {.diameter = mm("diameter_mm"), .length = mm("length_mm"), .fineness = fineness});
   }
   if (product.kind == "prism") {
-    return make_prism_product({.width = mm("width_mm"),
-                               .depth = mm("depth_mm"),
-                               .length = mm("length_mm"),
-                               .fillet_radius = mm("fillet_mm"),
-                               .fineness = fineness});
+    return product::make_prism_product({.width = mm("width_mm"),
+                                        .depth = mm("depth_mm"),
+                                        .length = mm("length_mm"),
+                                        .fillet_radius = mm("fillet_mm"),
+                                        .fineness = fineness});
   }
   if (product.kind == "sphere")
-    return make_sphere_product({.diameter = mm("diameter_mm"), .fineness = fineness});
-  return make_ellipsoid_product(
+    return product::make_sphere_product({.diameter = mm("diameter_mm"), .fineness = fineness});
+  return product::make_ellipsoid_product(
       {.diameters = {mm("x_mm"), mm("y_mm"), mm("z_mm")}, .fineness = fineness});
 }
 
-Product make_by_cad(const MadeProduct& product, double chordal_error) {
+product::Product make_by_cad(const MadeProduct& product, double chordal_error) {
   const MadeCad cad = make_cad(product, {.step = false, .chordal_error = chordal_error});
-  Product made = make_product(
-      title_of(product), cad.mesh.mesh,
-      {.unit = LengthUnit::kMillimetre, .source = UnitSource::kMade, .explanation = ""},
-      words_of(product), &cad.mesh.faces);
+  product::Product made = product::make_product(title_of(product), cad.mesh.mesh,
+                                                {.unit = geometry::LengthUnit::kMillimetre,
+                                                 .source = product::UnitSource::kMade,
+                                                 .explanation = ""},
+                                                words_of(product), &cad.mesh.faces);
   made.notes.insert(made.notes.end(), cad.notes.begin(), cad.notes.end());
   return made;
 }
 
 /// Solids that the CAD program has made in this process, the latest first.
-Product kept_or_made(const MadeProduct& product, double chordal_error) {
+product::Product kept_or_made(const MadeProduct& product, double chordal_error) {
   static std::mutex mutex;
-  static std::list<std::pair<std::string, Product>> kept;
-  const std::string words = words_of(product) + " " + shortest(chordal_error);
+  static std::list<std::pair<std::string, product::Product>> kept;
+  const std::string words = words_of(product) + " " + formats::shortest(chordal_error);
   const std::lock_guard lock(mutex);
   const auto found =
       std::find_if(kept.begin(), kept.end(), [&](const auto& one) { return one.first == words; });
@@ -79,26 +80,29 @@ Product kept_or_made(const MadeProduct& product, double chordal_error) {
 
 std::string words_of(const MadeProduct& product) {
   std::string words = std::string(kMade) + product.kind;
-  for (const auto& [name, value] : product.given) words += " " + name + "=" + shortest(value);
+  for (const auto& [name, value] : product.given)
+    words += " " + name + "=" + formats::shortest(value);
   return words;
 }
 
 bool is_made(const std::string& words) { return words.rfind(kMade, 0) == 0; }
 
 MadeProduct made_from(const std::string& words) {
-  TextScanner scanner(std::string_view(words).substr(std::min(kMade.size(), words.size())));
+  formats::TextScanner scanner(
+      std::string_view(words).substr(std::min(kMade.size(), words.size())));
   const auto kind = scanner.next_word();
   if (!is_made(words) || !kind) {
     throw InputError(
-        in_quotes(words) +
+        formats::in_quotes(words) +
         " describes no product that Palmar makes; \"made: cylinder diameter_mm=35\" does");
   }
   MadeProduct product{std::string(*kind), {}};
   while (const auto word = scanner.next_word()) {
     const std::size_t equals = word->find('=');
-    const auto value = equals == word->npos ? std::nullopt : parse_double(word->substr(equals + 1));
+    const auto value =
+        equals == word->npos ? std::nullopt : formats::parse_double(word->substr(equals + 1));
     if (!value) {
-      throw InputError(in_quotes(words) + ": " + in_quotes(*word) +
+      throw InputError(formats::in_quotes(words) + ": " + formats::in_quotes(*word) +
                        " is no parameter with its value, as diameter_mm=35 is");
     }
     product.given.emplace_back(word->substr(0, equals), *value);
@@ -110,18 +114,18 @@ MadeProduct made_from(const std::string& words) {
 std::string title_of(const MadeProduct& product) {
   std::string title = product.kind;
   for (const auto& [name, value] : product.given) {
-    const std::string unit = unit_of_parameter(name);
+    const std::string unit = product::unit_of_parameter(name);
     const std::string what = unit.empty() ? name : name.substr(0, name.size() - unit.size() - 1);
-    title += " " + what + " " + shortest(value) + (unit.empty() ? "" : " " + unit);
+    title += " " + what + " " + formats::shortest(value) + (unit.empty() ? "" : " " + unit);
   }
   std::replace(title.begin(), title.end(), '_', ' ');
   return title;
 }
 
 std::optional<Vec3> thumb_side_of(const MadeProduct& product) {
-  const ParametricKind& kind = parametric_kind(product.kind);
+  const product::ParametricKind& kind = product::parametric_kind(product.kind);
   if (!kind.thumb_side) return std::nullopt;
-  return kind.thumb_side(complete_values(kind, product.given));
+  return kind.thumb_side(product::complete_values(kind, product.given));
 }
 
 bool is_analytic(const MadeProduct& product) {
@@ -132,10 +136,11 @@ bool is_analytic(const MadeProduct& product) {
   });
 }
 
-Product make_solid(const MadeProduct& product, const SolidOptions& options) {
-  Product solid = is_analytic(product)
-                      ? make_analytic(product, options)
-                      : scaled(kept_or_made(product, options.chordal_error), options.size);
+product::Product make_solid(const MadeProduct& product, const SolidOptions& options) {
+  product::Product solid =
+      is_analytic(product)
+          ? make_analytic(product, options)
+          : product::scaled(kept_or_made(product, options.chordal_error), options.size);
   solid.source = words_of(product);
   return solid;
 }
@@ -156,12 +161,12 @@ MadeCad make_cad(const MadeProduct& product, const MakeCadOptions& options,
   MadeCad made;
   made.volume = reply.at("volume_mm3").get<double>();
   made.notes = reply.at("notes").get<std::vector<std::string>>();
-  if (options.step) made.step = read_file(folder.path() / "product.step");
+  if (options.step) made.step = formats::read_file(folder.path() / "product.step");
   if (options.mesh) {
-    made.mesh = face_mesh_from_bytes(read_file(folder.path() / "mesh.bin"), what);
+    made.mesh = face_mesh_from_bytes(formats::read_file(folder.path() / "mesh.bin"), what);
     made.chordal_error = reply.at("chordal_error_mm").get<double>();
   }
   return made;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -11,7 +11,7 @@
 #include "palmar/records/product/cad_worker.h"
 #include "palmar/records/product/face_mesh_file.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// A product made from parameters as a study describes it: a kind of product/parametric_kinds.h and
 /// the values that were given; the others have their defaults.
@@ -45,7 +45,7 @@ struct SolidOptions {
 /// The product with all its lengths times `size`, with faces as its CAD model has them. A solid
 /// that was made before in this process isn't made again. Throws UsageError: as made_from();
 /// lengths outside their limits after sizing; and what run_cad() throws.
-Product make_solid(const MadeProduct& product, const SolidOptions& options = {});
+product::Product make_solid(const MadeProduct& product, const SolidOptions& options = {});
 
 struct MakeCadOptions {
   bool step = true;
@@ -66,4 +66,4 @@ struct MadeCad {
 MadeCad make_cad(const MadeProduct& product, const MakeCadOptions& options = {},
                  const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -9,7 +9,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/product/parametric_kinds.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -24,19 +24,19 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 std::string with_unit(double value, const std::string& parameter) {
-  const std::string unit = unit_of_parameter(parameter);
-  return shortest(value) + (unit.empty() ? "" : " " + unit);
+  const std::string unit = product::unit_of_parameter(parameter);
+  return formats::shortest(value) + (unit.empty() ? "" : " " + unit);
 }
 
 double number_of(const std::string& parameter, const std::string& whole, const std::string& part) {
-  const auto value = parse_double(part);
+  const auto value = formats::parse_double(part);
   if (value && std::isfinite(*value)) return *value;
-  throw UsageError(parameter + " is " + in_quotes(whole) +
+  throw UsageError(parameter + " is " + formats::in_quotes(whole) +
                    "; a number, from:to:step (25:60:2.5) or a list (30,35,45) is allowed");
 }
 
 [[noreturn]] void refuse_count(const std::string& what, double count) {
-  throw UsageError(what + " makes " + shortest(count) + " variants; up to " +
+  throw UsageError(what + " makes " + formats::shortest(count) + " variants; up to " +
                    std::to_string(kMostVariants) + " are allowed");
 }
 
@@ -72,7 +72,7 @@ std::vector<double> parse_sweep(const std::string& parameter, const std::string&
   }
   if (!is_range) {
     if (std::set<double>(numbers.begin(), numbers.end()).size() < numbers.size()) {
-      throw UsageError(parameter + " is " + in_quotes(text) + ": a value appears twice");
+      throw UsageError(parameter + " is " + formats::in_quotes(text) + ": a value appears twice");
     }
     return numbers;
   }
@@ -100,9 +100,9 @@ std::vector<MadeVariant> variants_of(const MadeSweep& sweep) {
     variants = std::move(next);
   }
   for (const MadeVariant& one : variants) {
-    complete_values(parametric_kind(one.product.kind), one.product.given);
+    product::complete_values(product::parametric_kind(one.product.kind), one.product.given);
   }
   return variants;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -8,7 +8,7 @@
 
 #include "palmar/records/product/made_product.h"
 
-namespace palmar {
+namespace palmar::records {
 
 inline constexpr std::size_t kMostVariants = 1000;  // of one product
 
@@ -36,4 +36,4 @@ struct MadeVariant {
 /// on more than kMostVariants.
 std::vector<MadeVariant> variants_of(const MadeSweep& sweep);
 
-}  // namespace palmar
+}  // namespace palmar::records

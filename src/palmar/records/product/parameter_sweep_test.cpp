@@ -6,7 +6,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::ElementsAre;
@@ -86,10 +86,11 @@ TEST(MadeProduct, WordsThatDetermineNothingAreRefused) {
 }
 
 TEST(MadeProduct, AnAnalyticSolidTakesItsSize) {
-  const Product product = make_solid(made_from("made: cylinder diameter_mm=40"), {.size = 0.5});
+  const product::Product product =
+      make_solid(made_from("made: cylinder diameter_mm=40"), {.size = 0.5});
   EXPECT_NEAR(product.mesh.vertices.front().z(), -37.5, 1e-9);  // half of 150 mm long
   EXPECT_EQ(product.source, "made: cylinder diameter_mm=40");
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

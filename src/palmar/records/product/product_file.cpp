@@ -10,26 +10,27 @@
 #include "palmar/records/product/cad_format.h"
 #include "palmar/records/product/made_product.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 /// In which unit the size is judged. A foot, say, is none of Palmar's: its lengths are in mm
 /// already.
-UnitDecision decide(const ImportedCad& cad, const LoadProductOptions& options,
-                    const std::string& object) {
-  std::optional<LengthUnit> from_file = length_unit_named(cad.unit);
-  if (!from_file && !cad.unit.empty() && !options.unit) from_file = LengthUnit::kMillimetre;
-  const double per_unit =
-      millimetres_per(options.unit.value_or(from_file.value_or(LengthUnit::kMillimetre)));
+product::UnitDecision decide(const ImportedCad& cad, const LoadProductOptions& options,
+                             const std::string& object) {
+  std::optional<geometry::LengthUnit> from_file = geometry::length_unit_named(cad.unit);
+  if (!from_file && !cad.unit.empty() && !options.unit)
+    from_file = geometry::LengthUnit::kMillimetre;
+  const double per_unit = geometry::millimetres_per(
+      options.unit.value_or(from_file.value_or(geometry::LengthUnit::kMillimetre)));
   Box3 box;
   for (const Vec3& v : cad.mesh.mesh.vertices) box.extend(Vec3(v / per_unit));
-  return decide_unit(box, from_file, options.unit, object);
+  return product::decide_unit(box, from_file, options.unit, object);
 }
 
 /// read_mesh() for a place that takes CAD as well, and whose messages say so.
-MeshFile read_shape(const std::filesystem::path& path) {
+formats::MeshFile read_shape(const std::filesystem::path& path) {
   try {
-    return read_mesh(path);
+    return formats::read_mesh(path);
   } catch (const InputError& error) {
     std::string text = error.what();
     const std::string meshes = "glTF and GLB are read";
@@ -45,21 +46,23 @@ CadProduct load_cad_product(const std::filesystem::path& path, const LoadProduct
   const std::string object = path.string();
   ImportCadOptions import;
   import.chordal_error = options.chordal_error;
-  if (options.unit) import.millimetres_per_unit = millimetres_per(*options.unit);
+  if (options.unit) import.millimetres_per_unit = geometry::millimetres_per(*options.unit);
   CadProduct result;
   result.cad = import_cad(path, import, options.limits, options.progress);
-  UnitDecision decision = decide(result.cad, options, object);
-  if (decision.source == UnitSource::kProposed && decision.unit != LengthUnit::kMillimetre) {
+  product::UnitDecision decision = decide(result.cad, options, object);
+  if (decision.source == product::UnitSource::kProposed &&
+      decision.unit != geometry::LengthUnit::kMillimetre) {
     // A file without a unit whose size doesn't suggest mm: once more, so that the chordal error is
     // in mm.
-    import.millimetres_per_unit = millimetres_per(decision.unit);
+    import.millimetres_per_unit = geometry::millimetres_per(decision.unit);
     result.cad = import_cad(path, import, options.limits, options.progress);
   }
   const ImportedCad& cad = result.cad;
-  const LengthUnit unit = decision.unit;
-  decision.unit = LengthUnit::kMillimetre;  // the child has turned everything into mm
-  Product& product = result.product;
-  product = make_product(path.stem().string(), cad.mesh.mesh, decision, object, &cad.mesh.faces);
+  const geometry::LengthUnit unit = decision.unit;
+  decision.unit = geometry::LengthUnit::kMillimetre;  // the child has turned everything into mm
+  product::Product& product = result.product;
+  product =
+      product::make_product(path.stem().string(), cad.mesh.mesh, decision, object, &cad.mesh.faces);
   product.unit = unit;
   const std::string in_file = cad.unit.empty() ? "not stated" : cad.unit;
   product.notes.push_back(
@@ -70,16 +73,19 @@ CadProduct load_cad_product(const std::filesystem::path& path, const LoadProduct
   return result;
 }
 
-Product load_product(const std::filesystem::path& path, const LoadProductOptions& options) {
+product::Product load_product(const std::filesystem::path& path,
+                              const LoadProductOptions& options) {
   if (is_made(path.string())) return make_solid(made_from(path.string()));
   if (is_cad_file(path)) return load_cad_product(path, options).product;
-  const MeshFile file = read_shape(path);
+  const formats::MeshFile file = read_shape(path);
   Box3 box;
   for (const Vec3& v : file.mesh.vertices) box.extend(v);
-  const UnitDecision unit = decide_unit(box, file.unit, options.unit, path.string());
-  Product product = make_product(path.stem().string(), file.mesh, unit, path.string());
+  const product::UnitDecision unit =
+      product::decide_unit(box, file.unit, options.unit, path.string());
+  product::Product product =
+      product::make_product(path.stem().string(), file.mesh, unit, path.string());
   product.notes.insert(product.notes.end(), file.notes.begin(), file.notes.end());
   return product;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

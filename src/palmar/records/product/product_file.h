@@ -10,12 +10,12 @@
 #include "palmar/records/product/cad_file.h"
 #include "palmar/records/product/cad_worker.h"
 
-namespace palmar {
+namespace palmar::records {
 
 struct LoadProductOptions {
   /// Unit of the file. Unset: the format's own unit, else one proposed from the size against a hand
   /// and reported in Product::notes.
-  std::optional<LengthUnit> unit = {};
+  std::optional<geometry::LengthUnit> unit = {};
   // Of CAD files (STEP, IGES):
   std::optional<double> chordal_error =
       {};  ///< mm; unset: from size and smallest radius, reported in notes
@@ -27,14 +27,15 @@ struct LoadProductOptions {
 /// to mm, checks and repairs it, and prepares its distance field. The file's stem becomes the name.
 /// Of CAD, Product::faces shows the faces. Throws InputError naming the file and what is wrong with
 /// it, also when the unit can't be decided.
-Product load_product(const std::filesystem::path& path, const LoadProductOptions& options = {});
+product::Product load_product(const std::filesystem::path& path,
+                              const LoadProductOptions& options = {});
 
 /// A CAD file as product, and what else the file holds.
 struct CadProduct {
-  Product product;
+  product::Product product;
   ImportedCad cad;  ///< its mesh is the one before make_product()
 };
 CadProduct load_cad_product(const std::filesystem::path& path,
                             const LoadProductOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -10,7 +10,7 @@
 
 #include "palmar/formats/csv_reader.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr double kMpaPerKpa = 1e-3;
@@ -24,7 +24,7 @@ struct ValueColumn {
 constexpr ValueColumn kValueColumns[] = {
     {"force_n", 1.0, false}, {"pressure_kpa", kMpaPerKpa, true}, {"pressure_mpa", 1.0, true}};
 
-std::size_t need_column(const CsvFile& file, const char* name, const std::string& why) {
+std::size_t need_column(const formats::CsvFile& file, const char* name, const std::string& why) {
   const int column = file.column(name);
   if (column < 0) {
     file.fail(file.header_line, fmt::format("column {} is missing; {}", name, why));
@@ -32,7 +32,8 @@ std::size_t need_column(const CsvFile& file, const char* name, const std::string
   return static_cast<std::size_t>(column);
 }
 
-int whole_number(const CsvFile& file, const CsvFile::Row& row, std::size_t column) {
+int whole_number(const formats::CsvFile& file, const formats::CsvFile::Row& row,
+                 std::size_t column) {
   const double value = file.number(row, column);
   if (!(value >= 1.0 && value <= kMostNumber) || value != std::floor(value)) {
     file.fail(row.line, fmt::format("{} is {}; a whole number from 1 is needed",
@@ -43,8 +44,9 @@ int whole_number(const CsvFile& file, const CsvFile::Row& row, std::size_t colum
 
 }  // namespace
 
-MeasuredPressure read_measured_pressure(const std::string& path, const SensorLayout& layout) {
-  const CsvFile file = read_csv(path);
+study::MeasuredPressure read_measured_pressure(const std::string& path,
+                                               const study::SensorLayout& layout) {
+  const formats::CsvFile file = formats::read_csv(path);
   const ValueColumn* kind = nullptr;
   std::size_t value_column = 0;
   for (const ValueColumn& one : kValueColumns) {
@@ -61,16 +63,16 @@ MeasuredPressure read_measured_pressure(const std::string& path, const SensorLay
     file.fail(file.header_line,
               "no column has the load; force_n, pressure_kpa or pressure_mpa is needed");
   }
-  const bool is_mat = layout.kind == SensorKind::kMat;
-  const bool is_free = layout.kind == SensorKind::kFree;
+  const bool is_mat = layout.kind == study::SensorKind::kMat;
+  const bool is_free = layout.kind == study::SensorKind::kFree;
   const std::string of_kind = fmt::format("a {} layout needs it", name_of(layout.kind));
   const std::size_t patch = is_mat ? 0 : need_column(file, "patch", of_kind);
   const std::size_t row_column = is_free ? 0 : need_column(file, "row", of_kind);
   const std::size_t column_column = is_free ? 0 : need_column(file, "column", of_kind);
-  MeasuredPressure result;
+  study::MeasuredPressure result;
   result.source = path;
-  for (const CsvFile::Row& row : file.rows) {
-    MeasuredCell cell;
+  for (const formats::CsvFile::Row& row : file.rows) {
+    study::MeasuredCell cell;
     cell.line = row.line;
     cell.patch = is_mat ? "mat" : row.cells[patch];
     if (!is_free) {
@@ -90,4 +92,4 @@ MeasuredPressure read_measured_pressure(const std::string& path, const SensorLay
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -6,7 +6,7 @@
 
 #include "palmar/study/sensors/measured_pressure.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// What a sensor of that layout measured, from a CSV file as read_csv() takes it apart; one row per
 /// cell and frame. Columns:
@@ -20,6 +20,7 @@ namespace palmar {
 /// read, too. Throws InputError naming file, line, column and value: a column is missing or given
 /// twice (force and pressure), no number, a force below 0, a row or column that is no whole number
 /// from 1, no row at all.
-MeasuredPressure read_measured_pressure(const std::string& path, const SensorLayout& layout);
+study::MeasuredPressure read_measured_pressure(const std::string& path,
+                                               const study::SensorLayout& layout);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -11,7 +11,7 @@
 #include "palmar/records/sensors/measured_pressure_file.h"
 #include "palmar/records/sensors/sensor_layout_file.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using testing::AllOf;
@@ -21,12 +21,12 @@ using testing::HasSubstr;
 class TextFile {
  public:
   TextFile(const std::string& text, const std::string& name) : path_((folder_ / name).string()) {
-    write_file(path_, text);
+    formats::write_file(path_, text);
   }
   const std::string& path() const { return path_; }
 
  private:
-  TestFolder folder_;
+  formats::TestFolder folder_;
   std::string path_;
 };
 
@@ -44,7 +44,7 @@ std::string layout_refusal(const std::string& text) {
 std::string measured_refusal(const std::string& text, const std::string& layout = "mat") {
   const TextFile file(text, "grip.csv");
   try {
-    read_measured_pressure(file.path(), *sensor_layout_named(layout));
+    read_measured_pressure(file.path(), *study::sensor_layout_named(layout));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -56,8 +56,8 @@ TEST(SensorLayoutFile, ReadsMatsGlovesAndFreeSensors) {
       "name = \"grip\"\nkind = \"mat\"\npitch_mm = 4\nrows = 20\ncolumns = 30\n"
       "origin_mm = [1, 2, 3.5]\naxis = [0, 0, 2]\nseam = [1, 0, 0]\n",
       "mat.toml");
-  const SensorLayout sheet = read_sensor_layout(mat.path());
-  EXPECT_EQ(sheet.kind, SensorKind::kMat);
+  const study::SensorLayout sheet = read_sensor_layout(mat.path());
+  EXPECT_EQ(sheet.kind, study::SensorKind::kMat);
   EXPECT_EQ(sheet.pitch, 4.0);
   EXPECT_EQ(sheet.rows, 20);
   EXPECT_EQ(sheet.columns, 30);
@@ -66,15 +66,15 @@ TEST(SensorLayoutFile, ReadsMatsGlovesAndFreeSensors) {
       "name = \"g\"\nkind = \"glove\"\npitch_mm = 5\n[[patch]]\nregion = \"index_distal\"\n"
       "rows = 4\ncolumns = 3\n",
       "glove.toml");
-  const SensorLayout patches = read_sensor_layout(glove.path());
+  const study::SensorLayout patches = read_sensor_layout(glove.path());
   ASSERT_EQ(patches.patches.size(), 1U);
-  EXPECT_EQ(patches.patches[0].region, Region::kIndexDistal);
+  EXPECT_EQ(patches.patches[0].region, hand::Region::kIndexDistal);
   EXPECT_EQ(patches.patches[0].columns, 3);
   const TextFile pads(
       "name = \"p\"\nkind = \"free\"\n[[sensor]]\nname = \"trigger\"\nat_mm = [1, 0, 2]\n"
       "area_mm2 = 71\n",
       "pads.toml");
-  const SensorLayout single = read_sensor_layout(pads.path());
+  const study::SensorLayout single = read_sensor_layout(pads.path());
   ASSERT_EQ(single.sensors.size(), 1U);
   EXPECT_EQ(single.sensors[0].area, 71.0);
   EXPECT_EQ(read_sensor_layout("mat").pitch, 5.0);
@@ -105,7 +105,8 @@ TEST(SensorLayoutFile, NamesLineKeyAndValueOfWhatIsWrong) {
 
 TEST(MeasuredPressureFile, ReadsForceOrPressure) {
   const TextFile force("row;column;force_n;note\n1;2;0.5;a\n3;4;1.25;b\n", "grip.csv");
-  const MeasuredPressure grip = read_measured_pressure(force.path(), *sensor_layout_named("mat"));
+  const study::MeasuredPressure grip =
+      read_measured_pressure(force.path(), *study::sensor_layout_named("mat"));
   ASSERT_EQ(grip.cells.size(), 2U);
   EXPECT_EQ(grip.cells[1].row, 3);
   EXPECT_EQ(grip.cells[1].column, 4);
@@ -113,8 +114,8 @@ TEST(MeasuredPressureFile, ReadsForceOrPressure) {
   EXPECT_FALSE(grip.cells[1].is_pressure);
   EXPECT_EQ(grip.cells[1].line, 3);
   const TextFile pressure("patch,row,column,pressure_kpa\nthenar,1,1,40\n", "glove.csv");
-  const MeasuredPressure glove =
-      read_measured_pressure(pressure.path(), *sensor_layout_named("glove"));
+  const study::MeasuredPressure glove =
+      read_measured_pressure(pressure.path(), *study::sensor_layout_named("glove"));
   EXPECT_EQ(glove.cells[0].patch, "thenar");
   EXPECT_TRUE(glove.cells[0].is_pressure);
   EXPECT_NEAR(glove.cells[0].load, 0.04, 1e-12);  // MPa
@@ -138,4 +139,4 @@ TEST(MeasuredPressureFile, NamesLineColumnAndValueOfWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -7,12 +7,12 @@
 
 #include "palmar/records/json_values.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using SensorJson = nlohmann::ordered_json;
 
-SensorJson correlation_object(const Correlation& one) {
+SensorJson correlation_object(const statistics::Correlation& one) {
   SensorJson json = {{"r", one.r}, {"n", one.n}, {"p_value", one.p_value}};
   if (one.interval) {
     json["low"] = one.interval->low;
@@ -21,9 +21,9 @@ SensorJson correlation_object(const Correlation& one) {
   return json;
 }
 
-SensorJson pressure_comparison_object(const PressureComparison& one) {
+SensorJson pressure_comparison_object(const study::PressureComparison& one) {
   SensorJson parts = SensorJson::array();
-  for (const SensorPart& part : one.parts) {
+  for (const study::SensorPart& part : one.parts) {
     parts.push_back({{"name", part.name},
                      {"cells", part.cells},
                      {"measured_n", part.measured},
@@ -45,11 +45,11 @@ SensorJson pressure_comparison_object(const PressureComparison& one) {
 
 }  // namespace
 
-nlohmann::ordered_json sensor_object(const Assessment& assessment) {
-  const SensorReading& reading = *assessment.sensors;
-  const SensorLayout& layout = reading.layout;
+nlohmann::ordered_json sensor_object(const study::Assessment& assessment) {
+  const study::SensorReading& reading = *assessment.sensors;
+  const study::SensorLayout& layout = reading.layout;
   SensorJson cells = SensorJson::array();
-  for (const SensorCell& cell : reading.cells) {
+  for (const study::SensorCell& cell : reading.cells) {
     cells.push_back({{"patch", cell.patch},
                      {"row", cell.row},
                      {"column", cell.column},
@@ -74,4 +74,4 @@ nlohmann::ordered_json sensor_object(const Assessment& assessment) {
            assessment.measured ? pressure_comparison_object(*assessment.measured) : SensorJson()}};
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -6,7 +6,7 @@
 
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// The assessment's sensors: {"layout": {"name", "kind", "pitch_mm", "source"}, "rows", "columns",
 /// "force_n", "force_beside_n", "peak_pressure_mpa", "pressed_area_mm2", "cells": [{"patch", "row",
@@ -15,6 +15,6 @@ namespace palmar {
 /// "pearson": {"r", "n", "p_value", "low", "high"}, "spearman": {"r", "n", "p_value"}, "rms_mpa",
 /// "mean_difference_mpa", "parts": [{"name", "cells", "measured_n", "simulated_n"}],
 /// "cell_force_n": [...] in the order of the cells}}.
-nlohmann::ordered_json sensor_object(const Assessment& assessment);
+nlohmann::ordered_json sensor_object(const study::Assessment& assessment);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -6,7 +6,7 @@
 
 #include "palmar/study/sensors/sensor_layout.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// A built-in layout's name, or a TOML file (a name with a dot or a slash):
 ///
@@ -30,6 +30,6 @@ namespace palmar {
 ///
 /// Throws InputError naming file, line, key, value and what is allowed; UsageError for a name that
 /// is neither.
-SensorLayout read_sensor_layout(const std::string& name_or_file);
+study::SensorLayout read_sensor_layout(const std::string& name_or_file);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -6,7 +6,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr const char* kSmallToLarge = "small-to-large";
@@ -41,7 +41,7 @@ End end_of(const std::string& text, const std::string& words) {
 
 PopulationRequest people(bool are_women, const std::vector<double>& percentiles) {
   PopulationRequest request = population_request(are_women ? "ansur2_women" : "ansur2_men");
-  request.sampling.design = SamplingDesign::kPercentiles;
+  request.sampling.design = population::SamplingDesign::kPercentiles;
   request.sampling.percentiles = percentiles;
   request.sampling.residuals = false;
   return request;
@@ -78,4 +78,4 @@ std::vector<PopulationRequest> population_requests(const std::string& words) {
   return {people(true, women), people(false, men)};
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

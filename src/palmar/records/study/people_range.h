@@ -7,7 +7,7 @@
 
 #include "palmar/records/study/study_file.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Populations in one word: what population_request() takes, or people from one size to another:
 ///
@@ -23,4 +23,4 @@ std::vector<PopulationRequest> population_requests(const std::string& words);
 /// Whether these words name given people, so that a number of hands has no meaning.
 bool is_people_range(const std::string& words);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using ::testing::ElementsAre;
@@ -17,7 +17,7 @@ TEST(PeopleRange, OfOneSexHasBothEndsAndTheMiddle) {
   const auto women = population_requests("woman:P5..woman:P95");
   ASSERT_EQ(women.size(), 1u);
   EXPECT_EQ(women[0].preset, "ansur2_women");
-  EXPECT_EQ(women[0].sampling.design, SamplingDesign::kPercentiles);
+  EXPECT_EQ(women[0].sampling.design, population::SamplingDesign::kPercentiles);
   EXPECT_THAT(women[0].sampling.percentiles, ElementsAre(5, 50, 95));
   EXPECT_FALSE(women[0].sampling.residuals);
   EXPECT_THAT(population_requests("man:P75..man:P90")[0].sampling.percentiles, ElementsAre(75, 90));
@@ -55,4 +55,4 @@ TEST(PeopleRange, RefusesWhatIsNoRange) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

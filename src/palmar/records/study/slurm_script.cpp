@@ -13,7 +13,7 @@
 #include "palmar/formats/process/external_program.h"
 #include "palmar/records/fe/tetgen.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 // Named by array and shard: the job number of an array's last task is that of the whole array.
@@ -98,18 +98,18 @@ std::string slurm_script(const SlurmArray& array) {
 }
 
 std::string submit_to_slurm(const std::filesystem::path& script) {
-  const auto sbatch = find_program("sbatch");
+  const auto sbatch = formats::find_program("sbatch");
   if (!sbatch) {
-    throw ProgramMissing(
+    throw formats::ProgramMissing(
         "sbatch is not on PATH: Slurm is not installed here. Any other batch system runs the same "
         "shards: palmar study run FILE --shard k/n --out shard-k-of-n.palmar");
   }
   const std::filesystem::path folder = script.parent_path();
   const std::string log = "sbatch.log";
-  const int code = run_program(*sbatch, {"--parsable", script.string()}, folder, log);
+  const int code = formats::run_program(*sbatch, {"--parsable", script.string()}, folder, log);
   std::string said;
   try {
-    said = read_file(folder / log);
+    said = formats::read_file(folder / log);
   } catch (const InputError&) {
     said.clear();  // sbatch said nothing
   }
@@ -123,4 +123,4 @@ std::string submit_to_slurm(const std::filesystem::path& script) {
   return said.substr(0, said.find(';'));
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

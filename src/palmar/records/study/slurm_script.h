@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::records {
 
 /// A study as a Slurm job array: one task per shard.
 struct SlurmArray {
@@ -32,4 +32,4 @@ std::string slurm_script(const SlurmArray& array);
 /// with its words; ProgramMissing if there is no sbatch on PATH.
 std::string submit_to_slurm(const std::filesystem::path& script);
 
-}  // namespace palmar
+}  // namespace palmar::records

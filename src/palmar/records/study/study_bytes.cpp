@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/bytes.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr std::uint32_t kMostBytes = 1U << 30;
@@ -22,7 +22,7 @@ class Unpacker {
   template <typename T>
   T take() {
     if (bytes_.size() < sizeof(T)) fail();
-    const T value = read_value<T>(bytes_, 0);
+    const T value = formats::read_value<T>(bytes_, 0);
     bytes_.remove_prefix(sizeof(T));
     return value;
   }
@@ -61,7 +61,7 @@ void append_leb128(std::string& bytes, std::uint32_t value) {
 }
 
 void append_text(std::string& bytes, const std::string& text) {
-  append_value(bytes, static_cast<std::uint32_t>(text.size()));
+  formats::append_value(bytes, static_cast<std::uint32_t>(text.size()));
   bytes += text;
 }
 
@@ -70,7 +70,7 @@ void append_text(std::string& bytes, const std::string& text) {
 std::string pack(std::string_view bytes) {
   if (bytes.size() > kMostBytes) throw OutputError("more than 1 GiB can't be kept in one piece");
   std::string packed;
-  append_value(packed, static_cast<std::uint32_t>(bytes.size()));
+  formats::append_value(packed, static_cast<std::uint32_t>(bytes.size()));
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   const std::size_t head = packed.size();
   packed.resize(head + size);
@@ -96,26 +96,26 @@ std::string unpack(std::string_view packed) {
   return bytes;
 }
 
-std::string mesh_bytes(const TriangleMesh& mesh) {
+std::string mesh_bytes(const geometry::TriangleMesh& mesh) {
   std::string bytes;
-  append_value(bytes, static_cast<std::uint32_t>(mesh.vertices.size()));
-  append_value(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  formats::append_value(bytes, static_cast<std::uint32_t>(mesh.vertices.size()));
+  formats::append_value(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const Vec3& v : mesh.vertices) {
-    for (int c = 0; c < 3; ++c) append_value(bytes, v[c]);
+    for (int c = 0; c < 3; ++c) formats::append_value(bytes, v[c]);
   }
   for (const Triangle& t : mesh.triangles) {
-    for (const int v : t) append_value(bytes, static_cast<std::int32_t>(v));
+    for (const int v : t) formats::append_value(bytes, static_cast<std::int32_t>(v));
   }
   return bytes;
 }
 
-TriangleMesh mesh_from_bytes(std::string_view bytes) {
+geometry::TriangleMesh mesh_from_bytes(std::string_view bytes) {
   Unpacker unpacker(bytes, "a mesh");
   const auto vertices = unpacker.take<std::uint32_t>();
   const auto triangles = unpacker.take<std::uint32_t>();
   const std::uint64_t needed = std::uint64_t{24} * vertices + std::uint64_t{12} * triangles;
   if (needed != unpacker.rest().size()) unpacker.fail();
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   mesh.vertices.resize(vertices);
   mesh.triangles.resize(triangles);
   for (Vec3& v : mesh.vertices) {
@@ -130,9 +130,9 @@ TriangleMesh mesh_from_bytes(std::string_view bytes) {
   return mesh;
 }
 
-std::string field_bytes(const SparseField& field) {
+std::string field_bytes(const study::SparseField& field) {
   std::string bytes;
-  append_value(bytes, static_cast<std::uint32_t>(field.vertex.size()));
+  formats::append_value(bytes, static_cast<std::uint32_t>(field.vertex.size()));
   std::uint32_t last = 0;
   for (const int vertex : field.vertex) {
     const auto v = static_cast<std::uint32_t>(vertex);
@@ -140,17 +140,17 @@ std::string field_bytes(const SparseField& field) {
     last = v;
   }
   std::string plain;
-  for (const float value : field.value) append_value(plain, value);
+  for (const float value : field.value) formats::append_value(plain, value);
   for (std::size_t b = 0; b < sizeof(float); ++b) {
     for (std::size_t i = b; i < plain.size(); i += sizeof(float)) bytes += plain[i];
   }
   return bytes;
 }
 
-SparseField field_from_bytes(std::string_view bytes) {
+study::SparseField field_from_bytes(std::string_view bytes) {
   Unpacker unpacker(bytes, "a field");
   const std::size_t count = unpacker.take_count(1 + sizeof(float));
-  SparseField field;
+  study::SparseField field;
   field.vertex.resize(count);
   field.value.resize(count);
   std::uint32_t last = 0;
@@ -165,36 +165,36 @@ SparseField field_from_bytes(std::string_view bytes) {
     for (std::size_t i = 0; i < count; ++i) plain[i * sizeof(float) + b] = rest[b * count + i];
   }
   for (std::size_t i = 0; i < count; ++i) {
-    field.value[i] = read_value<float>(plain, i * sizeof(float));
+    field.value[i] = formats::read_value<float>(plain, i * sizeof(float));
   }
   return field;
 }
 
-std::string posture_bytes(const Posture& posture) {
+std::string posture_bytes(const hand::Posture& posture) {
   std::string bytes;
-  for (const double angle : posture.angle) append_value(bytes, angle);
+  for (const double angle : posture.angle) formats::append_value(bytes, angle);
   return bytes;
 }
 
-Posture posture_from_bytes(std::string_view bytes) {
+hand::Posture posture_from_bytes(std::string_view bytes) {
   Unpacker unpacker(bytes, "a posture");
-  Posture posture;
+  hand::Posture posture;
   for (double& angle : posture.angle) angle = unpacker.take<double>();
   unpacker.end();
   return posture;
 }
 
-std::string rigid_bytes(const Rigid3& rigid) {
+std::string rigid_bytes(const geometry::Rigid3& rigid) {
   std::string bytes;
   const Quat& q = rigid.rotation;
-  for (const double value : {q.w(), q.x(), q.y(), q.z()}) append_value(bytes, value);
-  for (int c = 0; c < 3; ++c) append_value(bytes, rigid.translation[c]);
+  for (const double value : {q.w(), q.x(), q.y(), q.z()}) formats::append_value(bytes, value);
+  for (int c = 0; c < 3; ++c) formats::append_value(bytes, rigid.translation[c]);
   return bytes;
 }
 
-Rigid3 rigid_from_bytes(std::string_view bytes) {
+geometry::Rigid3 rigid_from_bytes(std::string_view bytes) {
   Unpacker unpacker(bytes, "a placement");
-  Rigid3 rigid;
+  geometry::Rigid3 rigid;
   rigid.rotation.w() = unpacker.take<double>();
   rigid.rotation.x() = unpacker.take<double>();
   rigid.rotation.y() = unpacker.take<double>();
@@ -204,9 +204,9 @@ Rigid3 rigid_from_bytes(std::string_view bytes) {
   return rigid;
 }
 
-std::string record_bytes(const StudyRecord& record) {
+std::string record_bytes(const study::StudyRecord& record) {
   std::string bytes;
-  append_value(bytes, record.number);
+  formats::append_value(bytes, record.number);
   append_text(bytes, name_of(record.outcome));
   append_text(bytes, record.reason);
   append_text(bytes, std::string(name_of(record.grip)));
@@ -215,35 +215,35 @@ std::string record_bytes(const StudyRecord& record) {
        {record.force, record.grip_force, record.area, record.peak_pressure,
         record.peak_pressure_cells, record.mean_pressure, record.demand.range_share,
         record.demand.grip_strength, record.demand.nail_room}) {
-    append_value(bytes, value);
+    formats::append_value(bytes, value);
   }
   bytes += posture_bytes(record.posture) + rigid_bytes(record.product_from_hand);
-  for (const RegionRecord& region : record.regions) {
+  for (const study::RegionRecord& region : record.regions) {
     append_text(bytes, std::string(name_of(region.region)));
     for (const double value : {region.force, region.area, region.peak_pressure,
                                region.peak_pressure_cells, region.mean_pressure}) {
-      append_value(bytes, value);
+      formats::append_value(bytes, value);
     }
   }
-  for (const IndexRecord& index : record.indices) {
+  for (const study::IndexRecord& index : record.indices) {
     append_text(bytes, index.key);
-    append_value(bytes, index.value);
+    formats::append_value(bytes, index.value);
   }
   return bytes;
 }
 
-std::string hold_bytes(const StudyHold& held) {
-  const Hold& hold = held.hold;
+std::string hold_bytes(const study::StudyHold& held) {
+  const grasp::Hold& hold = held.hold;
   std::string bytes;
-  append_value(bytes, static_cast<std::int64_t>(hold.part));
+  formats::append_value(bytes, static_cast<std::int64_t>(hold.part));
   append_text(bytes, hold.part_name);
   append_text(bytes, std::string(name_of(hold.grip)));
   for (const double value : {hold.along, hold.edge, static_cast<double>(hold.toward), hold.turn}) {
-    append_value(bytes, value);
+    formats::append_value(bytes, value);
   }
   bytes += hold.is_over_end ? '\1' : '\0';
   append_text(bytes, held.words);
   return bytes;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

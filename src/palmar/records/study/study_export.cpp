@@ -19,7 +19,7 @@
 #include "palmar/records/study/study_plan_json.h"
 #include "palmar/study/assessment/grasp_indices.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,84 +70,85 @@ class CsvWriter {
 };
 
 std::string optional_cell(const std::optional<double>& value) {
-  return value ? shortest(*value) : "";
+  return value ? formats::shortest(*value) : "";
 }
 
-fs::path write_hands(const StudyPlan& plan, const fs::path& folder) {
-  std::set<HandDimension> given;
-  for (const StudyHand& hand : plan.hands) {
-    for (const SizedDimension& one : hand.sample.dimensions) given.insert(one.dimension);
+fs::path write_hands(const study::StudyPlan& plan, const fs::path& folder) {
+  std::set<hand::HandDimension> given;
+  for (const study::StudyHand& hand : plan.hands) {
+    for (const hand::SizedDimension& one : hand.sample.dimensions) given.insert(one.dimension);
   }
-  std::vector<HandDimension> columns;
+  std::vector<hand::HandDimension> columns;
   std::vector<std::string> header = {"hand", "population", "label",          "stratum",
                                      "sex",  "age_years",  "grip_strength_n"};
-  for (const HandDimension dimension : all_hand_dimensions()) {
+  for (const hand::HandDimension dimension : hand::all_hand_dimensions()) {
     if (given.count(dimension) == 0) continue;
     columns.push_back(dimension);
     header.push_back(name_of(dimension) + "_mm");
   }
   CsvWriter file(folder / "hands.csv", header);
   for (std::size_t h = 0; h < plan.hands.size(); ++h) {
-    const StudyHand& hand = plan.hands[h];
-    const HandSample& sample = hand.sample;
+    const study::StudyHand& hand = plan.hands[h];
+    const population::HandSample& sample = hand.sample;
     std::vector<std::string> row = {
         std::to_string(h),
         plan.populations[hand.population].population.name,
         sample.label,
         sample.stratum,
-        sample.sex ? name_of(*sample.sex) : "",
+        sample.sex ? population::name_of(*sample.sex) : "",
         optional_cell(sample.age),
-        sample.grip_strength > 0.0 ? shortest(sample.grip_strength) : ""};
-    for (const HandDimension dimension : columns) {
+        sample.grip_strength > 0.0 ? formats::shortest(sample.grip_strength) : ""};
+    for (const hand::HandDimension dimension : columns) {
       const auto found =
           std::find_if(sample.dimensions.begin(), sample.dimensions.end(),
-                       [&](const SizedDimension& one) { return one.dimension == dimension; });
-      row.push_back(found == sample.dimensions.end() ? "" : shortest(found->value));
+                       [&](const hand::SizedDimension& one) { return one.dimension == dimension; });
+      row.push_back(found == sample.dimensions.end() ? "" : formats::shortest(found->value));
     }
     file.add(std::move(row));
   }
   return file.finish();
 }
 
-fs::path write_products(const StudyPlan& plan, const fs::path& folder) {
+fs::path write_products(const study::StudyPlan& plan, const fs::path& folder) {
   CsvWriter file(folder / "products.csv", {"product", "name", "family", "size", "file",
                                            "content_sha256", "mass_kg", "posture_of"});
   for (std::size_t i = 0; i < plan.products.size(); ++i) {
-    const StudyProduct& one = plan.products[i];
-    file.add({std::to_string(i), one.name, one.family, shortest(one.size), one.file,
-              one.content_hash, shortest(one.mass), one.posture_of});
+    const study::StudyProduct& one = plan.products[i];
+    file.add({std::to_string(i), one.name, one.family, formats::shortest(one.size), one.file,
+              one.content_hash, formats::shortest(one.mass), one.posture_of});
   }
   return file.finish();
 }
 
-fs::path write_profiles(const StudyPlan& plan, const fs::path& folder) {
+fs::path write_profiles(const study::StudyPlan& plan, const fs::path& folder) {
   CsvWriter file(folder / "profiles.csv",
                  {"profile", "name", "range_share", "strength_share", "glove_thickness_mm",
                   "glove_shear_modulus_mpa", "nail_length_mm", "size_factor", "source"});
   for (std::size_t i = 0; i < plan.profiles.size(); ++i) {
-    const HandProfile& one = plan.profiles[i];
-    file.add({std::to_string(i), one.name, shortest(one.range_share), shortest(one.strength_share),
-              shortest(one.glove_thickness), shortest(one.glove_shear_modulus),
-              shortest(one.nail_length), shortest(one.size_factor), one.source});
+    const population::HandProfile& one = plan.profiles[i];
+    file.add({std::to_string(i), one.name, formats::shortest(one.range_share),
+              formats::shortest(one.strength_share), formats::shortest(one.glove_thickness),
+              formats::shortest(one.glove_shear_modulus), formats::shortest(one.nail_length),
+              formats::shortest(one.size_factor), one.source});
   }
   return file.finish();
 }
 
-fs::path write_settings(const StudyPlan& plan, const fs::path& folder) {
+fs::path write_settings(const study::StudyPlan& plan, const fs::path& folder) {
   CsvWriter file(
       folder / "settings.csv",
       {"setting", "name", "grip_force_n", "strength_share", "strength_n", "least_grip_force_n",
        "limit_depths", "palm_limit_depth_mm", "finger_limit_depth_mm", "friction", "is_balanced",
        "equations", "indices", "wrench_volume", "torque", "refine", "place"});
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
-    const StudySetting& one = plan.settings[i];
+    const study::StudySetting& one = plan.settings[i];
     file.add({std::to_string(i), one.name, optional_cell(one.grip_force),
               optional_cell(one.strength_share), optional_cell(one.strength),
-              one.least_grip_force > 0.0 ? shortest(one.least_grip_force) : "",
-              one.limit_depths ? "1" : "0", shortest(one.palm_limit_depth),
-              shortest(one.finger_limit_depth), shortest(one.friction), one.is_balanced ? "1" : "0",
-              name_of(one.model), one.indices ? "1" : "0", one.wrench_volume ? "1" : "0",
-              one.torque ? "1" : "0", one.refine ? "1" : "0",
+              one.least_grip_force > 0.0 ? formats::shortest(one.least_grip_force) : "",
+              one.limit_depths ? "1" : "0", formats::shortest(one.palm_limit_depth),
+              formats::shortest(one.finger_limit_depth), formats::shortest(one.friction),
+              one.is_balanced ? "1" : "0", name_of(one.model), one.indices ? "1" : "0",
+              one.wrench_volume ? "1" : "0", one.torque ? "1" : "0", one.refine ? "1" : "0",
               one.is_place_per_hand ? "per_hand" : "shared"});
   }
   return file.finish();
@@ -155,8 +156,8 @@ fs::path write_settings(const StudyPlan& plan, const fs::path& folder) {
 
 std::vector<std::string> posture_header() {
   std::vector<std::string> header = {"number"};
-  for (int d = 0; d < kDofCount; ++d) {
-    header.push_back(std::string(name_of(static_cast<Dof>(d))) + "_deg");
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    header.push_back(std::string(name_of(static_cast<hand::Dof>(d))) + "_deg");
   }
   for (const char* name :
        {"rotation_w", "rotation_x", "rotation_y", "rotation_z", "x_mm", "y_mm", "z_mm"}) {
@@ -165,19 +166,20 @@ std::vector<std::string> posture_header() {
   return header;
 }
 
-std::vector<std::string> posture_row(const StudyRecord& record) {
+std::vector<std::string> posture_row(const study::StudyRecord& record) {
   std::vector<std::string> row = {std::to_string(record.number)};
   for (const double angle : record.posture.angle)
-    row.push_back(shortest(kDegreesPerRadian * angle));
+    row.push_back(formats::shortest(geometry::kDegreesPerRadian * angle));
   const Quat& q = record.product_from_hand.rotation;
-  for (const double value : {q.w(), q.x(), q.y(), q.z()}) row.push_back(shortest(value));
-  for (int c = 0; c < 3; ++c) row.push_back(shortest(record.product_from_hand.translation[c]));
+  for (const double value : {q.w(), q.x(), q.y(), q.z()}) row.push_back(formats::shortest(value));
+  for (int c = 0; c < 3; ++c)
+    row.push_back(formats::shortest(record.product_from_hand.translation[c]));
   return row;
 }
 
-std::vector<std::string> grasp_row(const StudyPlan& plan, const StudyRecord& record) {
-  const StudyTask task = task_at(plan, record.number);
-  const StudyHand& hand = plan.hands[task.hand];
+std::vector<std::string> grasp_row(const study::StudyPlan& plan, const study::StudyRecord& record) {
+  const study::StudyTask task = study::task_at(plan, record.number);
+  const study::StudyHand& hand = plan.hands[task.hand];
   const auto& asked = plan.grips[task.grip];
   std::vector<std::string> row = {std::to_string(record.number),
                                   std::to_string(task.hand),
@@ -195,25 +197,26 @@ std::vector<std::string> grasp_row(const StudyPlan& plan, const StudyRecord& rec
        {record.grip_force, record.force, record.area, record.peak_pressure,
         record.peak_pressure_cells, record.mean_pressure, record.demand.range_share,
         record.demand.grip_strength, record.demand.nail_room}) {
-    row.push_back(shortest(value));
+    row.push_back(formats::shortest(value));
   }
-  row.push_back(fallbacks_in_words(record.fallbacks));
+  row.push_back(contact::fallbacks_in_words(record.fallbacks));
   if (!record.hold) {
     row.resize(row.size() + 7);
     return row;
   }
-  const Hold& hold = record.hold->hold;
-  row.insert(row.end(), {std::to_string(hold.part), hold.part_name,
-                         record.hold->kind ? name_of(*record.hold->kind) : "", shortest(hold.along),
-                         std::to_string(hold.toward), shortest(hold.turn * kDegreesPerRadian),
-                         record.hold->words});
+  const grasp::Hold& hold = record.hold->hold;
+  row.insert(row.end(),
+             {std::to_string(hold.part), hold.part_name,
+              record.hold->kind ? name_of(*record.hold->kind) : "", formats::shortest(hold.along),
+              std::to_string(hold.toward),
+              formats::shortest(hold.turn * geometry::kDegreesPerRadian), record.hold->words});
   return row;
 }
 
-void add_field(CsvWriter& file, const std::string& number, const SparseField& field) {
+void add_field(CsvWriter& file, const std::string& number, const study::SparseField& field) {
   for (std::size_t i = 0; i < field.vertex.size(); ++i) {
-    file.add(
-        {number, std::to_string(field.vertex[i]), shortest(static_cast<double>(field.value[i]))});
+    file.add({number, std::to_string(field.vertex[i]),
+              formats::shortest(static_cast<double>(field.value[i]))});
   }
 }
 
@@ -221,8 +224,8 @@ void add_field(CsvWriter& file, const std::string& number, const SparseField& fi
 
 std::vector<fs::path> export_study(const StudyStore& store, const fs::path& folder,
                                    bool with_fields, const Progress& progress) {
-  create_folder(folder);
-  const StudyPlan& plan = store.plan();
+  formats::create_folder(folder);
+  const study::StudyPlan& plan = store.plan();
   std::vector<fs::path> files = {write_hands(plan, folder), write_products(plan, folder),
                                  write_profiles(plan, folder), write_settings(plan, folder)};
   CsvWriter grasps(folder / "grasps.csv", {"number",
@@ -258,7 +261,7 @@ std::vector<fs::path> export_study(const StudyStore& store, const fs::path& fold
                     {"number", "region", "force_n", "contact_area_mm2", "peak_pressure_mpa",
                      "peak_pressure_cells_mpa", "mean_pressure_mpa"});
   std::vector<std::string> keys, index_header = {"number"};
-  for (const GraspIndex& one : index_catalogue()) keys.push_back(one.key);
+  for (const grasp::GraspIndex& one : study::index_catalogue()) keys.push_back(one.key);
   index_header.insert(index_header.end(), keys.begin(), keys.end());
   CsvWriter indices(folder / "indices.csv", index_header);
   CsvWriter postures(folder / "postures.csv", posture_header());
@@ -268,22 +271,23 @@ std::vector<fs::path> export_study(const StudyStore& store, const fs::path& fold
     skin = std::make_unique<CsvWriter>(folder / "skin_pressure.csv", header);
     product = std::make_unique<CsvWriter>(folder / "product_pressure.csv", header);
   }
-  const auto total = static_cast<double>(task_count(plan));
-  store.for_each(with_fields, [&](const StudyRecord& record) {
+  const auto total = static_cast<double>(study::task_count(plan));
+  store.for_each(with_fields, [&](const study::StudyRecord& record) {
     progress.update(static_cast<double>(record.number) / total, "writing tables");
     const std::string number = std::to_string(record.number);
     grasps.add(grasp_row(plan, record));
-    for (const RegionRecord& one : record.regions) {
-      regions.add({number, std::string(name_of(one.region)), shortest(one.force),
-                   shortest(one.area), shortest(one.peak_pressure),
-                   shortest(one.peak_pressure_cells), shortest(one.mean_pressure)});
+    for (const study::RegionRecord& one : record.regions) {
+      regions.add({number, std::string(name_of(one.region)), formats::shortest(one.force),
+                   formats::shortest(one.area), formats::shortest(one.peak_pressure),
+                   formats::shortest(one.peak_pressure_cells),
+                   formats::shortest(one.mean_pressure)});
     }
     std::map<std::string, double> values;
-    for (const IndexRecord& one : record.indices) values[one.key] = one.value;
+    for (const study::IndexRecord& one : record.indices) values[one.key] = one.value;
     std::vector<std::string> row = {number};
     for (const std::string& key : keys) {
       const auto found = values.find(key);
-      row.push_back(found == values.end() ? "" : shortest(found->second));
+      row.push_back(found == values.end() ? "" : formats::shortest(found->second));
     }
     indices.add(std::move(row));
     postures.add(posture_row(record));
@@ -297,9 +301,9 @@ std::vector<fs::path> export_study(const StudyStore& store, const fs::path& fold
     files.push_back(skin->finish());
     files.push_back(product->finish());
   }
-  write_file(folder / "plan.json", format_plan(plan) + "\n");
+  formats::write_file(folder / "plan.json", format_plan(plan) + "\n");
   files.push_back(folder / "plan.json");
   return files;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

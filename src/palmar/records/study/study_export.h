@@ -9,7 +9,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/records/study/study_store.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Writes a study's tables as CSV files into a folder (made if missing), units in the headers:
 ///
@@ -28,4 +28,4 @@ std::vector<std::filesystem::path> export_study(const StudyStore& store,
                                                 const std::filesystem::path& folder,
                                                 bool with_fields, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -21,7 +21,7 @@
 #include "palmar/study/assessment/grasp_indices.h"
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ constexpr double kAny = 1e6;  // mm; bound of coordinates
 
 /// Runs `body`; what a module below complains of gets the file's line.
 template <typename Body>
-auto at_key(const TomlSection& section, const std::string& key, const Body& body) {
+auto at_key(const formats::TomlSection& section, const std::string& key, const Body& body) {
   try {
     return body();
   } catch (const UsageError& error) {
@@ -39,18 +39,18 @@ auto at_key(const TomlSection& section, const std::string& key, const Body& body
   }
 }
 
-std::string place_of(const TomlSection& section) {
+std::string place_of(const formats::TomlSection& section) {
   const auto line = std::max<std::uint32_t>(1, section.values().source().begin.line);
   return section.path() + ":" + std::to_string(line) + ": ";
 }
 
 /// A path in the file starts from the file's folder.
-std::string from_folder(const TomlSection& section, const std::string& path) {
+std::string from_folder(const formats::TomlSection& section, const std::string& path) {
   if (fs::path(path).is_absolute()) return path;
   return (fs::path(section.path()).parent_path() / path).string();
 }
 
-std::optional<Vec3> read_vector(const TomlSection& section, const std::string& key,
+std::optional<Vec3> read_vector(const formats::TomlSection& section, const std::string& key,
                                 const std::string& unit) {
   if (!section.has(key)) return std::nullopt;
   const std::vector<double> values = section.numbers(key, unit, -kAny, kAny);
@@ -62,7 +62,7 @@ std::optional<Vec3> read_vector(const TomlSection& section, const std::string& k
   return Vec3(values[0], values[1], values[2]);
 }
 
-PopulationRequest read_population_request(const TomlSection& section) {
+PopulationRequest read_population_request(const formats::TomlSection& section) {
   section.allow({"preset", "file", "table", "design", "hands", "residuals", "boundary",
                  "boundary_points", "percentiles", "seed"});
   PopulationRequest request;
@@ -84,11 +84,11 @@ PopulationRequest read_population_request(const TomlSection& section) {
       if (section.has(key)) section.fail(key, "has no meaning with table: its hands are given");
     }
   }
-  SamplingOptions& sampling = request.sampling;
+  population::SamplingOptions& sampling = request.sampling;
   if (const auto design = section.text("design")) {
-    const auto known = sampling_design_named(*design);
+    const auto known = population::sampling_design_named(*design);
     if (!known) {
-      section.fail("design", "is " + in_quotes(*design) +
+      section.fail("design", "is " + formats::in_quotes(*design) +
                                  "; latin_hypercube, random, boundary or percentiles is allowed");
     }
     sampling.design = *known;
@@ -116,17 +116,17 @@ PopulationRequest read_population_request(const TomlSection& section) {
   return request;
 }
 
-HandProfile read_profile(const TomlSection& section) {
+population::HandProfile read_profile(const formats::TomlSection& section) {
   section.allow({"name", "range_share", "strength_share", "glove_thickness_mm",
                  "glove_shear_modulus_mpa", "nail_length_mm", "size_factor", "source"});
   const std::string name = section.need_text("name");
-  HandProfile profile;
+  population::HandProfile profile;
   profile.name = name;
   const bool is_own = section.values().size() > 1;  // only a name: one of ours
-  for (const HandProfile& known : built_in_profiles()) {
+  for (const population::HandProfile& known : population::built_in_profiles()) {
     if (known.name == name) profile = known;
   }
-  if (!is_own) profile = at_key(section, "name", [&] { return profile_named(name); });
+  if (!is_own) profile = at_key(section, "name", [&] { return population::profile_named(name); });
   const auto set = [&](const char* key, const char* unit, double lowest, double highest,
                        double& value) {
     value = section.number(key, unit, lowest, highest).value_or(value);
@@ -151,9 +151,10 @@ HandProfile read_profile(const TomlSection& section) {
 }
 
 /// 35, [30, 35, 40], {from = 30, to = 50, step = 5} or "30:50:5".
-std::vector<double> read_sweep(const TomlSection& section, const KindParameter& parameter) {
+std::vector<double> read_sweep(const formats::TomlSection& section,
+                               const product::KindParameter& parameter) {
   const std::string& key = parameter.name;
-  const std::string unit = unit_of_parameter(key);
+  const std::string unit = product::unit_of_parameter(key);
   const double lowest = parameter.lowest, highest = parameter.highest;
   const toml::node* node = section.values().get(key);
   if (node->is_string()) {
@@ -165,7 +166,7 @@ std::vector<double> read_sweep(const TomlSection& section, const KindParameter& 
     return values;
   }
   if (!node->is_table()) return {section.need_number(key, unit, lowest, highest)};
-  const TomlSection sweep = *section.table(key);
+  const formats::TomlSection sweep = *section.table(key);
   sweep.allow({"from", "to", "step"});
   const double from = sweep.need_number("from", unit, lowest, highest);
   const double to = sweep.need_number("to", unit, from, highest);
@@ -178,7 +179,8 @@ std::vector<double> read_sweep(const TomlSection& section, const KindParameter& 
 }
 
 /// "+x", "-z", "up", "down" or a list of three numbers.
-std::optional<Vec3> read_direction(const TomlSection& section, const char* key, const Vec3& up) {
+std::optional<Vec3> read_direction(const formats::TomlSection& section, const char* key,
+                                   const Vec3& up) {
   const toml::node* node = section.values().get(key);
   if (node == nullptr) return std::nullopt;
   if (!node->is_string()) {
@@ -194,16 +196,16 @@ std::optional<Vec3> read_direction(const TomlSection& section, const char* key, 
   const bool has_sign = !text.empty() && (text[0] == '+' || text[0] == '-');
   const std::string axis = has_sign ? text.substr(1) : text;
   if (axis != "x" && axis != "y" && axis != "z") {
-    section.fail(key,
-                 "is " + in_quotes(text) + "; up, down, an axis as \"+x\" or [x, y, z] is allowed");
+    section.fail(key, "is " + formats::in_quotes(text) +
+                          "; up, down, an axis as \"+x\" or [x, y, z] is allowed");
   }
   return Vec3((text[0] == '-' ? -1.0 : 1.0) * Vec3::Unit(axis[0] - 'x'));
 }
 
 /// By which part and how a product is held, without coordinates.
-HoldRequest read_holding(const TomlSection& section) {
+grasp::HoldRequest read_holding(const formats::TomlSection& section) {
   constexpr int kMostNumber = 10'000;
-  HoldRequest holding;
+  grasp::HoldRequest holding;
   const auto is_text = [&](const char* key) {
     const toml::node* node = section.values().get(key);
     return node != nullptr && node->is_string();
@@ -223,15 +225,16 @@ HoldRequest read_holding(const TomlSection& section) {
   holding.toward = read_direction(section, "toward", holding.up.value_or(Vec3::UnitZ()));
   if (const auto purpose = section.text("purpose")) {
     if (*purpose != "use" && *purpose != "hand_over") {
-      section.fail("purpose", "is " + in_quotes(*purpose) + "; use or hand_over is allowed");
+      section.fail("purpose",
+                   "is " + formats::in_quotes(*purpose) + "; use or hand_over is allowed");
     }
-    if (*purpose == "hand_over") holding.purpose = HoldPurpose::kHandOver;
+    if (*purpose == "hand_over") holding.purpose = grasp::HoldPurpose::kHandOver;
   }
   return holding;
 }
 
-void check_holding(const TomlSection& section, const StudyProduct& product) {
-  GraspSettings settings;
+void check_holding(const formats::TomlSection& section, const study::StudyProduct& product) {
+  grasp::GraspSettings settings;
   settings.placement.at = product.at;
   settings.placement.axis = product.axis;
   settings.holding = product.holding;
@@ -243,15 +246,15 @@ void check_holding(const TomlSection& section, const StudyProduct& product) {
 }
 
 /// A product of the file; a sweep over a parameter makes several.
-std::vector<ProductRequest> read_products(const TomlSection& section) {
+std::vector<ProductRequest> read_products(const formats::TomlSection& section) {
   std::vector<std::string> known = {"name",    "file",       "unit", "sizes",  "at_mm", "axis",
                                     "mass_kg", "posture_of", "kind", "family", "hold",  "part",
                                     "along",   "toward",     "up",   "purpose"};
   const std::string kind = section.text("kind").value_or("");
-  const ParametricKind* made = nullptr;
+  const product::ParametricKind* made = nullptr;
   if (section.has("kind")) {
-    made = at_key(section, "kind", [&] { return &parametric_kind(kind); });
-    for (const KindParameter& one : made->parameters) known.push_back(one.name);
+    made = at_key(section, "kind", [&] { return &product::parametric_kind(kind); });
+    for (const product::KindParameter& one : made->parameters) known.push_back(one.name);
   }
   section.allow(known);
   if (section.has("file") == section.has("kind")) {
@@ -267,7 +270,7 @@ std::vector<ProductRequest> read_products(const TomlSection& section) {
   }
   if (const auto unit = section.text("unit")) {
     if (request.file.empty()) section.fail("unit", "has no meaning for a solid: it is in mm");
-    request.unit = at_key(section, "unit", [&] { return length_unit(*unit); });
+    request.unit = at_key(section, "unit", [&] { return geometry::length_unit(*unit); });
   }
   if (section.has("sizes")) {
     request.sizes = section.numbers("sizes", "", 0.05, 20.0);
@@ -288,7 +291,7 @@ std::vector<ProductRequest> read_products(const TomlSection& section) {
   if (made == nullptr) return {request};
 
   MadeSweep sweep{kind, {}};
-  for (const KindParameter& one : made->parameters) {
+  for (const product::KindParameter& one : made->parameters) {
     if (section.has(one.name)) sweep.given.emplace_back(one.name, read_sweep(section, one));
   }
   std::vector<MadeVariant> variants;
@@ -311,8 +314,8 @@ std::vector<ProductRequest> read_products(const TomlSection& section) {
 
 /// The word under `key`, if there is one: the name of one of `allowed`.
 template <typename Enum, std::size_t kCount>
-void read_word(const TomlSection& section, const char* key, const std::array<Enum, kCount>& allowed,
-               Enum& value) {
+void read_word(const formats::TomlSection& section, const char* key,
+               const std::array<Enum, kCount>& allowed, Enum& value) {
   const auto word = section.text(key);
   if (!word) return;
   std::string list;
@@ -323,15 +326,16 @@ void read_word(const TomlSection& section, const char* key, const std::array<Enu
     }
     list += (list.empty() ? "" : " or ") + std::string(name_of(one));
   }
-  section.fail(key, "is " + in_quotes(*word) + "; " + list + " is allowed");
+  section.fail(key, "is " + formats::in_quotes(*word) + "; " + list + " is allowed");
 }
 
-StudySetting read_setting(const TomlSection& section, const std::string& default_name) {
+study::StudySetting read_setting(const formats::TomlSection& section,
+                                 const std::string& default_name) {
   section.allow({"name", "palm_limit_depth_mm", "finger_limit_depth_mm", "grip_force_n",
                  "strength_share", "strength_n", "limit_depths", "friction", "balance", "preset",
                  "kernel", "tissue_model", "regions", "indices", "wrench_volume", "torque",
                  "refine", "place"});
-  StudySetting setting;
+  study::StudySetting setting;
   setting.name = section.text("name").value_or(default_name);
   const auto set = [&](const char* key, const char* unit, double lowest, double highest,
                        double& value) {
@@ -356,18 +360,19 @@ StudySetting read_setting(const TomlSection& section, const std::string& default
                                      " exclude each other; one is allowed");
   }
   if (const auto preset = section.text("preset")) {
-    const auto model = contact_model_named(*preset);
+    const auto model = contact::contact_model_named(*preset);
     if (!model) {
-      section.fail("preset", "is " + in_quotes(*preset) + "; palmar or xie2014 is allowed");
+      section.fail("preset",
+                   "is " + formats::in_quotes(*preset) + "; palmar or xie2014 is allowed");
     }
     setting.model = *model;
     // The thesis leaves the hand as it was closed.
     if (*preset == "xie2014") setting.is_balanced = false;
   }
-  read_word(section, "kernel", kKernels, setting.model.kernel);
-  read_word(section, "tissue_model", kTissueModels, setting.model.tissue);
-  read_word(section, "regions", kRegionCouplings, setting.model.coupling);
-  if (!section.has("tissue_model")) setting.model = with_permitted_tissue(setting.model);
+  read_word(section, "kernel", contact::kKernels, setting.model.kernel);
+  read_word(section, "tissue_model", contact::kTissueModels, setting.model.tissue);
+  read_word(section, "regions", contact::kRegionCouplings, setting.model.coupling);
+  if (!section.has("tissue_model")) setting.model = contact::with_permitted_tissue(setting.model);
   setting.is_balanced = section.boolean("balance").value_or(setting.is_balanced);
   setting.indices = section.boolean("indices").value_or(setting.indices);
   setting.wrench_volume = section.boolean("wrench_volume").value_or(setting.wrench_volume);
@@ -376,7 +381,7 @@ StudySetting read_setting(const TomlSection& section, const std::string& default
   if (const auto place = section.text("place")) {
     setting.is_place_per_hand = *place == "per_hand";
     if (!setting.is_place_per_hand && *place != "shared") {
-      section.fail("place", "is " + in_quotes(*place) + "; shared or per_hand is allowed");
+      section.fail("place", "is " + formats::in_quotes(*place) + "; shared or per_hand is allowed");
     }
   }
   return setting;
@@ -385,19 +390,19 @@ StudySetting read_setting(const TomlSection& section, const std::string& default
 /// Keys of every number that a grasp can have.
 std::vector<std::string> quantity_keys() {
   std::vector<std::string> keys;
-  for (const StudyQuantity& one : hand_quantities()) keys.push_back(one.key);
-  for (const GraspIndex& one : index_catalogue()) keys.push_back(one.key);
+  for (const study::StudyQuantity& one : study::hand_quantities()) keys.push_back(one.key);
+  for (const grasp::GraspIndex& one : study::index_catalogue()) keys.push_back(one.key);
   return keys;
 }
 
-StudyLimit read_limit(const TomlSection& section) {
+study::StudyLimit read_limit(const formats::TomlSection& section) {
   section.allow({"quantity", "lowest", "highest"});
-  StudyLimit limit;
+  study::StudyLimit limit;
   limit.quantity = section.need_text("quantity");
   const std::vector<std::string> keys = quantity_keys();
   if (std::find(keys.begin(), keys.end(), limit.quantity) == keys.end()) {
     const std::string nearest = nearest_name(limit.quantity, keys);
-    section.fail("quantity", "is " + in_quotes(limit.quantity) + ", which no grasp has" +
+    section.fail("quantity", "is " + formats::in_quotes(limit.quantity) + ", which no grasp has" +
                                  (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
   }
   constexpr double kMost = 1e12;
@@ -407,8 +412,8 @@ StudyLimit read_limit(const TomlSection& section) {
     section.fail("has neither lowest nor highest; at least one is required");
   }
   if (limit.lowest && limit.highest && *limit.lowest > *limit.highest) {
-    section.fail("lowest",
-                 "is " + shortest(*limit.lowest) + ", above highest, " + shortest(*limit.highest));
+    section.fail("lowest", "is " + formats::shortest(*limit.lowest) + ", above highest, " +
+                               formats::shortest(*limit.highest));
   }
   return limit;
 }
@@ -429,19 +434,20 @@ PopulationRequest population_request(const std::string& words) {
   return request;
 }
 
-std::optional<Grip> asked_grip_named(const std::string& name) {
+std::optional<grasp::Grip> asked_grip_named(const std::string& name) {
   if (name == "any" || name == "auto") return std::nullopt;  // "auto": its name until 0.1.0
-  if (const auto grip = grip_named(name)) return grip;
+  if (const auto grip = grasp::grip_named(name)) return grip;
   std::vector<std::string> known = {"any"};
-  for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));
-  throw UsageError("grip " + in_quotes(name) + " is not known; " +
+  for (int g = 0; g < grasp::kGripCount; ++g)
+    known.emplace_back(name_of(static_cast<grasp::Grip>(g)));
+  throw UsageError("grip " + formats::in_quotes(name) + " is not known; " +
                    did_you_mean(name, known, "allowed are " + joined(known, ", ")));
 }
 
 StudyRequest read_study_file(const std::string& path) {
-  const std::string text = read_file(path, kMaxStudyBytes);
-  const toml::table values = parse_toml(text, path);
-  const TomlSection file(path, "", values);
+  const std::string text = formats::read_file(path, kMaxStudyBytes);
+  const toml::table values = formats::parse_toml(text, path);
+  const formats::TomlSection file(path, "", values);
   file.allow({"study", "population", "profile", "product", "settings", "setting", "limit"});
   StudyRequest request;
   request.where = path;
@@ -461,16 +467,16 @@ StudyRequest read_study_file(const std::string& path) {
       }
     }
   }
-  for (const TomlSection& one : file.tables("population")) {
+  for (const formats::TomlSection& one : file.tables("population")) {
     request.populations.push_back(read_population_request(one));
   }
   if (request.populations.empty()) {
     file.fail("no [[population]]: whose hands is not said; preset = \"xie2014\" is one");
   }
-  for (const TomlSection& one : file.tables("profile")) {
+  for (const formats::TomlSection& one : file.tables("profile")) {
     request.profiles.push_back(read_profile(one));
   }
-  for (const TomlSection& one : file.tables("product")) {
+  for (const formats::TomlSection& one : file.tables("product")) {
     for (ProductRequest& product : read_products(one)) {
       request.products.push_back(std::move(product));
     }
@@ -484,12 +490,13 @@ StudyRequest read_study_file(const std::string& path) {
   if (const auto settings = file.table("settings")) {
     request.settings.push_back(read_setting(*settings, "default"));
   }
-  for (const TomlSection& one : file.tables("setting")) {
+  for (const formats::TomlSection& one : file.tables("setting")) {
     request.settings.push_back(
         read_setting(one, "setting " + std::to_string(request.settings.size() + 1)));
   }
-  for (const TomlSection& one : file.tables("limit")) request.limits.push_back(read_limit(one));
+  for (const formats::TomlSection& one : file.tables("limit"))
+    request.limits.push_back(read_limit(one));
   return request;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -12,7 +12,7 @@
 #include "palmar/study/study_plan.h"
 #include "palmar/study/study_run.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// A population as asked for: by one of the three.
 struct PopulationRequest {
@@ -20,9 +20,9 @@ struct PopulationRequest {
   std::string file;    ///< population file (records/population/population_file.h)
   std::string
       table;  ///< given hands: a table of subjects (records/population/dimension_table_file.h)
-  SamplingOptions sampling;  ///< of a table nothing: every subject is a hand
-  bool has_seed = false;     ///< else sampling.seed follows the study's
-  std::string where;         ///< "study.toml:7: ", put in front of messages; may be empty
+  population::SamplingOptions sampling;  ///< of a table nothing: every subject is a hand
+  bool has_seed = false;                 ///< else sampling.seed follows the study's
+  std::string where;  ///< "study.toml:7: ", put in front of messages; may be empty
 };
 
 /// A population in one word: "xie2014", "folder/people.toml" (a population file), "measured.csv"
@@ -31,13 +31,13 @@ PopulationRequest population_request(const std::string& words);
 
 /// One or more products as asked for: a file or a solid, in all its sizes.
 struct ProductRequest {
-  std::string name;                ///< "": the file's stem, or kind and first value
-  std::string file;                ///< mesh or CAD file, "made: ...", or "" for `made`
-  std::string written;             ///< the same as the study file has it; "": as in `file`
-  std::optional<LengthUnit> unit;  ///< of the file
+  std::string name;     ///< "": the file's stem, or kind and first value
+  std::string file;     ///< mesh or CAD file, "made: ...", or "" for `made`
+  std::string written;  ///< the same as the study file has it; "": as in `file`
+  std::optional<geometry::LengthUnit> unit;  ///< of the file
   MadeProduct made;
   std::vector<double> sizes = {1.0};
-  StudyProduct held;  ///< at, axis, mass, posture_of
+  study::StudyProduct held;  ///< at, axis, mass, posture_of
   std::string where;
 };
 
@@ -47,11 +47,11 @@ struct StudyRequest {
   std::uint64_t seed = 1;
   std::string hand = "template";  ///< "template", or a hand file
   std::vector<PopulationRequest> populations;
-  std::vector<HandProfile> profiles;
+  std::vector<population::HandProfile> profiles;
   std::vector<ProductRequest> products;
-  std::vector<std::optional<Grip>> grips;
-  std::vector<StudySetting> settings;
-  std::vector<StudyLimit> limits;
+  std::vector<std::optional<grasp::Grip>> grips;
+  std::vector<study::StudySetting> settings;
+  std::vector<study::StudyLimit> limits;
   std::string where;  ///< file, or ""
 };
 
@@ -64,19 +64,19 @@ StudyRequest read_study_file(const std::string& path);
 /// setting, in each the usual grip force (grasp/task_force.h). Throws UsageError or
 /// InputError.
 struct LoadedStudy {
-  StudyPlan plan;
-  StudyInputs inputs;
+  study::StudyPlan plan;
+  study::StudyInputs inputs;
   std::vector<std::string> notes;  ///< for the user: proposed units, cautions of populations, the
                                    ///< grip force that was filled in
 };
 /// Draws the hands, reads and makes the products. `hand`: the one that `request.hand` names.
-LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> hand);
+LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const hand::Hand> hand);
 
 /// Throws UsageError if the file of a product of the plan is found, from the working folder or from
 /// `folder`, but nowhere as the study began with it.
-void check_products(const StudyPlan& plan, const std::filesystem::path& folder = {});
+void check_products(const study::StudyPlan& plan, const std::filesystem::path& folder = {});
 
 /// "auto" (nothing inside) or a grip's name. Throws UsageError naming the nearest.
-std::optional<Grip> asked_grip_named(const std::string& name);
+std::optional<grasp::Grip> asked_grip_named(const std::string& name);
 
-}  // namespace palmar
+}  // namespace palmar::records

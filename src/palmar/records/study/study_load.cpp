@@ -24,7 +24,7 @@
 #include "palmar/study/assessment/held_torque.h"
 #include "palmar/study/study_task.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 /// `body`, with the place in the study file before what it complains of.
@@ -41,22 +41,23 @@ void at_place(const std::string& where, const Body& body) {
 }
 
 /// Hands of a table, each as it was measured.
-std::vector<HandSample> given_hands(const std::string& path, std::vector<std::string>& notes) {
-  const DimensionTable table = read_dimension_table(path);
+std::vector<population::HandSample> given_hands(const std::string& path,
+                                                std::vector<std::string>& notes) {
+  const population::DimensionTable table = read_dimension_table(path);
   for (const std::string& text : table.notes) notes.push_back(path + ": " + text);
-  std::vector<HandSample> hands;
+  std::vector<population::HandSample> hands;
   for (int s = 0; s < table.subjects(); ++s) {
-    HandSample hand;
+    population::HandSample hand;
     hand.label = std::to_string(s + 1);
-    for (const TableColumn& column : table.columns) {
+    for (const population::TableColumn& column : table.columns) {
       const bool has_text = !column.is_number && !column.texts[s].empty();
       const bool has_value = column.is_number && column.values[s].has_value();
-      if (has_text && column.name == "sex") hand.sex = sex_of_text(column.texts[s]);
-      if (has_text && column.quantity == Quantity::kLabel) hand.label = column.texts[s];
-      if (has_value && column.quantity == Quantity::kLabel) {
-        hand.label = shortest(*column.values[s]);
+      if (has_text && column.name == "sex") hand.sex = population::sex_of_text(column.texts[s]);
+      if (has_text && column.quantity == population::Quantity::kLabel) hand.label = column.texts[s];
+      if (has_value && column.quantity == population::Quantity::kLabel) {
+        hand.label = formats::shortest(*column.values[s]);
       }
-      if (has_value && column.quantity == Quantity::kAge) hand.age = column.values[s];
+      if (has_value && column.quantity == population::Quantity::kAge) hand.age = column.values[s];
       if (has_value && column.name == "grip_strength" && column.unit == "n") {
         hand.grip_strength = *column.values[s];  // N
       }
@@ -69,7 +70,7 @@ std::vector<HandSample> given_hands(const std::string& path, std::vector<std::st
                        ": no dimension of the hand; hand_length_mm is one");
     }
     if (!(hand.grip_strength > 0.0) && hand.sex && hand.age) {
-      hand.grip_strength = grip_strength(*hand.sex, *hand.age).value_or(0.0);
+      hand.grip_strength = grasp::grip_strength(*hand.sex, *hand.age).value_or(0.0);
     }
     hands.push_back(std::move(hand));
   }
@@ -77,12 +78,12 @@ std::vector<HandSample> given_hands(const std::string& path, std::vector<std::st
 }
 
 void add_population(const PopulationRequest& request, std::uint64_t seed, LoadedStudy& study) {
-  StudyPopulation one;
+  study::StudyPopulation one;
   one.sampling = request.sampling;
   const auto index = static_cast<int>(study.plan.populations.size());
   // Each population its own numbers, so that hand k of one says nothing of hand k of another.
   if (!request.has_seed) one.sampling.seed = seed + static_cast<std::uint64_t>(index);
-  std::vector<HandSample> hands;
+  std::vector<population::HandSample> hands;
   if (!request.table.empty()) {
     one.population.name = std::filesystem::path(request.table).stem().string();
     // Without its folder: a study is the same wherever it lies.
@@ -92,14 +93,15 @@ void add_population(const PopulationRequest& request, std::uint64_t seed, Loaded
     one.sampling = {};
     one.sampling.hands = static_cast<int>(hands.size());
   } else {
-    one.population =
-        request.file.empty() ? population_named(request.preset) : read_population(request.file);
-    hands = sample_hands(one.population, one.sampling);
+    one.population = request.file.empty() ? population::population_named(request.preset)
+                                          : read_population(request.file);
+    hands = population::sample_hands(one.population, one.sampling);
   }
   for (const std::string& caution : one.population.cautions) {
     study.notes.push_back(one.population.name + ": " + caution);
   }
-  for (HandSample& sample : hands) study.plan.hands.push_back({index, std::move(sample)});
+  for (population::HandSample& sample : hands)
+    study.plan.hands.push_back({index, std::move(sample)});
   study.plan.populations.push_back(std::move(one));
 }
 
@@ -113,12 +115,13 @@ std::string product_name(const ProductRequest& request) {
   if (!request.name.empty()) return request.name;
   if (!request.file.empty()) return std::filesystem::path(request.file).stem().string();
   std::string name = request.made.kind;
-  if (!request.made.given.empty()) name += " " + shortest(request.made.given.front().second);
+  if (!request.made.given.empty())
+    name += " " + formats::shortest(request.made.given.front().second);
   return name;
 }
 
 std::string sized_name(const std::string& name, double size) {
-  return size == 1.0 ? name : name + " x " + shortest(size);
+  return size == 1.0 ? name : name + " x " + formats::shortest(size);
 }
 
 void add_product(const ProductRequest& request, LoadedStudy& study) {
@@ -130,7 +133,7 @@ void add_product(const ProductRequest& request, LoadedStudy& study) {
     return add_product(solid, study);
   }
   const std::string name = product_name(request);
-  std::optional<Product> read;
+  std::optional<product::Product> read;
   if (!request.file.empty()) {
     try {
       read = load_product(request.file, {.unit = request.unit});
@@ -142,7 +145,7 @@ void add_product(const ProductRequest& request, LoadedStudy& study) {
     }
   }
   for (const double size : request.sizes) {
-    StudyProduct one = request.held;
+    study::StudyProduct one = request.held;
     one.name = sized_name(name, size);
     if (one.family.empty()) one.family = name;
     if (!read && !one.at && !one.axis && !one.holding.hold && !one.holding.toward) {
@@ -153,7 +156,8 @@ void add_product(const ProductRequest& request, LoadedStudy& study) {
                : request.written.empty() ? request.file
                                          : request.written;
     if (!one.posture_of.empty()) one.posture_of = sized_name(one.posture_of, size);
-    Product product = read ? scaled(*read, size) : make_solid(request.made, {.size = size});
+    product::Product product =
+        read ? product::scaled(*read, size) : make_solid(request.made, {.size = size});
     product.name = one.name;
     one.content_hash = content_hash(product.mesh);
     one.unit = name_of(product.unit);
@@ -163,7 +167,7 @@ void add_product(const ProductRequest& request, LoadedStudy& study) {
 }
 
 /// What a person's grip strength would be known by.
-std::string lacking_for_strength(const HandSample& sample) {
+std::string lacking_for_strength(const population::HandSample& sample) {
   if (!sample.sex && !sample.age) return "sex and age are";
   if (!sample.sex) return "the sex is";
   if (!sample.age) return "the age is";
@@ -173,26 +177,26 @@ std::string lacking_for_strength(const HandSample& sample) {
 /// Settings that say nothing about how firmly get the usual grip force: the same for all hands and
 /// products, whatever sizes and profiles there are.
 void fill_in_grip_force(LoadedStudy& study) {
-  HeaviestLoad heaviest;
+  grasp::HeaviestLoad heaviest;
   for (std::size_t i = 0; i < study.plan.products.size(); ++i) {
-    ProductLoad load;
-    load.weight = kStandardGravity * study.plan.products[i].mass;
+    contact::ProductLoad load;
+    load.weight = product::kStandardGravity * study.plan.products[i].mass;
     heaviest.add(study.inputs.products[i], load);
   }
   std::set<std::string> words;
-  for (StudySetting& setting : study.plan.settings) {
+  for (study::StudySetting& setting : study.plan.settings) {
     if (!setting.is_balanced || setting.limit_depths) continue;
     if (setting.grip_force || setting.strength_share) continue;
-    const ShareOfStrength usual = usual_share(setting.friction, heaviest);
+    const grasp::ShareOfStrength usual = grasp::usual_share(setting.friction, heaviest);
     setting.strength_share = usual.share;
     setting.strength = usual.strength;
-    for (const std::optional<Grip>& grip : study.plan.grips) {
-      for (int g = 0; g < kGripCount; ++g) {
-        const bool is_possible = !grip || *grip == static_cast<Grip>(g);
-        if (!is_possible || !usual.is_raised(static_cast<Grip>(g))) continue;
+    for (const std::optional<grasp::Grip>& grip : study.plan.grips) {
+      for (int g = 0; g < grasp::kGripCount; ++g) {
+        const bool is_possible = !grip || *grip == static_cast<grasp::Grip>(g);
+        if (!is_possible || !usual.is_raised(static_cast<grasp::Grip>(g))) continue;
         setting.least_grip_force = usual.least;
       }
-      const Grip told = grip.value_or(Grip::kMediumWrap);
+      const grasp::Grip told = grip.value_or(grasp::Grip::kMediumWrap);
       words.insert(fmt::format(
           "{}{}grip force {:.0f} N for all hands and products: {}",
           study.plan.settings.size() > 1 ? "setting " + setting.name + ": " : std::string(),
@@ -204,13 +208,13 @@ void fill_in_grip_force(LoadedStudy& study) {
 }
 
 /// Refuses shares of a grip strength that isn't known, before every grasp fails for it.
-void check_strengths(const StudyPlan& plan) {
-  for (const StudySetting& setting : plan.settings) {
+void check_strengths(const study::StudyPlan& plan) {
+  for (const study::StudySetting& setting : plan.settings) {
     if (!setting.strength_share || setting.strength) continue;
     for (std::size_t p = 0; p < plan.populations.size(); ++p) {
       std::size_t hands = 0, unknown = 0;
-      const HandSample* first = nullptr;
-      for (const StudyHand& hand : plan.hands) {
+      const population::HandSample* first = nullptr;
+      for (const study::StudyHand& hand : plan.hands) {
         if (hand.population != static_cast<int>(p)) continue;
         ++hands;
         if (hand.sample.grip_strength > 0.0) continue;
@@ -219,7 +223,7 @@ void check_strengths(const StudyPlan& plan) {
       }
       if (first == nullptr) continue;
       throw UsageError("setting \"" + setting.name + "\": strength_share is " +
-                       shortest(*setting.strength_share) + ", but the grip strength of " +
+                       formats::shortest(*setting.strength_share) + ", but the grip strength of " +
                        std::to_string(unknown) + " of " + std::to_string(hands) +
                        " hands of population \"" + plan.populations[p].population.name +
                        "\" isn't known (hand \"" + first->label +
@@ -233,16 +237,16 @@ void check_strengths(const StudyPlan& plan) {
 /// Refuses a population none of whose hands can be made, before every grasp fails for it.
 void check_hands(const LoadedStudy& study) {
   constexpr std::size_t kTries = 8;
-  const HandInstanceMaker maker(*study.inputs.base);
+  const hand::HandInstanceMaker maker(*study.inputs.base);
   for (std::size_t p = 0; p < study.plan.populations.size(); ++p) {
-    StudyPlan part;
-    for (const StudyHand& hand : study.plan.hands) {
+    study::StudyPlan part;
+    for (const study::StudyHand& hand : study.plan.hands) {
       if (hand.population == static_cast<int>(p)) part.hands.push_back(hand);
     }
     if (part.hands.empty()) continue;
     std::string why;
     try {
-      maker.make(mean_dimensions(part));
+      maker.make(study::mean_dimensions(part));
       continue;
     } catch (const Error& error) {
       why = error.what();
@@ -265,8 +269,8 @@ void check_hands(const LoadedStudy& study) {
 
 }  // namespace
 
-void check_products(const StudyPlan& plan, const std::filesystem::path& folder) {
-  for (const StudyProduct& one : plan.products) {
+void check_products(const study::StudyPlan& plan, const std::filesystem::path& folder) {
+  for (const study::StudyProduct& one : plan.products) {
     std::error_code error;
     if (is_made(one.file)) continue;
     bool is_found = false, is_same = false;
@@ -274,7 +278,8 @@ void check_products(const StudyPlan& plan, const std::filesystem::path& folder) 
       if (is_same || !std::filesystem::is_regular_file(path, error)) continue;
       is_found = true;
       try {
-        const Product now = scaled(load_product(path, {.unit = length_unit(one.unit)}), one.size);
+        const product::Product now = product::scaled(
+            load_product(path, {.unit = geometry::length_unit(one.unit)}), one.size);
         is_same = content_hash(now.mesh) == one.content_hash;
       } catch (const InputError&) {
         continue;  // no longer a product at all
@@ -287,9 +292,9 @@ void check_products(const StudyPlan& plan, const std::filesystem::path& folder) 
   }
 }
 
-LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> hand) {
+LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const hand::Hand> hand) {
   LoadedStudy study;
-  StudyPlan& plan = study.plan;
+  study::StudyPlan& plan = study.plan;
   plan.name = request.name;
   plan.title = request.title.empty() ? request.name : request.title;
   plan.seed = request.seed;
@@ -303,10 +308,10 @@ LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> 
   if (plan.settings.empty()) plan.settings.push_back({});
   plan.limits = request.limits;
   // Who sets a limit to what is computed only on demand wants it.
-  for (const StudyLimit& limit : plan.limits) {
-    for (StudySetting& setting : plan.settings) {
+  for (const study::StudyLimit& limit : plan.limits) {
+    for (study::StudySetting& setting : plan.settings) {
       setting.wrench_volume |= limit.quantity == "wrench_volume_l1";
-      setting.torque |= limit.quantity == kHeldTorqueKey;
+      setting.torque |= limit.quantity == study::kHeldTorqueKey;
     }
   }
   for (const PopulationRequest& one : request.populations) {
@@ -318,7 +323,7 @@ LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> 
     places.resize(plan.products.size(), one.where);
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
-    at_place(places[i], [&] { check_product(plan, i); });
+    at_place(places[i], [&] { study::check_product(plan, i); });
   }
   fill_in_grip_force(study);
   at_place(request.where.empty() ? "" : request.where + ": ", [&] {
@@ -329,4 +334,4 @@ LoadedStudy load_study(const StudyRequest& request, std::shared_ptr<const Hand> 
   return study;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

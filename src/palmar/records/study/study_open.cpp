@@ -18,7 +18,7 @@
 #include "palmar/formats/bytes.h"
 #include "palmar/records/study/study_tables.h"
 
-namespace palmar {
+namespace palmar::records {
 
 namespace fs = std::filesystem;
 
@@ -41,10 +41,11 @@ void check_header(const fs::path& path) {
   constexpr std::string_view kMagic("SQLite format 3\0", 16);
   if (file.gcount() < static_cast<std::streamsize>(kHeader) ||
       header.compare(0, kMagic.size(), kMagic) != 0 ||
-      read_value<std::int32_t>(header, kApplicationId, std::endian::big) != kStudyApplicationId) {
+      formats::read_value<std::int32_t>(header, kApplicationId, std::endian::big) !=
+          kStudyApplicationId) {
     throw InputError(name + ": is no study of Palmar");
   }
-  const auto version = read_value<std::int32_t>(header, kUserVersion, std::endian::big);
+  const auto version = formats::read_value<std::int32_t>(header, kUserVersion, std::endian::big);
   if (version > kStudyStoreVersion || version < 1) {
     throw InputError(name + ": study of version " + std::to_string(version) +
                      "; this program reads up to version " + std::to_string(kStudyStoreVersion) +
@@ -138,4 +139,4 @@ std::unique_ptr<SqliteFile> open_store(const fs::path& path, StudyAccess access)
   return file;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

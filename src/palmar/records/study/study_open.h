@@ -8,7 +8,7 @@
 #include "palmar/records/sqlite_file.h"
 #include "palmar/records/study/study_store.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// A study's file, open and looked through: for writing, locked against every other process; for
 /// reading, also where the folder can't be written to. Waits for readers up to ten seconds, for a
@@ -16,4 +16,4 @@ namespace palmar {
 /// SqliteFailure, "busy" for one. For use inside `records` only.
 std::unique_ptr<SqliteFile> open_store(const std::filesystem::path& path, StudyAccess access);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -14,7 +14,7 @@
 #include "palmar/records/population/population_file.h"
 #include "palmar/records/product/made_product.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -26,7 +26,7 @@ Enum word_from(const Json& json, const std::array<Enum, kCount>& known) {
   for (const Enum one : known) {
     if (word == name_of(one)) return one;
   }
-  throw InputError("its plan has an unknown word: " + in_quotes(word));
+  throw InputError("its plan has an unknown word: " + formats::in_quotes(word));
 }
 
 Json vector_json(const std::optional<Vec3>& v) { return v ? Json{v->x(), v->y(), v->z()} : Json(); }
@@ -40,14 +40,16 @@ std::optional<double> optional_from(const Json& json) {
   return json.is_null() ? std::nullopt : std::optional(json.get<double>());
 }
 
-Json sex_json(const std::optional<Sex>& sex) { return sex ? Json(name_of(*sex)) : Json(); }
-std::optional<Sex> sex_from(const Json& json) {
+Json sex_json(const std::optional<grasp::Sex>& sex) {
+  return sex ? Json(population::name_of(*sex)) : Json();
+}
+std::optional<grasp::Sex> sex_from(const Json& json) {
   if (json.is_null()) return std::nullopt;
-  return sex_named(json.get<std::string>());
+  return population::sex_named(json.get<std::string>());
 }
 
-Json population_json(const StudyPopulation& one) {
-  const SamplingOptions& sampling = one.sampling;
+Json population_json(const study::StudyPopulation& one) {
+  const population::SamplingOptions& sampling = one.sampling;
   return {{"name", one.population.name},
           {"title", one.population.title},
           {"source", one.population.source},
@@ -63,16 +65,16 @@ Json population_json(const StudyPopulation& one) {
           {"percentiles", sampling.percentiles}};
 }
 
-StudyPopulation population_from(const Json& json, const std::string& name) {
-  StudyPopulation one;
+study::StudyPopulation population_from(const Json& json, const std::string& name) {
+  study::StudyPopulation one;
   const std::string toml = json.at("toml");
   if (!toml.empty()) one.population = parse_population(toml, name);
   one.population.name = json.at("name");
   one.population.title = json.at("title");
   one.population.source = json.at("source");
   one.population.cautions = json.at("cautions").get<std::vector<std::string>>();
-  SamplingOptions& sampling = one.sampling;
-  sampling.design = word_from(json.at("design"), kSamplingDesigns);
+  population::SamplingOptions& sampling = one.sampling;
+  sampling.design = word_from(json.at("design"), population::kSamplingDesigns);
   sampling.hands = json.at("hands");
   sampling.seed = json.at("seed");
   sampling.residuals = json.at("residuals");
@@ -82,7 +84,7 @@ StudyPopulation population_from(const Json& json, const std::string& name) {
   return one;
 }
 
-Json profile_json(const HandProfile& profile) {
+Json profile_json(const population::HandProfile& profile) {
   return {{"name", profile.name},
           {"range_share", profile.range_share},
           {"strength_share", profile.strength_share},
@@ -93,8 +95,8 @@ Json profile_json(const HandProfile& profile) {
           {"source", profile.source}};
 }
 
-HandProfile profile_from(const Json& json) {
-  HandProfile profile;
+population::HandProfile profile_from(const Json& json) {
+  population::HandProfile profile;
   profile.name = json.at("name");
   profile.range_share = json.at("range_share");
   profile.strength_share = json.at("strength_share");
@@ -106,9 +108,9 @@ HandProfile profile_from(const Json& json) {
   return profile;
 }
 
-Json hand_json(const StudyHand& hand) {
+Json hand_json(const study::StudyHand& hand) {
   Json dimensions = Json::object();
-  for (const SizedDimension& one : hand.sample.dimensions) {
+  for (const hand::SizedDimension& one : hand.sample.dimensions) {
     dimensions[name_of(one.dimension)] = one.value;
   }
   return {{"population", hand.population},
@@ -120,8 +122,8 @@ Json hand_json(const StudyHand& hand) {
           {"dimensions_mm", std::move(dimensions)}};
 }
 
-StudyHand hand_from(const Json& json, const std::string& name) {
-  StudyHand hand;
+study::StudyHand hand_from(const Json& json, const std::string& name) {
+  study::StudyHand hand;
   hand.population = json.at("population");
   hand.sample.label = json.at("label");
   hand.sample.stratum = json.at("stratum");
@@ -129,16 +131,16 @@ StudyHand hand_from(const Json& json, const std::string& name) {
   hand.sample.age = optional_from(json.at("age_years"));
   hand.sample.grip_strength = json.at("grip_strength_n");
   for (const auto& [key, value] : json.at("dimensions_mm").items()) {
-    const auto dimension = hand_dimension_named(key);
-    if (!dimension) throw InputError(name + ": unknown dimension " + in_quotes(key));
+    const auto dimension = hand::hand_dimension_named(key);
+    if (!dimension) throw InputError(name + ": unknown dimension " + formats::in_quotes(key));
     hand.sample.dimensions.push_back({*dimension, value.get<double>()});
   }
   return hand;
 }
 
-Json fingertips_json(const Hold& hold) {
+Json fingertips_json(const grasp::Hold& hold) {
   Json list = Json::array();
-  for (const HoldFingertip& tip : hold.fingertips) {
+  for (const grasp::HoldFingertip& tip : hold.fingertips) {
     list.push_back({{"finger", name_of(tip.finger)},
                     {"along", tip.place.along},
                     {"turn_rad", tip.place.turn},
@@ -147,7 +149,7 @@ Json fingertips_json(const Hold& hold) {
   return list;
 }
 
-Json hold_json(const std::optional<Hold>& hold) {
+Json hold_json(const std::optional<grasp::Hold>& hold) {
   if (!hold) return nullptr;
   return {{"part", hold->part},
           {"part_name", hold->part_name},
@@ -160,10 +162,10 @@ Json hold_json(const std::optional<Hold>& hold) {
           {"fingertips", fingertips_json(*hold)}};
 }
 
-std::optional<Hold> hold_from(const Json& json) {
+std::optional<grasp::Hold> hold_from(const Json& json) {
   if (json.is_null()) return std::nullopt;
-  Hold hold;
-  const auto grip = grip_named(json.at("grip").get<std::string>());
+  grasp::Hold hold;
+  const auto grip = grasp::grip_named(json.at("grip").get<std::string>());
   if (!grip) throw InputError("its plan has an unknown grip: " + json.at("grip").dump());
   hold.part = json.at("part");
   hold.part_name = json.at("part_name");
@@ -174,7 +176,7 @@ std::optional<Hold> hold_from(const Json& json) {
   hold.turn = json.at("turn_rad");
   hold.is_over_end = json.at("over_end");
   for (const Json& tip : json.at("fingertips")) {
-    const auto finger = finger_named(tip.at("finger").get<std::string>());
+    const auto finger = hand::finger_named(tip.at("finger").get<std::string>());
     if (!finger) throw InputError("its plan has an unknown finger: " + tip.at("finger").dump());
     hold.fingertips.push_back({*finger,
                                {.along = tip.at("along").get<double>(),
@@ -185,7 +187,7 @@ std::optional<Hold> hold_from(const Json& json) {
 }
 
 /// How a product is to be held without coordinates; only written where something is said.
-Json holding_json(const HoldRequest& holding) {
+Json holding_json(const grasp::HoldRequest& holding) {
   return {{"hold", hold_json(holding.hold)},
           {"number", holding.number ? Json(*holding.number) : Json()},
           {"part", holding.part ? Json(*holding.part) : Json()},
@@ -193,23 +195,23 @@ Json holding_json(const HoldRequest& holding) {
           {"along", optional_json(holding.along)},
           {"toward", vector_json(holding.toward)},
           {"up", vector_json(holding.up)},
-          {"is_hand_over", holding.purpose == HoldPurpose::kHandOver}};
+          {"is_hand_over", holding.purpose == grasp::HoldPurpose::kHandOver}};
 }
 
-HoldRequest holding_from(const Json& json) {
-  HoldRequest holding;
+grasp::HoldRequest holding_from(const Json& json) {
+  grasp::HoldRequest holding;
   holding.hold = hold_from(json.at("hold"));
-  if (!json.at("number").is_null()) holding.number = json_whole<int>(json.at("number"));
-  if (!json.at("part").is_null()) holding.part = json_whole<int>(json.at("part"));
+  if (!json.at("number").is_null()) holding.number = formats::json_whole<int>(json.at("number"));
+  if (!json.at("part").is_null()) holding.part = formats::json_whole<int>(json.at("part"));
   holding.part_name = json.at("part_name");
   holding.along = optional_from(json.at("along"));
   holding.toward = optional_vector_from(json.at("toward"));
   holding.up = optional_vector_from(json.at("up"));
-  if (json.at("is_hand_over").get<bool>()) holding.purpose = HoldPurpose::kHandOver;
+  if (json.at("is_hand_over").get<bool>()) holding.purpose = grasp::HoldPurpose::kHandOver;
   return holding;
 }
 
-Json product_json(const StudyProduct& product) {
+Json product_json(const study::StudyProduct& product) {
   Json json = {{"name", product.name},
                {"family", product.family},
                {"size", product.size},
@@ -224,8 +226,8 @@ Json product_json(const StudyProduct& product) {
   return json;
 }
 
-StudyProduct product_from(const Json& json) {
-  StudyProduct product;
+study::StudyProduct product_from(const Json& json) {
+  study::StudyProduct product;
   product.name = json.at("name");
   product.family = json.at("family");
   product.size = json.at("size");
@@ -240,8 +242,8 @@ StudyProduct product_from(const Json& json) {
   return product;
 }
 
-Json setting_json(const StudySetting& setting) {
-  const ContactModel& model = setting.model;
+Json setting_json(const study::StudySetting& setting) {
+  const contact::ContactModel& model = setting.model;
   Json json = {{"name", setting.name},
                {"palm_limit_depth_mm", setting.palm_limit_depth},
                {"finger_limit_depth_mm", setting.finger_limit_depth},
@@ -266,8 +268,8 @@ Json setting_json(const StudySetting& setting) {
   return json;
 }
 
-StudySetting setting_from(const Json& json) {
-  StudySetting setting;
+study::StudySetting setting_from(const Json& json) {
+  study::StudySetting setting;
   setting.name = json.at("name");
   setting.palm_limit_depth = json.at("palm_limit_depth_mm");
   setting.finger_limit_depth = json.at("finger_limit_depth_mm");
@@ -281,11 +283,11 @@ StudySetting setting_from(const Json& json) {
   if (!is_old) setting.least_grip_force = json.at("least_grip_force_n");
   setting.friction = json.at("friction");
   setting.is_balanced = json.at("is_balanced");
-  setting.model.kernel = word_from(json.at("kernel"), kKernels);
-  setting.model.tissue = word_from(json.at("tissue_model"), kTissueModels);
-  setting.model.coupling = word_from(json.at("coupling"), kRegionCouplings);
-  setting.model.distance = word_from(json.at("skin_distance"), kSkinDistances);
-  setting.model.bulge = word_from(json.at("bulge"), kBulgeLaws);
+  setting.model.kernel = word_from(json.at("kernel"), contact::kKernels);
+  setting.model.tissue = word_from(json.at("tissue_model"), contact::kTissueModels);
+  setting.model.coupling = word_from(json.at("coupling"), contact::kRegionCouplings);
+  setting.model.distance = word_from(json.at("skin_distance"), contact::kSkinDistances);
+  setting.model.bulge = word_from(json.at("bulge"), contact::kBulgeLaws);
   setting.indices = json.at("indices");
   setting.wrench_volume = json.at("wrench_volume");
   setting.is_place_per_hand = json.at("place_per_hand");
@@ -294,7 +296,7 @@ StudySetting setting_from(const Json& json) {
   return setting;
 }
 
-Json limit_json(const StudyLimit& limit) {
+Json limit_json(const study::StudyLimit& limit) {
   return {{"quantity", limit.quantity},
           {"lowest", optional_json(limit.lowest)},
           {"highest", optional_json(limit.highest)}};
@@ -307,9 +309,9 @@ Json list_json(const List& list, const Function& one) {
   return result;
 }
 
-Json plan_json(const StudyPlan& plan) {
+Json plan_json(const study::StudyPlan& plan) {
   Json grips = Json::array();
-  for (const std::optional<Grip>& grip : plan.grips) {
+  for (const std::optional<grasp::Grip>& grip : plan.grips) {
     grips.push_back(grip ? std::string(name_of(*grip)) : "auto");
   }
   return {{"name", plan.name},
@@ -386,11 +388,11 @@ void compare_lists(const std::string& list, const Json& before, const Json& now,
 
 }  // namespace
 
-std::string format_plan(const StudyPlan& plan) {
+std::string format_plan(const study::StudyPlan& plan) {
   return plan_json(plan).dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string format_identity(const StudyPlan& plan) {
+std::string format_identity(const study::StudyPlan& plan) {
   Json json = plan_json(plan);
   for (Json& product : json.at("products")) {
     if (!is_made(product.at("file"))) product.erase("file");
@@ -398,10 +400,10 @@ std::string format_identity(const StudyPlan& plan) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
-StudyPlan parse_plan(const std::string& text, const std::string& name) {
+study::StudyPlan parse_plan(const std::string& text, const std::string& name) {
   try {
     const Json json = Json::parse(text);
-    StudyPlan plan;
+    study::StudyPlan plan;
     plan.name = json.at("name");
     plan.title = json.at("title");
     plan.seed = json.at("seed");
@@ -413,7 +415,7 @@ StudyPlan parse_plan(const std::string& text, const std::string& name) {
     for (const Json& one : json.at("products")) plan.products.push_back(product_from(one));
     for (const Json& one : json.at("grips")) {
       const std::string grip = one;
-      plan.grips.push_back(grip == "auto" ? std::nullopt : grip_named(grip));
+      plan.grips.push_back(grip == "auto" ? std::nullopt : grasp::grip_named(grip));
     }
     for (const Json& one : json.at("settings")) plan.settings.push_back(setting_from(one));
     for (const Json& one : json.at("limits")) {
@@ -424,12 +426,12 @@ StudyPlan parse_plan(const std::string& text, const std::string& name) {
     for (const Json& one : json.at("hands")) plan.hands.push_back(hand_from(one, name));
     return plan;
   } catch (const Json::exception& error) {
-    throw InputError(name + ": its plan can't be read: " + json_reason(error));
+    throw InputError(name + ": its plan can't be read: " + formats::json_reason(error));
   }
 }
 
-std::vector<std::string> plan_differences(const StudyPlan& before, const StudyPlan& now,
-                                          std::size_t most) {
+std::vector<std::string> plan_differences(const study::StudyPlan& before,
+                                          const study::StudyPlan& now, std::size_t most) {
   const Json old_json = plan_json(before);
   const Json new_json = plan_json(now);
   std::vector<std::string> found;
@@ -451,4 +453,4 @@ std::vector<std::string> plan_differences(const StudyPlan& before, const StudyPl
   return found;
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -11,7 +11,7 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/records/study/study_store_fixture.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using study_fixture::small_study;
@@ -23,21 +23,22 @@ TEST(StudyPlanJson, KeepsHowAProductIsHeld) {
   Study study = small_study();
   const std::string without = format_plan(study.plan);
   EXPECT_THAT(without, Not(HasSubstr("holding")));  // as before there was anything to say
-  HoldRequest& asked = study.plan.products[1].holding;
-  asked.hold = Hold{};
-  asked.hold->grip = Grip::kTripod;
+  grasp::HoldRequest& asked = study.plan.products[1].holding;
+  asked.hold = grasp::Hold{};
+  asked.hold->grip = grasp::Grip::kTripod;
   asked.hold->turn = 0.1 + 0.2;
-  asked.hold->fingertips = {{Finger::kIndex, {.along = 0.3, .turn = -1.0 / 3.0, .height = 7.5}}};
+  asked.hold->fingertips = {
+      {hand::Finger::kIndex, {.along = 0.3, .turn = -1.0 / 3.0, .height = 7.5}}};
   asked.part = 3;
   asked.part_name = "lid";
   asked.along = 0.25;
   asked.toward = Vec3(0.0, 0.6, 0.8);
-  asked.purpose = HoldPurpose::kHandOver;
-  const StudyPlan back = parse_plan(format_plan(study.plan), "plan");
+  asked.purpose = grasp::HoldPurpose::kHandOver;
+  const study::StudyPlan back = parse_plan(format_plan(study.plan), "plan");
   EXPECT_EQ(format_plan(back), format_plan(study.plan));
-  const HoldRequest& read = back.products[1].holding;
+  const grasp::HoldRequest& read = back.products[1].holding;
   ASSERT_TRUE(read.hold.has_value());
-  EXPECT_EQ(read.hold->grip, Grip::kTripod);
+  EXPECT_EQ(read.hold->grip, grasp::Grip::kTripod);
   EXPECT_EQ(read.hold->turn, 0.1 + 0.2);
   ASSERT_EQ(read.hold->fingertips.size(), 1U);
   EXPECT_EQ(read.hold->fingertips[0].place.turn, -1.0 / 3.0);
@@ -45,17 +46,17 @@ TEST(StudyPlanJson, KeepsHowAProductIsHeld) {
   EXPECT_EQ(read.part_name, "lid");
   EXPECT_EQ(read.along, 0.25);
   EXPECT_EQ(read.toward, Vec3(0.0, 0.6, 0.8));
-  EXPECT_EQ(read.purpose, HoldPurpose::kHandOver);
+  EXPECT_EQ(read.purpose, grasp::HoldPurpose::kHandOver);
   EXPECT_TRUE(back.products[0].holding.is_empty());
   EXPECT_FALSE(plan_differences(study.plan, parse_plan(without, "plan")).empty());
 }
 
 TEST(StudyPlanJson, ReadsBackAndReportsWhatDiffers) {
   const Study study = small_study();
-  const StudyPlan back = parse_plan(format_plan(study.plan), "plan");
+  const study::StudyPlan back = parse_plan(format_plan(study.plan), "plan");
   EXPECT_EQ(format_plan(back), format_plan(study.plan));
   EXPECT_TRUE(plan_differences(study.plan, back).empty());
-  StudyPlan now = study.plan;
+  study::StudyPlan now = study.plan;
   now.settings[0].limit_depths = true;
   EXPECT_THAT(plan_differences(study.plan, now),
               testing::ElementsAre("setting \"default\": limit_depths was false, now true"));
@@ -70,7 +71,7 @@ TEST(StudyPlanJson, ReadsBackAndReportsWhatDiffers) {
                            "product \"tetrahedron\": its shape has changed "
                            "(tetrahedron.stl)",
                            "had 2 grips, now 1", "hand \"person 3\": its dimensions have changed"));
-  EXPECT_THAT(message_of<InputError>([&] { parse_plan("{\"name\": 3}", "x.palmar"); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { parse_plan("{\"name\": 3}", "x.palmar"); }),
               HasSubstr("x.palmar: its plan can't be read"));
 }
 
@@ -78,7 +79,7 @@ TEST(StudyPlanJson, OlderPlanWithoutAForceWasHeldAtLimitDepths) {
   nlohmann::json plan = nlohmann::json::parse(format_plan(small_study().plan));
   nlohmann::json& setting = plan.at("settings").at(0);
   for (const char* key : {"limit_depths", "strength_n", "least_grip_force_n"}) setting.erase(key);
-  const StudySetting old = parse_plan(plan.dump(), "plan").settings.at(0);
+  const study::StudySetting old = parse_plan(plan.dump(), "plan").settings.at(0);
   EXPECT_TRUE(old.limit_depths);
   EXPECT_FALSE(old.grip_force || old.strength_share || old.strength);
   setting["grip_force_n"] = 40.0;
@@ -86,4 +87,4 @@ TEST(StudyPlanJson, OlderPlanWithoutAForceWasHeldAtLimitDepths) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

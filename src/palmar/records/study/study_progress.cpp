@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/formats/file.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -41,8 +41,8 @@ void write_study_progress(const std::filesystem::path& store, StudyProgressNote 
                      {"host", host.data()},
                      {"process", ::getpid()}};
   try {
-    write_file(progress_path(store),
-               json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    formats::write_file(progress_path(store),
+                        json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   } catch (const OutputError&) {
     return;  // the store itself says if the disk is full
   }
@@ -50,7 +50,7 @@ void write_study_progress(const std::filesystem::path& store, StudyProgressNote 
 
 std::optional<StudyProgressNote> read_study_progress(const std::filesystem::path& store) {
   try {
-    const Json json = Json::parse(read_file(progress_path(store), kMostProgressBytes));
+    const Json json = Json::parse(formats::read_file(progress_path(store), kMostProgressBytes));
     StudyProgressNote note;
     note.shard = {json.at("shard").get<int>(), json.at("shards").get<int>()};
     note.done = json.at("done");
@@ -75,4 +75,4 @@ void remove_study_progress(const std::filesystem::path& store) {
   std::filesystem::remove(progress_path(store), ignored);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -10,12 +10,12 @@
 
 #include "palmar/study/study_plan.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// How far a running study is: a small file STORE-progress beside the store, which is locked
 /// meanwhile. Gone once the run ends in order; after a kill it stays and counts for nothing.
 struct StudyProgressNote {
-  StudyShard shard;
+  study::StudyShard shard;
   std::int64_t done = 0, total = 0;              ///< grasps, those of earlier runs included
   std::int64_t done_before = 0;                  ///< by earlier runs
   std::map<std::string, std::int64_t> outcomes;  ///< of this run, by name
@@ -33,4 +33,4 @@ void write_study_progress(const std::filesystem::path& store, StudyProgressNote 
 std::optional<StudyProgressNote> read_study_progress(const std::filesystem::path& store);
 void remove_study_progress(const std::filesystem::path& store);
 
-}  // namespace palmar
+}  // namespace palmar::records

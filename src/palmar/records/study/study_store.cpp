@@ -26,7 +26,7 @@
 #include "palmar/records/study/study_plan_json.h"
 #include "palmar/records/study/study_tables.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr int kReadAhead = 64;  // records
@@ -114,13 +114,14 @@ struct Draft {
   }
 };
 
-StudyShard shard_named(const std::string& name) {
+study::StudyShard shard_named(const std::string& name) {
   const std::size_t slash = name.find('/');
-  const auto k = parse_integer(std::string_view(name).substr(0, slash));
-  const auto n =
-      slash == name.npos ? std::nullopt : parse_integer(std::string_view(name).substr(slash + 1));
-  if (!k || !n) throw InputError("its shard can't be read: " + in_quotes(name));
-  StudyShard shard{static_cast<int>(*k), static_cast<int>(*n)};
+  const auto k = formats::parse_integer(std::string_view(name).substr(0, slash));
+  const auto n = slash == name.npos
+                     ? std::nullopt
+                     : formats::parse_integer(std::string_view(name).substr(slash + 1));
+  if (!k || !n) throw InputError("its shard can't be read: " + formats::in_quotes(name));
+  study::StudyShard shard{static_cast<int>(*k), static_cast<int>(*n)};
   shard.check();
   return shard;
 }
@@ -152,7 +153,7 @@ void publish_new(const Draft& draft, const fs::path& path) {
 
 /// Whether the product is made again from its words, exact distance, faces and all; others come
 /// from the store.
-bool is_made_again(const StudyProduct& product) {
+bool is_made_again(const study::StudyProduct& product) {
   return is_made(product.file) && is_analytic(made_from(product.file));
 }
 
@@ -162,8 +163,8 @@ struct StudyStore::Impl {
   fs::path path;
   StudyAccess access = StudyAccess::kRead;
   std::unique_ptr<SqliteFile> file;
-  StudyPlan plan;
-  StudyShard shard;
+  study::StudyPlan plan;
+  study::StudyShard shard;
   std::string program;
   std::unique_ptr<StudyTableWriter> writer;
 
@@ -206,10 +207,10 @@ struct StudyStore::Impl {
   }
 };
 
-void StudyStore::create(const fs::path& path, const StudyPlan& plan, const StudyInputs& inputs,
-                        StudyShard shard) {
+void StudyStore::create(const fs::path& path, const study::StudyPlan& plan,
+                        const study::StudyInputs& inputs, study::StudyShard shard) {
   plan.check();
-  tasks_of(plan, shard);  // checks the shard
+  study::tasks_of(plan, shard);  // checks the shard
   if (fs::exists(path)) throw OutputError(path.string() + ": is there already");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder)) {
@@ -223,7 +224,7 @@ void StudyStore::create(const fs::path& path, const StudyPlan& plan, const Study
                  .shard = shard,
                  .program = version()};
   for (std::size_t i = 0; i < inputs.products.size(); ++i) {
-    const Product& product = inputs.products[i];
+    const product::Product& product = inputs.products[i];
     head.products.push_back(pack(mesh_bytes(product.mesh)));
     const bool is_kept = product.faces != nullptr && !is_made_again(plan.products[i]);
     head.faces.push_back(is_kept ? pack(faces_bytes(*product.faces)) : "");
@@ -257,29 +258,30 @@ StudyStore::~StudyStore() = default;
 StudyStore::StudyStore(StudyStore&&) noexcept = default;
 
 const fs::path& StudyStore::path() const { return impl_->path; }
-const StudyPlan& StudyStore::plan() const { return impl_->plan; }
-StudyShard StudyStore::shard() const { return impl_->shard; }
+const study::StudyPlan& StudyStore::plan() const { return impl_->plan; }
+study::StudyShard StudyStore::shard() const { return impl_->shard; }
 std::string StudyStore::program() const { return impl_->program; }
 
-StudyInputs StudyStore::inputs() const {
+study::StudyInputs StudyStore::inputs() const {
   return impl_->read([&] {
     const StudyHead head = impl_->head();
-    StudyInputs inputs;
-    inputs.base = std::make_shared<const Hand>(parse_hand(unpack(head.hand), impl_->path.string()));
+    study::StudyInputs inputs;
+    inputs.base =
+        std::make_shared<const hand::Hand>(parse_hand(unpack(head.hand), impl_->path.string()));
     if (content_hash(*inputs.base) != impl_->plan.hand_hash) {
       throw InputError("the hand in it is damaged");
     }
     for (std::size_t i = 0; i < head.products.size(); ++i) {
-      const StudyProduct& asked = impl_->plan.products[i];
-      Product product;
+      const study::StudyProduct& asked = impl_->plan.products[i];
+      product::Product product;
       if (is_made_again(asked)) {
         product = make_solid(made_from(asked.file), {.size = asked.size});  // its distance is exact
       } else {
         product.mesh = mesh_from_bytes(unpack(head.products[i]));
-        product.distance = std::make_shared<const MeshDistance>(product.mesh);
+        product.distance = std::make_shared<const geometry::MeshDistance>(product.mesh);
         product.source = asked.file;
         if (!head.faces[i].empty()) {
-          product.faces = std::make_shared<const ProductFaces>(
+          product.faces = std::make_shared<const product::ProductFaces>(
               faces_from_bytes(unpack(head.faces[i]), product.mesh.triangle_count(),
                                "what it says of the faces of product \"" + asked.name + "\""));
         }
@@ -299,7 +301,7 @@ std::vector<std::int64_t> StudyStore::done() const {
 }
 
 std::vector<std::int64_t> StudyStore::missing() const {
-  const std::vector<std::int64_t> all = tasks_of(impl_->plan, impl_->shard);
+  const std::vector<std::int64_t> all = study::tasks_of(impl_->plan, impl_->shard);
   const std::vector<std::int64_t> done_ones = done();
   std::vector<std::int64_t> rest;
   std::set_difference(all.begin(), all.end(), done_ones.begin(), done_ones.end(),
@@ -308,19 +310,19 @@ std::vector<std::int64_t> StudyStore::missing() const {
 }
 
 void StudyStore::for_each(bool with_fields,
-                          const std::function<void(const StudyRecord&)>& visit) const {
+                          const std::function<void(const study::StudyRecord&)>& visit) const {
   std::unique_ptr<StudyTableReader> reader;
   impl_->read([&] {
     reader = std::make_unique<StudyTableReader>(*impl_->file, with_fields);
     return 0;
   });
   if (!with_fields) {
-    StudyRecord record;
+    study::StudyRecord record;
     while (impl_->read([&] { return reader->next(record); })) visit(record);
     return;
   }
   // Unpacking is most of it, and goes on all threads.
-  std::vector<StudyRecord> records(kReadAhead);
+  std::vector<study::StudyRecord> records(kReadAhead);
   std::vector<PackedFields> packed(kReadAhead);
   for (int count = kReadAhead; count == kReadAhead;) {
     impl_->read([&] {
@@ -334,10 +336,10 @@ void StudyStore::for_each(bool with_fields,
   }
 }
 
-StudyRecord StudyStore::record(std::int64_t number) const {
+study::StudyRecord StudyStore::record(std::int64_t number) const {
   return impl_->read([&] {
     StudyTableReader reader(*impl_->file, true, number);
-    StudyRecord found;
+    study::StudyRecord found;
     if (!reader.next(found)) {
       throw UsageError(impl_->path.string() + ": grasp " + std::to_string(number) +
                        " is not in it (not finished, or no such number)");
@@ -346,7 +348,7 @@ StudyRecord StudyStore::record(std::int64_t number) const {
   });
 }
 
-void StudyStore::keep(const StudyRecord& record) {
+void StudyStore::keep(const study::StudyRecord& record) {
   if (impl_->writer == nullptr) {
     throw UsageError(impl_->path.string() + ": is not open for more grasps");
   }
@@ -383,7 +385,7 @@ void StudyStore::finish() {
   write_draft(impl_->path, draft, [&] {
     build_store(draft.path, impl_->head(), true, [&](StudyTableWriter& writer) {
       StudyTableReader reader(*impl_->file, true);
-      StudyRecord record;
+      study::StudyRecord record;
       PackedFields fields;
       while (reader.next(record, fields)) {
         unpack_fields(fields, record);
@@ -416,9 +418,11 @@ std::string StudyStore::digest() const {
 
 std::string sqlite_version() { return sqlite3_libversion(); }
 
-std::string content_hash(const TriangleMesh& mesh) { return sha256_hex(mesh_bytes(mesh)); }
+std::string content_hash(const geometry::TriangleMesh& mesh) {
+  return formats::sha256_hex(mesh_bytes(mesh));
+}
 
-std::string content_hash(const Hand& hand) { return sha256_hex(format_hand(hand)); }
+std::string content_hash(const hand::Hand& hand) { return formats::sha256_hex(format_hand(hand)); }
 
 void merge_studies(const std::vector<fs::path>& shards, const fs::path& out,
                    const Progress& progress) {
@@ -463,7 +467,7 @@ void merge_studies(const std::vector<fs::path>& shards, const fs::path& out,
   std::string absent;
   for (int k = 1; k <= count; ++k) {
     if (by_number[k - 1] != nullptr) continue;
-    absent += (absent.empty() ? "" : ", ") + name_of(StudyShard{k, count});
+    absent += (absent.empty() ? "" : ", ") + name_of(study::StudyShard{k, count});
   }
   if (!absent.empty()) {
     throw UsageError("merge: missing " + absent + " of the study \"" + stores.front().plan().name +
@@ -477,7 +481,7 @@ void merge_studies(const std::vector<fs::path>& shards, const fs::path& out,
   write_draft(out, draft, [&] {
     build_store(draft.path, head, true, [&](StudyTableWriter& writer) {
       std::vector<std::unique_ptr<StudyTableReader>> readers;
-      std::vector<StudyRecord> next(stores.size());
+      std::vector<study::StudyRecord> next(stores.size());
       std::vector<bool> has_next;
       for (const StudyStore& store : stores) {
         readers.push_back(std::make_unique<StudyTableReader>(*store.impl().file, true));
@@ -486,7 +490,7 @@ void merge_studies(const std::vector<fs::path>& shards, const fs::path& out,
         return stores[i].impl().read([&] { return readers[i]->next(next[i]); });
       };
       for (std::size_t i = 0; i < stores.size(); ++i) has_next.push_back(advance(i));
-      const std::int64_t total = task_count(head.plan);
+      const std::int64_t total = study::task_count(head.plan);
       for (std::int64_t done = 0; done < total; ++done) {
         std::size_t least = stores.size();
         for (std::size_t i = 0; i < stores.size(); ++i) {
@@ -504,4 +508,4 @@ void merge_studies(const std::vector<fs::path>& shards, const fs::path& out,
   publish_new(draft, out);
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

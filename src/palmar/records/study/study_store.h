@@ -15,7 +15,7 @@
 #include "palmar/study/study_record.h"
 #include "palmar/study/study_run.h"
 
-namespace palmar {
+namespace palmar::records {
 
 /// Newest version of the stores that this program reads and writes; a newer one is refused
 /// (docs/using/study-store.md has every table). Version 2 keeps faces of products; a study without
@@ -43,30 +43,31 @@ enum class StudyAccess {
 class StudyStore {
  public:
   /// A store without any grasp. Throws OutputError if there is a file of that name.
-  static void create(const std::filesystem::path& path, const StudyPlan& plan,
-                     const StudyInputs& inputs, StudyShard shard = {});
+  static void create(const std::filesystem::path& path, const study::StudyPlan& plan,
+                     const study::StudyInputs& inputs, study::StudyShard shard = {});
 
   explicit StudyStore(const std::filesystem::path& path, StudyAccess access = StudyAccess::kRead);
   ~StudyStore();
   StudyStore(StudyStore&&) noexcept;
 
   const std::filesystem::path& path() const;
-  const StudyPlan& plan() const;
-  StudyShard shard() const;
+  const study::StudyPlan& plan() const;
+  study::StudyShard shard() const;
   std::string program() const;  ///< version of Palmar that made it
   /// Hand and products, the very ones the study was begun with; distance fields are made again.
-  StudyInputs inputs() const;
+  study::StudyInputs inputs() const;
 
   std::vector<std::int64_t> done() const;     ///< numbers of finished grasps, ascending
   std::vector<std::int64_t> missing() const;  ///< of the shard, ascending
   /// Every finished grasp, ascending by number; without `with_fields` skin_pressure and
   /// product_pressure stay empty. StudyRecord::seconds only until finish().
-  void for_each(bool with_fields, const std::function<void(const StudyRecord&)>& visit) const;
+  void for_each(bool with_fields,
+                const std::function<void(const study::StudyRecord&)>& visit) const;
   /// Throws UsageError if it isn't there.
-  StudyRecord record(std::int64_t number) const;
+  study::StudyRecord record(std::int64_t number) const;
 
   /// Adds a grasp; on return it is on the disk. Throws UsageError if it is there already.
-  void keep(const StudyRecord& record);
+  void keep(const study::StudyRecord& record);
   /// Turns a store without missing grasps into a finished one: in the order of numbers, without
   /// times, with the digest of all results. The file is replaced at once, never half. Throws
   /// UsageError if a grasp is missing.
@@ -91,7 +92,7 @@ void merge_studies(const std::vector<std::filesystem::path>& shards,
 std::string sqlite_version();  ///< "3.40.1"; of the library that runs
 
 /// SHA-256 of what a study is made of, in StudyPlan's fields.
-std::string content_hash(const TriangleMesh& mesh);  ///< mm; of a product as it is held
-std::string content_hash(const Hand& hand);
+std::string content_hash(const geometry::TriangleMesh& mesh);  ///< mm; of a product as it is held
+std::string content_hash(const hand::Hand& hand);
 
-}  // namespace palmar
+}  // namespace palmar::records

@@ -19,7 +19,7 @@
 #include "palmar/formats/test_files.h"
 #include "palmar/records/study/study_store_fixture.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,7 +30,7 @@ using study_fixture::Study;
 using ::testing::HasSubstr;
 
 TEST(StudyStore, OneProcessWritesAtATime) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
   const fs::path path = folder / "a.palmar";
   StudyStore::create(path, study.plan, study.inputs);
@@ -65,7 +65,7 @@ TEST(StudyStore, OneProcessWritesAtATime) {
 
 // `study status` in a loop reads for some milliseconds at a time; a run that starts then waits.
 TEST(StudyStore, AWriterWaitsForReaders) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
   const fs::path path = folder / "a.palmar";
   StudyStore::create(path, study.plan, study.inputs);
@@ -91,11 +91,11 @@ TEST(StudyStore, AWriterWaitsForReaders) {
 }
 
 TEST(StudyStore, KillingTheWriterLosesNothingThatWasKept) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
   const fs::path path = folder / "a.palmar";
   StudyStore::create(path, study.plan, study.inputs);
-  const std::vector<std::int64_t> all = tasks_of(study.plan);
+  const std::vector<std::int64_t> all = study::tasks_of(study.plan);
   for (int round = 0; StudyStore(path).missing().size() > 0; ++round) {
     ASSERT_LT(round, 40);
     int channel[2];
@@ -127,21 +127,21 @@ TEST(StudyStore, KillingTheWriterLosesNothingThatWasKept) {
   }
   StudyStore(path, StudyAccess::kWrite).finish();
   make_store(folder / "whole.palmar", study, all);
-  EXPECT_EQ(read_file(path), read_file(folder / "whole.palmar"));
+  EXPECT_EQ(formats::read_file(path), formats::read_file(folder / "whole.palmar"));
 }
 
 TEST(StudyStore, DamagedFilesAreNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
-  make_store(folder / "good.palmar", study, tasks_of(study.plan));
-  const std::string good = read_file(folder / "good.palmar");
+  make_store(folder / "good.palmar", study, study::tasks_of(study.plan));
+  const std::string good = formats::read_file(folder / "good.palmar");
   const fs::path bad = folder / "bad.palmar";
   const auto outcome = [&](const std::string& bytes) {
-    write_file(bad, bytes);
-    return message_of<InputError>([&] {
+    formats::write_file(bad, bytes);
+    return formats::message_of<InputError>([&] {
       const StudyStore store(bad);
       store.inputs();
-      store.for_each(true, [](const StudyRecord&) {});
+      store.for_each(true, [](const study::StudyRecord&) {});
     });
   };
   EXPECT_EQ(outcome(good), "");
@@ -164,9 +164,9 @@ TEST(StudyStore, DamagedFilesAreNamed) {
   std::string flipped = good;
   flipped[at + 7] ^= 1;
   EXPECT_THAT(outcome(flipped), HasSubstr("bad.palmar: grasp 4 is damaged"));
-  EXPECT_THAT(message_of<InputError>([&] { StudyStore(folder / "none.palmar"); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { StudyStore(folder / "none.palmar"); }),
               HasSubstr("none.palmar: no such file"));
-  EXPECT_THAT(message_of<InputError>([&] { StudyStore(folder.path()); }),
+  EXPECT_THAT(formats::message_of<InputError>([&] { StudyStore(folder.path()); }),
               HasSubstr("is a directory"));
   // Any byte: named or without effect, never a crash.
   for (std::size_t i = 100; i < good.size(); i += 997) {
@@ -178,26 +178,26 @@ TEST(StudyStore, DamagedFilesAreNamed) {
 }
 
 TEST(StudyStore, FoldersThatCantBeWrittenAreNamed) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
-  EXPECT_THAT(message_of<OutputError>(
+  EXPECT_THAT(formats::message_of<OutputError>(
                   [&] { StudyStore::create(folder / "none/a.palmar", study.plan, study.inputs); }),
               HasSubstr("does not exist"));
-  make_store(folder / "a.palmar", study, tasks_of(study.plan));
-  EXPECT_THAT(message_of<OutputError>(
+  make_store(folder / "a.palmar", study, study::tasks_of(study.plan));
+  EXPECT_THAT(formats::message_of<OutputError>(
                   [&] { StudyStore::create(folder / "a.palmar", study.plan, study.inputs); }),
               HasSubstr("a.palmar: is there already"));
   if (geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
   EXPECT_EQ(StudyStore(folder / "a.palmar").done().size(), 20U) << "reading needs no permission";
-  EXPECT_NE(message_of<OutputError>(
+  EXPECT_NE(formats::message_of<OutputError>(
                 [&] { StudyStore::create(folder / "b.palmar", study.plan, study.inputs); }),
             "");
   fs::permissions(folder.path(), fs::perms::owner_all);
 }
 
 TEST(StudyStore, AFullDiskIsNamedAndLosesNothing) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
   const fs::path path = folder / "a.palmar";
   StudyStore::create(path, study.plan, study.inputs);
@@ -232,4 +232,4 @@ TEST(StudyStore, AFullDiskIsNamedAndLosesNothing) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

@@ -13,49 +13,49 @@
 #include "palmar/records/product/made_product.h"
 #include "palmar/records/study/study_store.h"
 
-namespace palmar::study_fixture {
+namespace palmar::records::study_fixture {
 
 namespace fs = std::filesystem;
 
-inline TriangleMesh tetrahedron(double size) {
+inline geometry::TriangleMesh tetrahedron(double size) {
   return {{{0, 0, 0}, {size, 0, 0.1}, {0, size / 3, 0}, {0, 0, size}},
           {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
 }
 
 /// No hand that could hold anything: the store doesn't look at it.
-inline Hand stored_hand() {
-  Hand hand;
+inline hand::Hand stored_hand() {
+  hand::Hand hand;
   hand.name = "stored";
   hand.skin = tetrahedron(50.0 / 7);
-  hand.segment.assign(4, Segment::kPalm);
-  hand.region.assign(4, Region::kThenar);
-  for (int j = 0; j < kJointCount; ++j) {
-    hand.skeleton.joints[j] = {static_cast<JointId>(j), Vec3(j, 1, 2), {}};
+  hand.segment.assign(4, hand::Segment::kPalm);
+  hand.region.assign(4, hand::Region::kThenar);
+  for (int j = 0; j < hand::kJointCount; ++j) {
+    hand.skeleton.joints[j] = {static_cast<hand::JointId>(j), Vec3(j, 1, 2), {}};
   }
-  for (int d = 0; d < kDofCount; ++d) {
-    JointDof dof;
-    dof.dof = static_cast<Dof>(d);
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    hand::JointDof dof;
+    dof.dof = static_cast<hand::Dof>(d);
     dof.axis = Vec3(1, d / 7.0, 0).normalized();
     dof.lower = -1;
     dof.upper = 3;
-    hand.skeleton.joints[d % kJointCount].dofs.push_back(dof);
+    hand.skeleton.joints[d % hand::kJointCount].dofs.push_back(dof);
   }
   hand.skeleton.fingertips.fill(Vec3(8, 180, 1.0 / 3));
-  hand.skeleton.thumb_cmc = make_cmc_limits(make_cmc_joint({28, 36, 19}, {45, 59, 34}));
-  hand.weights = {{JointId::kWrist, {0, 2}, {0.1, 1}, {1.0 / 3, 1}, {}}};
-  hand.tissue = default_tissue();
+  hand.skeleton.thumb_cmc = hand::make_cmc_limits(hand::make_cmc_joint({28, 36, 19}, {45, 59, 34}));
+  hand.weights = {{hand::JointId::kWrist, {0, 2}, {0.1, 1}, {1.0 / 3, 1}, {}}};
+  hand.tissue = hand::default_tissue();
   return hand;
 }
 
 struct Study {
-  StudyPlan plan;
-  StudyInputs inputs;
+  study::StudyPlan plan;
+  study::StudyInputs inputs;
 };
 
 /// 5 hands x 2 products x 2 grips.
 inline Study small_study() {
   Study study;
-  StudyPlan& plan = study.plan;
+  study::StudyPlan& plan = study.plan;
   plan.name = "small";
   plan.title = "Small \"study\", äöü";
   plan.seed = 7;
@@ -63,17 +63,17 @@ inline Study small_study() {
   plan.populations[0].population.name = "given";
   plan.profiles.push_back({});
   for (int h = 0; h < 5; ++h) {
-    StudyHand hand;
+    study::StudyHand hand;
     hand.sample.label = "person " + std::to_string(h);
-    hand.sample.sex = h % 2 == 0 ? Sex::kMale : Sex::kFemale;
-    hand.sample.dimensions = {{*hand_dimension_named("hand_length"), 180.0 + h / 3.0}};
+    hand.sample.sex = h % 2 == 0 ? grasp::Sex::kMale : grasp::Sex::kFemale;
+    hand.sample.dimensions = {{*hand::hand_dimension_named("hand_length"), 180.0 + h / 3.0}};
     plan.hands.push_back(hand);
   }
   const MadeProduct made{"cylinder", {{"diameter_mm", 35.0}, {"length_mm", 20.0}}};
-  StudyProduct cylinder;
+  study::StudyProduct cylinder;
   cylinder.name = cylinder.family = "cylinder";
   cylinder.file = words_of(made);
-  StudyProduct file = cylinder;
+  study::StudyProduct file = cylinder;
   file.name = file.family = "tetrahedron";
   file.file = "tetrahedron.stl";
   file.at = Vec3(1.0 / 3.0, 2, 3);
@@ -82,28 +82,28 @@ inline Study small_study() {
   cylinder.content_hash = content_hash(study.inputs.products[0].mesh);
   file.content_hash = content_hash(study.inputs.products[1].mesh);
   plan.products = {cylinder, file};
-  plan.grips = {std::nullopt, Grip::kTripod};
+  plan.grips = {std::nullopt, grasp::Grip::kTripod};
   plan.settings.push_back({});
   plan.limits.push_back({"force_n", std::nullopt, 50.0});
-  study.inputs.base = std::make_shared<const Hand>(stored_hand());
+  study.inputs.base = std::make_shared<const hand::Hand>(stored_hand());
   plan.hand_hash = content_hash(*study.inputs.base);
   return study;
 }
 
 /// A record with something everywhere, numbers without a short binary form.
-inline StudyRecord record_for(std::int64_t number) {
-  StudyRecord record;
+inline study::StudyRecord record_for(std::int64_t number) {
+  study::StudyRecord record;
   record.number = number;
   const double x = static_cast<double>(number) / 7.0;
-  record.outcome = number % 6 == 5 ? StudyOutcome::kFailed : StudyOutcome::kHeld;
-  if (record.outcome == StudyOutcome::kFailed) {
+  record.outcome = number % 6 == 5 ? study::StudyOutcome::kFailed : study::StudyOutcome::kHeld;
+  if (record.outcome == study::StudyOutcome::kFailed) {
     record.reason = "no, \"reason\"";
     return record;
   }
-  record.grip = number % 2 == 0 ? Grip::kMediumWrap : Grip::kTripod;
+  record.grip = number % 2 == 0 ? grasp::Grip::kMediumWrap : grasp::Grip::kTripod;
   record.is_balanced = number % 3 == 0;
   if (number % 4 != 2) {  // the others are placed by coordinates
-    StudyHold held;
+    study::StudyHold held;
     held.hold.part = 2;
     held.hold.part_name = "handle";
     held.hold.grip = record.grip;
@@ -112,7 +112,7 @@ inline StudyRecord record_for(std::int64_t number) {
     held.hold.toward = number % 2 == 0 ? 1 : -1;
     held.hold.turn = x;
     held.hold.is_over_end = number % 3 == 1;
-    if (number % 3 != 0) held.kind = PartKind::kLoop;
+    if (number % 3 != 0) held.kind = product::PartKind::kLoop;
     held.words = "medium wrap of the \"handle\"";
     record.hold = held;
   }
@@ -123,8 +123,8 @@ inline StudyRecord record_for(std::int64_t number) {
   record.peak_pressure_cells = 0.05 * x;
   record.mean_pressure = 0.01 * x;
   record.demand = {x / 10.0, 3 * x, 2 * x};
-  record.regions = {{Region::kThumbDistal, x, 2 * x, 3 * x, 4 * x, 5 * x},
-                    {Region::kThenar, x, x, x, x, x / 3.0}};
+  record.regions = {{hand::Region::kThumbDistal, x, 2 * x, 3 * x, 4 * x, 5 * x},
+                    {hand::Region::kThenar, x, x, x, x, x / 3.0}};
   record.indices = {{"grip_force_n", 5.0 + x}, {"friction_in_use", x / 11.0}};
   // Not in the catalogue, in an order of their own, not in every record.
   if (number % 3 != 1) record.indices.push_back({"another_quantity", x});
@@ -132,7 +132,7 @@ inline StudyRecord record_for(std::int64_t number) {
   for (std::size_t d = 0; d < record.posture.angle.size(); ++d) {
     record.posture.angle[d] = x + static_cast<double>(d) / 9.0;
   }
-  record.product_from_hand = Rigid3::about_axis(Vec3(0, 0.6, 0.8), Vec3(1, 2, 3), x);
+  record.product_from_hand = geometry::Rigid3::about_axis(Vec3(0, 0.6, 0.8), Vec3(1, 2, 3), x);
   for (int v = 0; v < 200; v += 1 + static_cast<int>(number % 3)) {
     record.skin_pressure.vertex.push_back(300 * v + 1);
     record.skin_pressure.value.push_back(static_cast<float>(0.01 * v + x));
@@ -145,7 +145,7 @@ inline StudyRecord record_for(std::int64_t number) {
   return record;
 }
 
-inline void expect_same(const StudyRecord& a, const StudyRecord& b) {
+inline void expect_same(const study::StudyRecord& a, const study::StudyRecord& b) {
   EXPECT_EQ(a.number, b.number);
   EXPECT_EQ(a.outcome, b.outcome);
   EXPECT_EQ(a.reason, b.reason);
@@ -153,7 +153,7 @@ inline void expect_same(const StudyRecord& a, const StudyRecord& b) {
   EXPECT_EQ(a.is_balanced, b.is_balanced);
   ASSERT_EQ(a.hold.has_value(), b.hold.has_value());
   if (a.hold) {
-    EXPECT_TRUE(is_same(*a.hold, *b.hold));
+    EXPECT_TRUE(study::is_same(*a.hold, *b.hold));
     EXPECT_EQ(a.hold->kind, b.hold->kind);
     EXPECT_EQ(a.hold->hold.part_name, b.hold->hold.part_name);
   }
@@ -171,9 +171,9 @@ inline void expect_same(const StudyRecord& a, const StudyRecord& b) {
     EXPECT_EQ(a.regions[i].region, b.regions[i].region);
     EXPECT_EQ(a.regions[i].mean_pressure, b.regions[i].mean_pressure);
   }
-  const auto values = [](const StudyRecord& record) {
+  const auto values = [](const study::StudyRecord& record) {
     std::map<std::string, double> result;
-    for (const IndexRecord& index : record.indices) result[index.key] = index.value;
+    for (const study::IndexRecord& index : record.indices) result[index.key] = index.value;
     return result;
   };
   EXPECT_EQ(values(a), values(b));
@@ -193,11 +193,11 @@ inline void fill(const fs::path& path, const std::vector<std::int64_t>& numbers)
 
 /// A finished store whose grasps came in this order.
 inline void make_store(const fs::path& path, const Study& study, std::vector<std::int64_t> order,
-                       StudyShard shard = {}) {
+                       study::StudyShard shard = {}) {
   StudyStore::create(path, study.plan, study.inputs, shard);
   fill(path, order);
   StudyStore store(path, StudyAccess::kWrite);
   store.finish();
 }
 
-}  // namespace palmar::study_fixture
+}  // namespace palmar::records::study_fixture

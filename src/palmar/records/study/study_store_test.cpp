@@ -15,7 +15,7 @@
 #include "palmar/records/study/study_plan_json.h"
 #include "palmar/records/study/study_store_fixture.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,13 +28,13 @@ using study_fixture::Study;
 using ::testing::HasSubstr;
 
 TEST(StudyStore, KeepsTheFacesOfProducts) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const fs::path path = folder / "faces.palmar";
   Study study = small_study();
-  auto faces = std::make_shared<ProductFaces>();
-  ProductFace fillet, plane;
+  auto faces = std::make_shared<product::ProductFaces>();
+  product::ProductFace fillet, plane;
   fillet.number = 1;
-  fillet.kind = FaceKind::kCylinder;
+  fillet.kind = product::FaceKind::kCylinder;
   fillet.radius = 10.0 / 3.0;
   fillet.is_fillet = true;
   fillet.area = 31.0;
@@ -49,10 +49,10 @@ TEST(StudyStore, KeepsTheFacesOfProducts) {
   faces->face_of_triangle = {0, 1, 1, 0};
   study.inputs.products[1].faces = faces;
   StudyStore::create(path, study.plan, study.inputs);
-  EXPECT_EQ(read_file(path)[63], 2);
+  EXPECT_EQ(formats::read_file(path)[63], 2);
   const auto has_faces = [&](const fs::path& store) {
-    const StudyInputs inputs = StudyStore(store).inputs();
-    const ProductFaces& kept = *inputs.products.at(1).faces;
+    const study::StudyInputs inputs = StudyStore(store).inputs();
+    const product::ProductFaces& kept = *inputs.products.at(1).faces;
     EXPECT_EQ(kept.face.size(), 2U);
     EXPECT_EQ(kept.face_of_triangle, faces->face_of_triangle);
     EXPECT_EQ(title_of(kept.face[0]), "face 1 (fillet r 3.33)");
@@ -70,13 +70,13 @@ TEST(StudyStore, KeepsTheFacesOfProducts) {
     store.finish();
   }
   has_faces(path);
-  EXPECT_EQ(read_file(path)[63], 2);
+  EXPECT_EQ(formats::read_file(path)[63], 2);
   merge_studies({path}, folder / "merged.palmar");
   has_faces(folder / "merged.palmar");
 }
 
 TEST(StudyStore, GivesBackWhatItWasGiven) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
   const fs::path path = folder / "a.palmar";
   StudyStore::create(path, study.plan, study.inputs);
@@ -86,20 +86,21 @@ TEST(StudyStore, GivesBackWhatItWasGiven) {
   EXPECT_EQ(store.missing().size(), 17U);
   EXPECT_FALSE(store.is_finished());
   std::vector<std::int64_t> seen;
-  store.for_each(true, [&](const StudyRecord& record) {
+  store.for_each(true, [&](const study::StudyRecord& record) {
     seen.push_back(record.number);
     expect_same(record, record_for(record.number));
     EXPECT_EQ(record.seconds, record_for(record.number).seconds);
   });
   EXPECT_EQ(seen, (std::vector<std::int64_t>{0, 3, 17}));
-  store.for_each(false, [](const StudyRecord& record) {
+  store.for_each(false, [](const study::StudyRecord& record) {
     EXPECT_TRUE(record.skin_pressure.vertex.empty());
     EXPECT_EQ(record.force, record_for(record.number).force);
   });
   expect_same(store.record(17), record_for(17));
-  EXPECT_THAT(message_of<UsageError>([&] { store.record(4); }), HasSubstr("grasp 4 is not in it"));
+  EXPECT_THAT(formats::message_of<UsageError>([&] { store.record(4); }),
+              HasSubstr("grasp 4 is not in it"));
   EXPECT_EQ(format_plan(store.plan()), format_plan(study.plan));
-  const StudyInputs inputs = store.inputs();
+  const study::StudyInputs inputs = store.inputs();
   EXPECT_EQ(format_plan(store.plan()), format_plan(study.plan));
   EXPECT_EQ(content_hash(*inputs.base), study.plan.hand_hash);
   EXPECT_EQ(inputs.products[1].mesh.vertices, study.inputs.products[1].mesh.vertices);
@@ -108,14 +109,14 @@ TEST(StudyStore, GivesBackWhatItWasGiven) {
 }
 
 TEST(StudyStore, FinishedFilesHaveTheSameBytesWhateverTheOrder) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
-  std::vector<std::int64_t> order = tasks_of(study.plan);
+  std::vector<std::int64_t> order = study::tasks_of(study.plan);
   make_store(folder / "a.palmar", study, order);
   std::reverse(order.begin(), order.end());
   make_store(folder / "b.palmar", study, order);
-  const std::string bytes = read_file(folder / "a.palmar");
-  EXPECT_EQ(bytes, read_file(folder / "b.palmar"));
+  const std::string bytes = formats::read_file(folder / "a.palmar");
+  EXPECT_EQ(bytes, formats::read_file(folder / "b.palmar"));
   const StudyStore store(folder / "a.palmar");
   EXPECT_TRUE(store.is_finished());
   EXPECT_EQ(store.digest().size(), 64U);
@@ -123,19 +124,19 @@ TEST(StudyStore, FinishedFilesHaveTheSameBytesWhateverTheOrder) {
   expect_same(store.record(19), record_for(19));
   // Looking at it or opening it to go on changes nothing, and nothing is left beside it.
   StudyStore(folder / "b.palmar", StudyAccess::kWrite).finish();
-  EXPECT_EQ(bytes, read_file(folder / "b.palmar"));
+  EXPECT_EQ(bytes, formats::read_file(folder / "b.palmar"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 2);
 }
 
 TEST(StudyStore, AnyOtherResultHasAnotherDigest) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
-  make_store(folder / "a.palmar", study, tasks_of(study.plan));
+  make_store(folder / "a.palmar", study, study::tasks_of(study.plan));
   StudyStore::create(folder / "b.palmar", study.plan, study.inputs);
   {
     StudyStore store(folder / "b.palmar", StudyAccess::kWrite);
-    for (const std::int64_t number : tasks_of(study.plan)) {
-      StudyRecord record = record_for(number);
+    for (const std::int64_t number : study::tasks_of(study.plan)) {
+      study::StudyRecord record = record_for(number);
       if (number == 6) record.skin_pressure.value[3] += 1e-6F;
       store.keep(record);
     }
@@ -145,30 +146,31 @@ TEST(StudyStore, AnyOtherResultHasAnotherDigest) {
 }
 
 TEST(StudyStore, MergedShardsHaveTheBytesOfOneRun) {
-  const TestFolder folder;
+  const formats::TestFolder folder;
   const Study study = small_study();
-  make_store(folder / "whole.palmar", study, tasks_of(study.plan));
+  make_store(folder / "whole.palmar", study, study::tasks_of(study.plan));
   std::vector<fs::path> shards;
   for (int k = 1; k <= 3; ++k) {
     shards.push_back(folder / ("shard" + std::to_string(k)));
-    make_store(shards.back(), study, tasks_of(study.plan, {k, 3}), {k, 3});
+    make_store(shards.back(), study, study::tasks_of(study.plan, {k, 3}), {k, 3});
   }
   std::swap(shards[0], shards[2]);
   merge_studies(shards, folder / "merged.palmar");
-  EXPECT_EQ(read_file(folder / "whole.palmar"), read_file(folder / "merged.palmar"));
+  EXPECT_EQ(formats::read_file(folder / "whole.palmar"),
+            formats::read_file(folder / "merged.palmar"));
 
   const fs::path out = folder / "out.palmar";
   const auto refused = [&](const std::vector<fs::path>& paths) {
-    return message_of<UsageError>([&] { merge_studies(paths, out); });
+    return formats::message_of<UsageError>([&] { merge_studies(paths, out); });
   };
   EXPECT_THAT(refused({shards[0], shards[2]}), HasSubstr("missing 2/3 of the study \"small\""));
   EXPECT_THAT(refused({shards[0], shards[1], shards[2], shards[1]}),
               HasSubstr("are both shard 2/3"));
-  make_store(folder / "shard-of-2", study, tasks_of(study.plan, {1, 2}), {1, 2});
+  make_store(folder / "shard-of-2", study, study::tasks_of(study.plan, {1, 2}), {1, 2});
   EXPECT_THAT(refused({shards[2], folder / "shard-of-2"}), HasSubstr("is shard 1/2"));
   Study other = study;
   other.plan.settings[0].friction = 0.3;
-  make_store(folder / "other", other, tasks_of(other.plan, {2, 3}), {2, 3});
+  make_store(folder / "other", other, study::tasks_of(other.plan, {2, 3}), {2, 3});
   EXPECT_THAT(refused({shards[2], folder / "other", shards[0]}),
               HasSubstr("is of another study than"));
   EXPECT_THAT(refused({shards[2], folder / "other", shards[0]}),
@@ -177,9 +179,10 @@ TEST(StudyStore, MergedShardsHaveTheBytesOfOneRun) {
   EXPECT_THAT(refused({shards[0], folder / "begun", shards[2]}),
               HasSubstr("is not finished (8 grasps are missing)"));
   EXPECT_FALSE(fs::exists(out));
-  EXPECT_THAT(message_of<OutputError>([&] { merge_studies(shards, folder / "merged.palmar"); }),
-              HasSubstr("is there already"));
+  EXPECT_THAT(
+      formats::message_of<OutputError>([&] { merge_studies(shards, folder / "merged.palmar"); }),
+      HasSubstr("is there already"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::records

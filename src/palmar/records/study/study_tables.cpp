@@ -17,7 +17,7 @@
 #include "palmar/records/study/study_store.h"
 #include "palmar/study/assessment/grasp_indices.h"
 
-namespace palmar {
+namespace palmar::records {
 namespace {
 
 constexpr const char* kTables = R"sql(
@@ -68,9 +68,10 @@ std::uint32_t checksum(const std::string& bytes) {
       crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
-std::optional<StudyOutcome> outcome_named(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(StudyOutcome::kFailed); ++i) {
-    if (name_of(static_cast<StudyOutcome>(i)) == name) return static_cast<StudyOutcome>(i);
+std::optional<study::StudyOutcome> outcome_named(const std::string& name) {
+  for (int i = 0; i <= static_cast<int>(study::StudyOutcome::kFailed); ++i) {
+    if (name_of(static_cast<study::StudyOutcome>(i)) == name)
+      return static_cast<study::StudyOutcome>(i);
   }
   return std::nullopt;
 }
@@ -79,15 +80,16 @@ bool has_table(SqliteFile& file, const std::string& name) {
   return file.integer("SELECT count(*) FROM sqlite_schema WHERE name = '" + name + "'") > 0;
 }
 
-std::optional<PartKind> part_kind_named(const std::string& name) {
-  for (const PartKind kind : {PartKind::kBar, PartKind::kPen, PartKind::kLoop, PartKind::kBody,
-                              PartKind::kBall, PartKind::kPlate}) {
+std::optional<product::PartKind> part_kind_named(const std::string& name) {
+  for (const product::PartKind kind :
+       {product::PartKind::kBar, product::PartKind::kPen, product::PartKind::kLoop,
+        product::PartKind::kBody, product::PartKind::kBall, product::PartKind::kPlate}) {
     if (name_of(kind) == name) return kind;
   }
   return std::nullopt;
 }
 
-void insert_quantity(SqliteFile& file, std::int64_t id, const GraspIndex& row) {
+void insert_quantity(SqliteFile& file, std::int64_t id, const grasp::GraspIndex& row) {
   SqliteStatement(file, "INSERT INTO quantity VALUES(?,?,?,?,?,?,?)")
       .bind(1, id)
       .bind(2, std::string_view(row.key))
@@ -99,25 +101,25 @@ void insert_quantity(SqliteFile& file, std::int64_t id, const GraspIndex& row) {
       .run();
 }
 
-void insert_hands(SqliteFile& file, const StudyPlan& plan) {
+void insert_hands(SqliteFile& file, const study::StudyPlan& plan) {
   SqliteStatement hand(file, "INSERT INTO hand VALUES(?,?,?,?,?,?,?)");
   SqliteStatement dimension(file, "INSERT INTO hand_dimension VALUES(?,?,?)");
   for (std::size_t h = 0; h < plan.hands.size(); ++h) {
-    const HandSample& sample = plan.hands[h].sample;
+    const population::HandSample& sample = plan.hands[h].sample;
     const auto number = static_cast<std::int64_t>(h);
     hand.bind(1, number)
         .bind(2, plan.hands[h].population)
         .bind(3, std::string_view(sample.label))
         .bind(4, std::string_view(sample.stratum));
     if (sample.sex) {
-      hand.bind(5, name_of(*sample.sex));
+      hand.bind(5, population::name_of(*sample.sex));
     } else {
       hand.bind_null(5);
     }
     sample.age ? hand.bind(6, *sample.age) : hand.bind_null(6);
     sample.grip_strength > 0.0 ? hand.bind(7, sample.grip_strength) : hand.bind_null(7);
     hand.run();
-    for (const SizedDimension& one : sample.dimensions) {
+    for (const hand::SizedDimension& one : sample.dimensions) {
       const std::string name = name_of(one.dimension);
       dimension.bind(1, number).bind(2, std::string_view(name)).bind(3, one.value).run();
     }
@@ -125,7 +127,7 @@ void insert_hands(SqliteFile& file, const StudyPlan& plan) {
 }
 
 /// The plan once more as tables, for people with other tools; Palmar reads its JSON.
-void insert_plan(SqliteFile& file, const StudyPlan& plan) {
+void insert_plan(SqliteFile& file, const study::StudyPlan& plan) {
   const auto name_table = [&](const std::string& table, const auto& names) {
     SqliteStatement row(file, "INSERT INTO " + table + " VALUES(?,?)");
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -133,15 +135,15 @@ void insert_plan(SqliteFile& file, const StudyPlan& plan) {
     }
   };
   std::vector<std::string> profiles, settings, grips;
-  for (const HandProfile& one : plan.profiles) profiles.push_back(one.name);
-  for (const StudySetting& one : plan.settings) settings.push_back(one.name);
+  for (const population::HandProfile& one : plan.profiles) profiles.push_back(one.name);
+  for (const study::StudySetting& one : plan.settings) settings.push_back(one.name);
   for (const auto& one : plan.grips) grips.emplace_back(one ? name_of(*one) : "auto");
   name_table("profile", profiles);
   name_table("setting", settings);
   name_table("asked_grip", grips);
   SqliteStatement population(file, "INSERT INTO population VALUES(?,?,?,?)");
   for (std::size_t i = 0; i < plan.populations.size(); ++i) {
-    const Population& one = plan.populations[i].population;
+    const population::Population& one = plan.populations[i].population;
     population.bind(1, static_cast<std::int64_t>(i))
         .bind(2, std::string_view(one.name))
         .bind(3, std::string_view(one.title))
@@ -150,7 +152,7 @@ void insert_plan(SqliteFile& file, const StudyPlan& plan) {
   }
   SqliteStatement product(file, "INSERT INTO product VALUES(?,?,?,?,?,?)");
   for (std::size_t i = 0; i < plan.products.size(); ++i) {
-    const StudyProduct& one = plan.products[i];
+    const study::StudyProduct& one = plan.products[i];
     product.bind(1, static_cast<std::int64_t>(i))
         .bind(2, std::string_view(one.name))
         .bind(3, std::string_view(one.family))
@@ -160,7 +162,7 @@ void insert_plan(SqliteFile& file, const StudyPlan& plan) {
         .run();
   }
   insert_hands(file, plan);
-  const GraspIndices& catalogue = index_catalogue();
+  const grasp::GraspIndices& catalogue = study::index_catalogue();
   for (std::size_t i = 0; i < catalogue.size(); ++i) {
     insert_quantity(file, static_cast<std::int64_t>(i), catalogue[i]);
   }
@@ -181,7 +183,7 @@ std::string study_value(SqliteFile& file, const std::string& key) {
   return statement.next() ? statement.text(0) : "";
 }
 
-StudyTableWriter::StudyTableWriter(SqliteFile& file, const StudyPlan& plan)
+StudyTableWriter::StudyTableWriter(SqliteFile& file, const study::StudyPlan& plan)
     : file_(file),
       plan_(plan),
       grasp_(file, "INSERT INTO grasp VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"),
@@ -201,28 +203,28 @@ std::int64_t StudyTableWriter::quantity_id(const std::string& key) {
   if (found != quantity_.end()) return found->second;
   std::int64_t id = 0;
   for (const auto& [known, number] : quantity_) id = std::max(id, number + 1);
-  GraspIndex row;  // not in the catalogue: nothing more is known of it
+  grasp::GraspIndex row;  // not in the catalogue: nothing more is known of it
   row.key = row.name = key;
   insert_quantity(file_, id, row);
   quantity_[key] = id;
   return id;
 }
 
-void StudyTableWriter::write(const StudyRecord& record) {
+void StudyTableWriter::write(const study::StudyRecord& record) {
   write(record,
         {pack(field_bytes(record.skin_pressure)), pack(field_bytes(record.product_pressure))});
 }
 
-void StudyTableWriter::write(const StudyRecord& record, const PackedFields& packed) {
+void StudyTableWriter::write(const study::StudyRecord& record, const PackedFields& packed) {
   // Keys that are not in the catalogue get their number by name within the first record that has
   // them, not by the order in which a record lists them.
   std::set<std::string> keys;
-  for (const IndexRecord& index : record.indices) keys.insert(index.key);
+  for (const study::IndexRecord& index : record.indices) keys.insert(index.key);
   for (const std::string& key : keys) quantity_id(key);
 
-  StudyRecord sorted = record;  // as a reader gives it back
+  study::StudyRecord sorted = record;  // as a reader gives it back
   std::sort(sorted.indices.begin(), sorted.indices.end(),
-            [this](const IndexRecord& a, const IndexRecord& b) {
+            [this](const study::IndexRecord& a, const study::IndexRecord& b) {
               return quantity_id(a.key) < quantity_id(b.key);
             });
   const std::string bytes = record_bytes(sorted);
@@ -230,7 +232,7 @@ void StudyTableWriter::write(const StudyRecord& record, const PackedFields& pack
   const std::string product = field_bytes(record.product_pressure);
   for (const std::string* part : {&bytes, &skin, &product}) digest_.add(*part);
 
-  const StudyTask task = task_at(plan_, record.number);
+  const study::StudyTask task = study::task_at(plan_, record.number);
   grasp_.bind(1, record.number)
       .bind(2, task.hand)
       .bind(3, task.profile)
@@ -254,7 +256,7 @@ void StudyTableWriter::write(const StudyRecord& record, const PackedFields& pack
       .bind_blob(21, rigid_bytes(record.product_from_hand))
       .bind(22, static_cast<std::int64_t>(checksum(bytes)))
       .run();
-  for (const RegionRecord& region : record.regions) {
+  for (const study::RegionRecord& region : record.regions) {
     region_.bind(1, record.number)
         .bind(2, name_of(region.region))
         .bind(3, region.force)
@@ -264,7 +266,7 @@ void StudyTableWriter::write(const StudyRecord& record, const PackedFields& pack
         .bind(7, region.mean_pressure)
         .run();
   }
-  for (const IndexRecord& index : sorted.indices) {
+  for (const study::IndexRecord& index : sorted.indices) {
     index_.bind(1, record.number).bind(2, quantity_id(index.key)).bind(3, index.value).run();
   }
   field_.bind(1, record.number).bind_blob(2, packed.skin).bind_blob(3, packed.product).run();
@@ -273,8 +275,9 @@ void StudyTableWriter::write(const StudyRecord& record, const PackedFields& pack
 }
 
 /// Only what there is: most grasps have none.
-void StudyTableWriter::write_fallbacks(std::int64_t number, const ContactFallbacks& fallbacks) {
-  for (const FallbackCount& one : kFallbackCounts) {
+void StudyTableWriter::write_fallbacks(std::int64_t number,
+                                       const contact::ContactFallbacks& fallbacks) {
+  for (const contact::FallbackCount& one : contact::kFallbackCounts) {
     const int count = fallbacks.*one.count;
     if (count == 0) continue;
     digest_.add(std::string(one.name) + " " + std::to_string(count));
@@ -282,8 +285,8 @@ void StudyTableWriter::write_fallbacks(std::int64_t number, const ContactFallbac
   }
 }
 
-void StudyTableWriter::write_hold(std::int64_t number, const StudyHold& held) {
-  const Hold& hold = held.hold;
+void StudyTableWriter::write_hold(std::int64_t number, const study::StudyHold& held) {
+  const grasp::Hold& hold = held.hold;
   digest_.add(hold_bytes(held));
   hold_->bind(1, number)
       .bind(2, hold.part)
@@ -299,7 +302,7 @@ void StudyTableWriter::write_hold(std::int64_t number, const StudyHold& held) {
       .run();
 }
 
-void StudyTableWriter::write_time(const StudyRecord& record) {
+void StudyTableWriter::write_time(const study::StudyRecord& record) {
   SqliteStatement(file_, "INSERT INTO timing VALUES(?,?)")
       .bind(1, record.number)
       .bind(2, record.seconds)
@@ -365,20 +368,20 @@ StudyTableReader::StudyTableReader(SqliteFile& file, bool with_fields,
   has_hold_ = hold_->next();
 }
 
-bool StudyTableReader::next(StudyRecord& record) {
+bool StudyTableReader::next(study::StudyRecord& record) {
   PackedFields fields;
   if (!next(record, fields)) return false;
   if (with_fields_) unpack_fields(fields, record);
   return true;
 }
 
-bool StudyTableReader::next(StudyRecord& record, PackedFields& fields) {
+bool StudyTableReader::next(study::StudyRecord& record, PackedFields& fields) {
   if (!grasp_.next()) return false;
   record = {};
   record.number = grasp_.integer(0);
   const std::string what = "grasp " + std::to_string(record.number);
   const auto outcome = outcome_named(grasp_.text(1));
-  const auto grip = grip_named(grasp_.text(3));
+  const auto grip = grasp::grip_named(grasp_.text(3));
   if (!outcome || !grip) throw InputError(what + " is damaged");
   record.outcome = *outcome;
   record.reason = grasp_.text(2);
@@ -409,7 +412,7 @@ bool StudyTableReader::next(StudyRecord& record, PackedFields& fields) {
   return true;
 }
 
-void unpack_fields(const PackedFields& fields, StudyRecord& record) {
+void unpack_fields(const PackedFields& fields, study::StudyRecord& record) {
   try {
     record.skin_pressure = field_from_bytes(unpack(fields.skin));
     record.product_pressure = field_from_bytes(unpack(fields.product));
@@ -418,9 +421,9 @@ void unpack_fields(const PackedFields& fields, StudyRecord& record) {
   }
 }
 
-void StudyTableReader::read_regions(StudyRecord& record) {
+void StudyTableReader::read_regions(study::StudyRecord& record) {
   while (has_region_ && region_.integer(0) <= record.number) {
-    const auto region = region_named(region_.text(1));
+    const auto region = hand::region_named(region_.text(1));
     if (!region || region_.integer(0) < record.number) {
       throw InputError("grasp " + std::to_string(record.number) + ": its regions are damaged");
     }
@@ -433,10 +436,12 @@ void StudyTableReader::read_regions(StudyRecord& record) {
     has_region_ = region_.next();
   }
   std::sort(record.regions.begin(), record.regions.end(),
-            [](const RegionRecord& a, const RegionRecord& b) { return a.region < b.region; });
+            [](const study::RegionRecord& a, const study::RegionRecord& b) {
+              return a.region < b.region;
+            });
 }
 
-void StudyTableReader::read_indices(StudyRecord& record) {
+void StudyTableReader::read_indices(study::StudyRecord& record) {
   while (has_index_ && index_.integer(0) <= record.number) {
     const auto key = quantity_.find(index_.integer(1));
     if (key == quantity_.end() || index_.integer(0) < record.number) {
@@ -447,12 +452,12 @@ void StudyTableReader::read_indices(StudyRecord& record) {
   }
 }
 
-void StudyTableReader::read_hold(StudyRecord& record) {
+void StudyTableReader::read_hold(study::StudyRecord& record) {
   if (!hold_) return;
   while (has_hold_ && hold_->integer(0) < record.number) has_hold_ = hold_->next();
   if (!has_hold_ || hold_->integer(0) != record.number) return;
-  StudyHold held;
-  const auto grip = grip_named(hold_->text(4));
+  study::StudyHold held;
+  const auto grip = grasp::grip_named(hold_->text(4));
   if (!grip) throw InputError("grasp " + std::to_string(record.number) + ": its hold is damaged");
   held.hold.part = static_cast<int>(hold_->integer(1));
   held.hold.part_name = hold_->text(2);
@@ -468,10 +473,10 @@ void StudyTableReader::read_hold(StudyRecord& record) {
   has_hold_ = hold_->next();
 }
 
-void StudyTableReader::read_fallbacks(StudyRecord& record) {
+void StudyTableReader::read_fallbacks(study::StudyRecord& record) {
   while (has_fallback_ && fallback_->integer(0) <= record.number) {
     const std::string name = fallback_->text(1);
-    for (const FallbackCount& one : kFallbackCounts) {
+    for (const contact::FallbackCount& one : contact::kFallbackCounts) {
       if (name != one.name || fallback_->integer(0) < record.number) continue;
       record.fallbacks.*one.count = static_cast<int>(fallback_->integer(2));
     }
@@ -521,4 +526,4 @@ void build_store(const std::filesystem::path& path, const StudyHead& head, bool 
   file.run("COMMIT");
 }
 
-}  // namespace palmar
+}  // namespace palmar::records

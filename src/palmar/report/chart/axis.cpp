@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::report {
 
 Axis axis_over(double lowest, double highest, int steps) {
   const double magnitude = std::max({std::abs(lowest), std::abs(highest), 1e-30});
@@ -44,4 +44,4 @@ Axis axis_over(double lowest, double highest, int steps) {
   return axis;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace palmar {
+namespace palmar::report {
 
 /// An axis that needn't begin at 0: round ends that take in all values, round ticks.
 struct Axis {
@@ -19,4 +19,4 @@ struct Axis {
 /// Steps of 1, 2 or 5 x 10^n, about `steps` of them. One value alone stands in the middle.
 Axis axis_over(double lowest, double highest, int steps = 6);
 
-}  // namespace palmar
+}  // namespace palmar::report

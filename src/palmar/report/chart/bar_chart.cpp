@@ -7,7 +7,7 @@
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
@@ -70,4 +70,4 @@ Figure bar_figure(const BarChart& chart) {
   return figure;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

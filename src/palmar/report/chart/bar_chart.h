@@ -8,7 +8,7 @@
 
 #include "palmar/report/chart/figure.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// Low and high value of a quantity that is not known for certain.
 struct BarRange {
@@ -31,4 +31,4 @@ struct BarChart {
 /// Horizontal bars with their values; `when_empty` where none is above 0.
 Figure bar_figure(const BarChart& chart);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr std::size_t kMostNumbers = 20;
@@ -77,4 +77,4 @@ Figure correlation_chart(const CorrelationChart& chart) {
   return figure;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

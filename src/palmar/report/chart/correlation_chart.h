@@ -7,7 +7,7 @@
 
 #include "palmar/report/chart/figure.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// The matrix of correlations of several dimensions.
 struct CorrelationChart {
@@ -21,4 +21,4 @@ struct CorrelationChart {
 /// dimensions without numbers. Throws UsageError if the sizes don't agree.
 Figure correlation_chart(const CorrelationChart& chart);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr double kLargestSide = 5000.0;  // points
@@ -100,4 +100,4 @@ void Figure::say(const std::function<std::string(const std::string&)>& said) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -14,7 +14,7 @@
 #include "palmar/report/picture/image.h"
 #include "palmar/report/picture/stroke_text.h"
 
-namespace palmar {
+namespace palmar::report {
 
 inline constexpr Rgb kInkColour{34, 40, 46};    ///< text and axes of figures
 inline constexpr Rgb kFaintColour{74, 82, 90};  ///< numbers at ticks
@@ -116,4 +116,4 @@ Image to_image(const Figure& figure, double scale = 2.0);
 /// reader has. Letters outside Latin-1 become the nearest that it has, or '?'.
 std::string to_pdf(const Figure& figure);
 
-}  // namespace palmar
+}  // namespace palmar::report

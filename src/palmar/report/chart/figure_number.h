@@ -4,10 +4,10 @@
 
 #include <string>
 
-namespace palmar {
+namespace palmar::report {
 
 /// A coordinate as SVG and PDF take it: two decimals without trailing zeros, independent of the
 /// locale; 1/100 point is 3.5 micrometres on paper.
 std::string figure_number(double value);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -16,7 +16,7 @@
 #include "palmar/report/chart/figure_number.h"
 #include "palmar/report/chart/helvetica.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using Eigen::Vector2d;
@@ -209,4 +209,4 @@ std::string to_pdf(const Figure& figure) {
          count + " /Root 1 0 R /Info 7 0 R >>\nstartxref\n" + start + "\n%%EOF\n";
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -8,7 +8,7 @@
 #include "palmar/report/chart/figure.h"
 #include "palmar/report/picture/coverage_mask.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using Eigen::Vector2d;
@@ -154,4 +154,4 @@ std::string to_png(const Figure& figure, double scale) {
   return encode_png(to_image(figure, scale));
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

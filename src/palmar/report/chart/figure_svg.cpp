@@ -9,7 +9,7 @@
 #include "palmar/report/chart/figure_number.h"
 #include "palmar/report/words/html_text.h"
 
-namespace palmar {
+namespace palmar::report {
 
 std::string figure_number(double value) {
   std::array<char, 400> text{};
@@ -71,7 +71,7 @@ std::string drawn(const Figure::Picture& picture) {
   return "<image" + attribute("x", picture.corner.x()) + attribute("y", picture.corner.y()) +
          attribute("width", picture.size.x()) + attribute("height", picture.size.y()) +
          " preserveAspectRatio=\"none\" href=\"data:image/png;base64," +
-         base64(encode_png(*picture.image, PngEffort::kSmall)) + "\"/>";
+         formats::base64(encode_png(*picture.image, PngEffort::kSmall)) + "\"/>";
 }
 
 }  // namespace
@@ -90,4 +90,4 @@ std::string to_svg(const Figure& figure) {
   return svg + "</svg>\n";
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -16,7 +16,7 @@
 #include "palmar/report/chart/scatter_chart.h"
 #include "palmar/report/picture/coverage_mask.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using testing::ElementsAre;
@@ -203,4 +203,4 @@ TEST(CorrelationChart, ColoursTheLowerTriangle) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -8,7 +8,7 @@
 #include "palmar/report/chart/figure.h"
 #include "palmar/report/picture/stroke_text.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 // Characters 32 to 126.
@@ -107,4 +107,4 @@ double text_width(std::string_view text, const Lettering& look) {
   return sum * 1e-3 * look.size;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

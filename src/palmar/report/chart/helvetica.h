@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::report {
 
 /// Text in the WinAnsi encoding of PDF (ISO 32000-1, annex D.2): Latin-1 with typographic marks.
 /// Other signs become what stands for them in ASCII ("≥" ">="), Greek letters their names, anything
@@ -16,4 +16,4 @@ std::string win_ansi(std::string_view utf8);
 /// (Adobe's font metrics of the 14 standard fonts). Characters that have none get that of 'n'.
 int helvetica_advance(unsigned char character, bool is_bold);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -7,7 +7,7 @@
 #include "palmar/report/chart/figure.h"
 #include "palmar/report/picture/colour_bar.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr double kAxesWidth = 560.0;
@@ -105,4 +105,4 @@ std::string svg_stack(const std::vector<LineChart>& charts) {
   return to_svg(stack);
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

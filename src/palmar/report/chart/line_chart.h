@@ -8,7 +8,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/report/picture/image.h"
 
-namespace palmar {
+namespace palmar::report {
 
 struct LineSeries {
   std::string name;                     ///< in the legend; none with a single series
@@ -31,4 +31,4 @@ std::string svg_line_chart(const LineChart& chart);
 /// Charts below one another in one SVG element.
 std::string svg_stack(const std::vector<LineChart>& charts);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -10,7 +10,7 @@
 
 #include "palmar/report/chart/press_chart.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using testing::AllOf;
@@ -65,7 +65,7 @@ TEST(LineChart, ALegendNamesSeveralSeries) {
 }
 
 TEST(PressChart, ShowsForceAreaAndPressureAgainstDepth) {
-  PressStep step;
+  contact::PressStep step;
   step.depth = 1.0;
   step.force = 2.0;
   step.area = 30.0;
@@ -78,4 +78,4 @@ TEST(PressChart, ShowsForceAreaAndPressureAgainstDepth) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -4,34 +4,37 @@
 
 #include "palmar/report/chart/line_chart.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr Rgb kBlue{70, 110, 150};
 constexpr Rgb kRed{176, 74, 52};
 constexpr Rgb kGreen{78, 126, 70};
 
-LineSeries series_of(const std::vector<PressStep>& steps, double PressStep::*value,
-                     const std::string& name, Rgb colour) {
+LineSeries series_of(const std::vector<contact::PressStep>& steps,
+                     double contact::PressStep::*value, const std::string& name, Rgb colour) {
   LineSeries series{name, {}, colour};
-  for (const PressStep& step : steps) series.points.emplace_back(step.depth, step.*value);
+  for (const contact::PressStep& step : steps) series.points.emplace_back(step.depth, step.*value);
   return series;
 }
 
 }  // namespace
 
-std::string press_chart(const std::vector<PressStep>& steps, const std::string& title) {
+std::string press_chart(const std::vector<contact::PressStep>& steps, const std::string& title) {
   const std::string depth = "Depth, mm";
   return svg_stack({
-      {title, depth, "Force, N", {series_of(steps, &PressStep::force, "Force", kBlue)}},
-      {"", depth, "Contact area, mm\u00b2", {series_of(steps, &PressStep::area, "Area", kBlue)}},
+      {title, depth, "Force, N", {series_of(steps, &contact::PressStep::force, "Force", kBlue)}},
+      {"",
+       depth,
+       "Contact area, mm\u00b2",
+       {series_of(steps, &contact::PressStep::area, "Area", kBlue)}},
       {"",
        depth,
        "Pressure, MPa",
-       {series_of(steps, &PressStep::peak_pressure, "Peak", kRed),
-        series_of(steps, &PressStep::peak_pressure_cells, "Peak on a sensor cell", kGreen),
-        series_of(steps, &PressStep::mean_pressure, "Mean", kBlue)}},
+       {series_of(steps, &contact::PressStep::peak_pressure, "Peak", kRed),
+        series_of(steps, &contact::PressStep::peak_pressure_cells, "Peak on a sensor cell", kGreen),
+        series_of(steps, &contact::PressStep::mean_pressure, "Mean", kBlue)}},
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -7,10 +7,10 @@
 
 #include "palmar/contact/press/press.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// The curve of an indentation test as an SVG picture: force, contact area, and peak and mean
 /// pressure against depth.
-std::string press_chart(const std::vector<PressStep>& steps, const std::string& title);
+std::string press_chart(const std::vector<contact::PressStep>& steps, const std::string& title);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -11,7 +11,7 @@
 
 #include "palmar/report/chart/axis.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using Eigen::Vector2d;
@@ -187,4 +187,4 @@ Figure scatter_chart(const ScatterChart& chart) {
   return figure;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

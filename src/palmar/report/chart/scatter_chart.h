@@ -7,7 +7,7 @@
 
 #include "palmar/report/chart/figure.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// A line through points and the bands round it, at rising x.
 struct BandedLine {
@@ -38,4 +38,4 @@ Rgb series_colour(std::size_t place);
 /// out; a chart without points says so.
 Figure scatter_chart(const ScatterChart& chart);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -13,7 +13,7 @@
 
 #include "palmar/report/picture/colormap.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr double kSheet = 720.0;   // points; width of the figure
@@ -41,12 +41,13 @@ struct Panel {
   std::vector<PlacedName> names;
 };
 
-bool is_pressed(const SensorReading& reading, const std::optional<PressureComparison>& measured,
-                std::size_t i) {
+bool is_pressed(const study::SensorReading& reading,
+                const std::optional<study::PressureComparison>& measured, std::size_t i) {
   return reading.cells[i].force > 0.0 || (measured && measured->measured[i] > 0.0);
 }
 
-Panel mat_panel(const SensorReading& reading, const std::optional<PressureComparison>& measured) {
+Panel mat_panel(const study::SensorReading& reading,
+                const std::optional<study::PressureComparison>& measured) {
   constexpr int kMargin = 2;  // rows
   int low = reading.rows, high = 1;
   for (std::size_t i = 0; i < reading.cells.size(); ++i) {
@@ -59,7 +60,7 @@ Panel mat_panel(const SensorReading& reading, const std::optional<PressureCompar
   Panel panel{static_cast<double>(reading.columns), static_cast<double>(high - low + 1), {}, {}};
   const double whole = reading.layout.pitch * reading.layout.pitch;
   for (std::size_t i = 0; i < reading.cells.size(); ++i) {
-    const SensorCell& one = reading.cells[i];
+    const study::SensorCell& one = reading.cells[i];
     if (one.row < low || one.row > high || !(one.area > 0.0)) continue;
     panel.cells.push_back(
         {i, one.column - 1.0, static_cast<double>(one.row - low), one.area / whole});
@@ -68,23 +69,23 @@ Panel mat_panel(const SensorReading& reading, const std::optional<PressureCompar
 }
 
 /// Patches of a glove: fingers side by side from the little one to the thumb, the palm below them.
-Panel glove_panel(const SensorReading& reading) {
+Panel glove_panel(const study::SensorReading& reading) {
   std::map<std::string, std::array<double, 2>> corner;
-  std::map<std::string, SensorPatch> patch;
-  for (const SensorPatch& one : reading.layout.patches) {
+  std::map<std::string, study::SensorPatch> patch;
+  for (const study::SensorPatch& one : reading.layout.patches) {
     patch[std::string(name_of(one.region))] = one;
   }
-  const auto find = [&](Region region) {
+  const auto find = [&](hand::Region region) {
     const auto found = patch.find(std::string(name_of(region)));
     return found == patch.end() ? nullptr : &found->second;
   };
   double x = 0.0;
   double below = 0.0;  // height of the palm
-  const auto add_line = [&](std::initializer_list<Region> regions) {
+  const auto add_line = [&](std::initializer_list<hand::Region> regions) {
     double at = 0.0;
     int tallest = 0;
-    for (const Region region : regions) {
-      if (const SensorPatch* one = find(region)) {
+    for (const hand::Region region : regions) {
+      if (const study::SensorPatch* one = find(region)) {
         corner[std::string(name_of(region))] = {at, below};
         at += one->columns + 1;
         tallest = std::max(tallest, one->rows);
@@ -93,17 +94,18 @@ Panel glove_panel(const SensorReading& reading) {
     if (tallest > 0) below += tallest + 1;
     x = std::max(x, at);
   };
-  add_line({Region::kHypothenar, Region::kCentralPalm, Region::kThenar});
-  add_line({Region::kUlnarPalm, Region::kRadialPalm});
+  add_line({hand::Region::kHypothenar, hand::Region::kCentralPalm, hand::Region::kThenar});
+  add_line({hand::Region::kUlnarPalm, hand::Region::kRadialPalm});
   Panel panel{x, below, {}, {}};
   double at = 0.0;
-  for (const Finger finger :
-       {Finger::kLittle, Finger::kRing, Finger::kMiddle, Finger::kIndex, Finger::kThumb}) {
+  for (const hand::Finger finger :
+       {hand::Finger::kLittle, hand::Finger::kRing, hand::Finger::kMiddle, hand::Finger::kIndex,
+        hand::Finger::kThumb}) {
     double y = below;
     int widest = 0;
-    for (const std::optional<Segment>& segment : segments_of(finger)) {
+    for (const std::optional<hand::Segment>& segment : hand::segments_of(finger)) {
       if (!segment) continue;
-      const SensorPatch* one = find(*region_of(*segment));
+      const study::SensorPatch* one = find(*hand::region_of(*segment));
       if (one == nullptr) continue;
       corner[std::string(name_of(one->region))] = {at, y};
       y += one->rows + 1;
@@ -117,14 +119,14 @@ Panel glove_panel(const SensorReading& reading) {
   }
   panel.width = std::max(panel.width, at);
   for (std::size_t i = 0; i < reading.cells.size(); ++i) {
-    const SensorCell& one = reading.cells[i];
+    const study::SensorCell& one = reading.cells[i];
     const std::array<double, 2>& from = corner[one.patch];
     panel.cells.push_back({i, from[0] + one.column - 1.0, from[1] + one.row - 1.0});
   }
   return panel;
 }
 
-Panel free_panel(const SensorReading& reading) {
+Panel free_panel(const study::SensorReading& reading) {
   const int count = static_cast<int>(reading.cells.size());
   const int lines = (count + kFreePerLine - 1) / kFreePerLine;
   Panel panel{2.0 * std::min(count, kFreePerLine), 2.0 * lines, {}, {}};
@@ -137,9 +139,11 @@ Panel free_panel(const SensorReading& reading) {
   return panel;
 }
 
-Panel panel_of(const SensorReading& reading, const std::optional<PressureComparison>& measured) {
-  if (reading.layout.kind == SensorKind::kMat) return mat_panel(reading, measured);
-  return reading.layout.kind == SensorKind::kGlove ? glove_panel(reading) : free_panel(reading);
+Panel panel_of(const study::SensorReading& reading,
+               const std::optional<study::PressureComparison>& measured) {
+  if (reading.layout.kind == study::SensorKind::kMat) return mat_panel(reading, measured);
+  return reading.layout.kind == study::SensorKind::kGlove ? glove_panel(reading)
+                                                          : free_panel(reading);
 }
 
 Rgb mixed(const Rgb& from, const Rgb& to, double share) {
@@ -176,8 +180,8 @@ void add_scale(Figure& figure, double x, double y, double width, double low, dou
 
 }  // namespace
 
-Figure sensor_figure(const SensorReading& reading,
-                     const std::optional<PressureComparison>& measured) {
+Figure sensor_figure(const study::SensorReading& reading,
+                     const std::optional<study::PressureComparison>& measured) {
   const Panel panel = panel_of(reading, measured);
   const int count = measured ? 3 : 1;
   const double wide = (kSheet - kBetween * (count - 1)) / count;
@@ -189,7 +193,7 @@ Figure sensor_figure(const SensorReading& reading,
   std::vector<double> ours, theirs, difference;
   double upper = 0.0, farthest = 0.0;
   for (std::size_t i = 0; i < reading.cells.size(); ++i) {
-    const SensorCell& one = reading.cells[i];
+    const study::SensorCell& one = reading.cells[i];
     ours.push_back(one.mean_pressure);
     theirs.push_back(measured && one.area > 0.0 ? measured->measured[i] / one.area : 0.0);
     difference.push_back(ours.back() - theirs.back());
@@ -222,4 +226,4 @@ Figure sensor_figure(const SensorReading& reading,
   return figure;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

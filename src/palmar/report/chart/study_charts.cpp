@@ -10,7 +10,7 @@
 
 #include "palmar/statistics/summary.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr double kRowsWidth = 560.0;  // points, as all below
@@ -83,11 +83,11 @@ void y_axis(Figure& figure, const Scale& y, double x_from, double x_to, const st
 }
 
 /// Largest and smallest value of all samples; nothing without values.
-std::optional<Interval> range_of(const std::vector<ChartSample>& samples) {
-  std::optional<Interval> range;
+std::optional<statistics::Interval> range_of(const std::vector<ChartSample>& samples) {
+  std::optional<statistics::Interval> range;
   for (const ChartSample& sample : samples) {
     for (const double value : sample.values) {
-      if (!range) range = Interval{value, value};
+      if (!range) range = statistics::Interval{value, value};
       range->low = std::min(range->low, value);
       range->high = std::max(range->high, value);
     }
@@ -173,10 +173,12 @@ void sample_row(Figure& figure, const ChartSample& sample, const Scale& x, doubl
   if (sorted.empty()) return;
   const double base = top + kRow - 9.0;
   dots(figure, sample, x, base - 8.0, kRow - 29.0, every);
-  const double mean = summarise(sorted).mean;
-  const double low = x(quantile(sorted, 0.05)), high = x(quantile(sorted, 0.95));
-  const double q1 = x(quantile(sorted, 0.25)), q3 = x(quantile(sorted, 0.75));
-  const double median = x(quantile(sorted, 0.5));
+  const double mean = statistics::summarise(sorted).mean;
+  const double low = x(statistics::quantile(sorted, 0.05)),
+               high = x(statistics::quantile(sorted, 0.95));
+  const double q1 = x(statistics::quantile(sorted, 0.25)),
+               q3 = x(statistics::quantile(sorted, 0.75));
+  const double median = x(statistics::quantile(sorted, 0.5));
   figure.line(low, base, q1, base);
   figure.line(q3, base, high, base);
   figure.line(low, base - 3.0, low, base + 3.0);
@@ -243,7 +245,7 @@ Figure distribution_figure(const DistributionChart& chart) {
   const double bottom = rows_top + kRow * rows;
   Figure figure(kRowsWidth + std::max(0.0, side - 100.0), bottom + 60.0, chart.title);
   title(figure, chart.title);
-  const std::optional<Interval> range = range_of(chart.samples);
+  const std::optional<statistics::Interval> range = range_of(chart.samples);
   if (!range) {
     figure.text(kRowsLeft, 60.0, "No hand has a value.", {.size = kTextSize});
     return figure;
@@ -352,4 +354,4 @@ Figure trend_figure(const TrendChart& chart) {
   return figure;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

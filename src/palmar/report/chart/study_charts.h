@@ -8,7 +8,7 @@
 
 #include "palmar/report/chart/figure.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// Colour of a product in all charts of a study, by its place in the plan; distinguished by every
 /// kind of colour vision up to 7 (after Okabe and Ito 2008), repeated beyond.
@@ -74,4 +74,4 @@ struct TrendChart {
 };
 Figure trend_figure(const TrendChart& chart);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -7,7 +7,7 @@
 
 #include "palmar/report/words/study_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using ::testing::ElementsAre;
@@ -73,12 +73,12 @@ TEST(DistributionFigure, WithoutValuesSaysSo) {
 }
 
 TEST(PairWords, SayWhatIsShownAndWhatIsNot) {
-  StudyPlan plan;
+  study::StudyPlan plan;
   plan.products.resize(2);
   plan.products[0].name = "old handle";
   plan.products[1].name = "new handle";
-  const StudyQuantity peak = hand_quantities().front();
-  ProductPair pair;
+  const study::StudyQuantity peak = study::hand_quantities().front();
+  study::ProductPair pair;
   pair.second = 1;
   pair.hands = 30;
   pair.pairs = 28;
@@ -89,23 +89,23 @@ TEST(PairWords, SayWhatIsShownAndWhatIsNot) {
   pair.t_p_holm = 2e-5;
   pair.wilcoxon_p_holm = 0.004;
   pair.left_out = {{1, "slips_out", 2}};
-  pair.verdict = DifferenceVerdict::kShown;
+  pair.verdict = study::DifferenceVerdict::kShown;
   EXPECT_EQ(pair_words(plan, peak, pair),
             "new handle has a lower peak pressure on sensor cells than old handle: 0.300 against "
             "0.400 MPa, 25 % less (difference 0.100, 95 % interval 0.0800 to 0.120 MPa; 28 of 30 "
             "hands hold both; t-test p < 0.001, Wilcoxon p = 0.004).");
   EXPECT_EQ(left_out_words(plan, pair), "new handle: 2 slips out");
-  pair.verdict = DifferenceVerdict::kNotShown;
+  pair.verdict = study::DifferenceVerdict::kNotShown;
   EXPECT_THAT(pair_words(plan, peak, pair), HasSubstr("No difference"));
   EXPECT_THAT(pair_words(plan, peak, pair), Not(HasSubstr("So few hands")));
   pair.pairs = 5;
   EXPECT_THAT(pair_words(plan, peak, pair), HasSubstr("So few hands prove nothing; 6 or more"));
   pair.pairs = 28;
-  pair.verdict = DifferenceVerdict::kNone;
+  pair.verdict = study::DifferenceVerdict::kNone;
   EXPECT_THAT(pair_words(plan, peak, pair), HasSubstr("don't differ"));
-  pair.verdict = DifferenceVerdict::kTooFewPairs;
+  pair.verdict = study::DifferenceVerdict::kTooFewPairs;
   EXPECT_THAT(pair_words(plan, peak, pair), Not(HasSubstr("lower")));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

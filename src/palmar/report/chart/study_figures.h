@@ -8,7 +8,7 @@
 #include "palmar/report/chart/figure.h"
 #include "palmar/study/statistics/study_analysis.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// One figure of a study's report.
 struct StudyFigure {
@@ -22,9 +22,10 @@ struct StudyFigure {
 /// products (p of the t-test after Holm; of more than four products only those with the one whose
 /// mean is lowest), their dependence on hand length and circumference, shares of hands inside the
 /// limits.
-std::vector<StudyFigure> study_figures(const StudyResults& results, const StudyAnalysis& analysis);
+std::vector<StudyFigure> study_figures(const study::StudyResults& results,
+                                       const study::StudyAnalysis& analysis);
 
 /// Keys of the quantities that are shown first: peak on sensor cells, peak, mean, area, force.
 const std::vector<std::string>& main_quantities();
 
-}  // namespace palmar
+}  // namespace palmar::report

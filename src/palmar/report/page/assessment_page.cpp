@@ -16,24 +16,24 @@
 #include "palmar/report/words/html_text.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr double kStiffer = 0.1;  // 10 %, the change in which sensitivities are given
 
 /// A value of each region as bars, with the range from soft to stiff tissue where both are known.
-BarChart region_chart(const ContactResult& contact, const std::string& title,
-                      double RegionContact::*value, double ContactBandRow::*low,
-                      double ContactBandRow::*high) {
+BarChart region_chart(const contact::ContactResult& contact, const std::string& title,
+                      double contact::RegionContact::*value, double contact::ContactBandRow::*low,
+                      double contact::ContactBandRow::*high) {
   const bool has_range = contact.band && contact.band->total.force_low > 0.0 &&
                          contact.band->total.force_high > 0.0 &&
                          contact.band->regions.size() == contact.regions.size();
   BarChart chart{title + (has_range ? " (lines: soft to stiff tissue)" : ""), {}, "No contact."};
   for (std::size_t i = 0; i < contact.regions.size(); ++i) {
-    const RegionContact& one = contact.regions[i];
+    const contact::RegionContact& one = contact.regions[i];
     Bar bar{plain_words(one.region), one.*value, region_colour(one.region)};
     if (has_range) {
-      const ContactBandRow& band = contact.band->regions[i];
+      const contact::ContactBandRow& band = contact.band->regions[i];
       bar.range = BarRange{band.*low, band.*high};
     }
     chart.bars.push_back(std::move(bar));
@@ -41,27 +41,28 @@ BarChart region_chart(const ContactResult& contact, const std::string& title,
   return chart;
 }
 
-BarChart sensitivity_chart(const ContactBand& band) {
-  std::vector<ContactBandRow> rows = band.regions;
+BarChart sensitivity_chart(const contact::ContactBand& band) {
+  std::vector<contact::ContactBandRow> rows = band.regions;
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
     return a.force_per_modulus > b.force_per_modulus;
   });
   BarChart chart{"Force that 10 % stiffer skin in one region adds, N", {}, "No contact."};
-  for (const ContactBandRow& one : rows) {
+  for (const contact::ContactBandRow& one : rows) {
     chart.bars.push_back({plain_words(one.region), kStiffer * std::max(one.force_per_modulus, 0.0),
                           region_colour(one.region)});
   }
   return chart;
 }
 
-PageJson charts_json(const ContactResult& contact, const std::string& name, const Phrases& phrases,
-                     Attachments& attachments) {
+PageJson charts_json(const contact::ContactResult& contact, const std::string& name,
+                     const Phrases& phrases, Attachments& attachments) {
   PageJson list = PageJson::array();
   for (const BarChart& chart :
-       {region_chart(contact, "Force, N", &RegionContact::force, &ContactBandRow::force_low,
-                     &ContactBandRow::force_high),
-        region_chart(contact, "Peak pressure, MPa", &RegionContact::peak_pressure,
-                     &ContactBandRow::peak_pressure_low, &ContactBandRow::peak_pressure_high)}) {
+       {region_chart(contact, "Force, N", &contact::RegionContact::force,
+                     &contact::ContactBandRow::force_low, &contact::ContactBandRow::force_high),
+        region_chart(contact, "Peak pressure, MPa", &contact::RegionContact::peak_pressure,
+                     &contact::ContactBandRow::peak_pressure_low,
+                     &contact::ContactBandRow::peak_pressure_high)}) {
     Figure figure = bar_figure(chart);
     figure.say(phrases);
     const std::string svg = to_svg(figure);
@@ -73,23 +74,23 @@ PageJson charts_json(const ContactResult& contact, const std::string& name, cons
 }
 
 /// Ways to hold the product, as many as the sheet shows.
-PageJson ways_json(const AssessedProduct& one) {
+PageJson ways_json(const study::AssessedProduct& one) {
   PageJson list = PageJson::array();
   if (one.ways == nullptr) return list;
-  for (const RankedHold& way : one.ways->holds) {
+  for (const grasp::RankedHold& way : one.ways->holds) {
     if (list.size() == static_cast<std::size_t>(HoldsPictureOptions{}.most)) break;
     list.push_back({{"number", list.size() + 1},
                     {"words", way.words},
-                    {"score", finite_or_null(way.score)},
+                    {"score", records::finite_or_null(way.score)},
                     {"against", way.against}});
   }
   return list;
 }
 
-PageJson product_json(const Hand& hand, const AssessedProduct& one, const ColourScale& scale,
-                      const std::vector<EncodedPicture>& pictures, const std::string& name,
-                      Language language, Attachments& attachments) {
-  const ContactResult& contact = one.assessment.contact;
+PageJson product_json(const hand::Hand& hand, const study::AssessedProduct& one,
+                      const ColourScale& scale, const std::vector<EncodedPicture>& pictures,
+                      const std::string& name, Language language, Attachments& attachments) {
+  const contact::ContactResult& contact = one.assessment.contact;
   const Phrases phrases(language);
   PageJson sensitivity = nullptr;
   if (contact.band && !contact.band->regions.empty()) {
@@ -117,7 +118,7 @@ PageJson product_json(const Hand& hand, const AssessedProduct& one, const Colour
 
 }  // namespace
 
-std::string assessment_page(const AssessmentSet& set,
+std::string assessment_page(const study::AssessmentSet& set,
                             const std::vector<std::vector<EncodedPicture>>& pictures,
                             const ColourScale& scale, const std::string& json,
                             const AssessmentPageOptions& options) {
@@ -143,4 +144,4 @@ std::string assessment_page(const AssessmentSet& set,
   return render_page("assessment", json, view, std::move(attachments));
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -11,7 +11,7 @@
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::report {
 
 struct AssessmentPageOptions {
   Language language = Language::kEnglish;
@@ -25,9 +25,9 @@ struct AssessmentPageOptions {
 ///
 /// `pictures[i]` belongs to set.assessments[i] and may be empty. `json` is assessment_json(set).
 /// Throws UsageError if the counts differ, or the set has no hand or no assessment.
-std::string assessment_page(const AssessmentSet& set,
+std::string assessment_page(const study::AssessmentSet& set,
                             const std::vector<std::vector<EncodedPicture>>& pictures,
                             const ColourScale& scale, const std::string& json,
                             const AssessmentPageOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -9,7 +9,7 @@
 #include "palmar/report/page/report_extras.h"
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::report {
 
 struct ReportOptions {
   Language language = Language::kEnglish;
@@ -32,7 +32,7 @@ void check_report_folder(const std::string& folder);
 /// The numbers come first, so they stand whatever happens later. When cancelled, the remaining
 /// fields and pictures are left out, report.html is still written with what is there, and Cancelled
 /// is thrown. Throws OutputError, and UsageError as check_report_folder().
-void write_report(const std::string& folder, const AssessmentSet& set,
+void write_report(const std::string& folder, const study::AssessmentSet& set,
                   const ReportOptions& options = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::report

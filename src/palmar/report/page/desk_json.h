@@ -5,9 +5,9 @@
 #include "palmar/report/page/page_json.h"
 #include "palmar/report/page/report_extras.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// Units and project for a page (Desk in apps/workbench/types/common.ts).
 PageJson desk_json(const ReportExtras& extras, Attachments& attachments);
 
-}  // namespace palmar
+}  // namespace palmar::report

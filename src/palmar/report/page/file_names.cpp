@@ -4,7 +4,7 @@
 
 #include <cctype>
 
-namespace palmar {
+namespace palmar::report {
 
 std::string unique_file_name(const std::string& text, std::set<std::string>& used,
                              FullStops full_stops) {
@@ -23,4 +23,4 @@ std::string unique_file_name(const std::string& text, std::set<std::string>& use
   return unique;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

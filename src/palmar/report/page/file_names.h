@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace palmar {
+namespace palmar::report {
 
 /// Whether full stops stay in a name; one that would stand first never does.
 enum class FullStops { kKept, kReplaced };
@@ -16,4 +16,4 @@ enum class FullStops { kKept, kReplaced };
 std::string unique_file_name(const std::string& text, std::set<std::string>& used,
                              FullStops full_stops);
 
-}  // namespace palmar
+}  // namespace palmar::report

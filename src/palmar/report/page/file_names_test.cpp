@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 TEST(FileNames, AreTakenByEveryFileSystemAndDiffer) {
@@ -18,4 +18,4 @@ TEST(FileNames, AreTakenByEveryFileSystemAndDiffer) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

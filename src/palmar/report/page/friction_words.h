@@ -6,10 +6,10 @@
 
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// Whether friction holds the load, how much it could hold, how the product moves or slips (in
 /// directions of the hand), in a few plain sentences; empty if friction is off.
-std::string friction_verdict(const Hand& hand, const Assessment& assessment);
+std::string friction_verdict(const hand::Hand& hand, const study::Assessment& assessment);
 
-}  // namespace palmar
+}  // namespace palmar::report

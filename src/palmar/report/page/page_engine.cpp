@@ -11,7 +11,7 @@
 #include "palmar/report/words/html_text.h"
 #include "palmar/report/words/page_parts.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 static_assert(DUK_VERSION >= 20600, "Duktape 2.6 or newer is needed");
@@ -82,4 +82,4 @@ std::string render_page(const std::string& json, Attachments attachments) {
   return filled(rendered(json), attachments);
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

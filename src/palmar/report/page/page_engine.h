@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-namespace palmar {
+namespace palmar::report {
 
 /// Texts that go into a page as they are, by the name under which its data ask for them.
 using Attachments = std::map<std::string, std::string>;
@@ -22,4 +22,4 @@ using Attachments = std::map<std::string, std::string>;
 /// attachment is missing.
 std::string render_page(const std::string& json, Attachments attachments);
 
-}  // namespace palmar
+}  // namespace palmar::report

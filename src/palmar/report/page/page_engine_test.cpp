@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using ::testing::AllOf;
@@ -61,4 +61,4 @@ TEST(RenderPage, RefusesDataOfNoPage) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

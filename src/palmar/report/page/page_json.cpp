@@ -14,20 +14,20 @@
 #include "palmar/report/words/page_parts.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
-PageJson motions_json(const Hand& hand) {
+PageJson motions_json(const hand::Hand& hand) {
   PageJson motions = PageJson::object();
-  for (int d = 0; d < kDofCount; ++d) {
-    const auto dof = static_cast<Dof>(d);
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const auto dof = static_cast<hand::Dof>(d);
     PageJson& one = motions[std::string(name_of(dof))];
     one = {{"words", plain_words(dof)}, {"lower_deg", nullptr}, {"upper_deg", nullptr}};
-    for (const Joint& joint : hand.skeleton.joints) {
-      for (const JointDof& moved : joint.dofs) {
+    for (const hand::Joint& joint : hand.skeleton.joints) {
+      for (const hand::JointDof& moved : joint.dofs) {
         if (moved.dof != dof) continue;
-        one["lower_deg"] = moved.lower * kDegreesPerRadian;
-        one["upper_deg"] = moved.upper * kDegreesPerRadian;
+        one["lower_deg"] = moved.lower * geometry::kDegreesPerRadian;
+        one["upper_deg"] = moved.upper * geometry::kDegreesPerRadian;
       }
     }
   }
@@ -45,43 +45,47 @@ PageJson maker_json() {
       {"version", version()}, {"build", build_description()}, {"viewer_licence", viewer_licence()}};
 }
 
-PageJson vocabulary_json(const Hand& hand) {
+PageJson vocabulary_json(const hand::Hand& hand) {
   PageJson regions = PageJson::object();
-  for (int r = 0; r < kRegionCount; ++r) {
-    const auto region = static_cast<Region>(r);
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    const auto region = static_cast<hand::Region>(r);
     regions[std::string(name_of(region))] = {
         {"words", plain_words(region)},
         {"colour", hex_colour(region_colour(region))},
-        {"pain_onset_mpa", pain_onset_probe(region)},
-        {"discomfort_onset_mpa", discomfort_onset_probe(region)}};
+        {"pain_onset_mpa", grasp::pain_onset_probe(region)},
+        {"discomfort_onset_mpa", grasp::discomfort_onset_probe(region)}};
   }
   PageJson segments = PageJson::object();
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const auto segment = static_cast<Segment>(s);
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    const auto segment = static_cast<hand::Segment>(s);
     segments[std::string(name_of(segment))] = plain_words(segment);
   }
   PageJson stops = PageJson::object();
-  for (const StopReason reason :
-       {StopReason::kLimitDepth, StopReason::kRangeOfMotion, StopReason::kProximalStop,
-        StopReason::kDistalStop, StopReason::kOtherFinger, StopReason::kNotReached,
-        StopReason::kGiven}) {
+  for (const grasp::StopReason reason :
+       {grasp::StopReason::kLimitDepth, grasp::StopReason::kRangeOfMotion,
+        grasp::StopReason::kProximalStop, grasp::StopReason::kDistalStop,
+        grasp::StopReason::kOtherFinger, grasp::StopReason::kNotReached,
+        grasp::StopReason::kGiven}) {
     stops[std::string(name_of(reason))] = plain_words(reason);
   }
   PageJson statuses = PageJson::object();
-  for (const GraspStatus status :
-       {GraspStatus::kHeld, GraspStatus::kPartlyHeld, GraspStatus::kTooLarge,
-        GraspStatus::kTooSmall, GraspStatus::kNotGraspable}) {
+  for (const grasp::GraspStatus status :
+       {grasp::GraspStatus::kHeld, grasp::GraspStatus::kPartlyHeld, grasp::GraspStatus::kTooLarge,
+        grasp::GraspStatus::kTooSmall, grasp::GraspStatus::kNotGraspable}) {
     statuses[std::string(name_of(status))] = plain_words(status);
   }
   PageJson grips = PageJson::object();
-  for (int g = 0; g < kGripCount; ++g) {
-    const auto grip = static_cast<Grip>(g);
-    grips[std::string(name_of(grip))] = {{"is_power", is_power(grip)}};
+  for (int g = 0; g < grasp::kGripCount; ++g) {
+    const auto grip = static_cast<grasp::Grip>(g);
+    grips[std::string(name_of(grip))] = {{"is_power", grasp::is_power(grip)}};
   }
-  return {{"regions", std::move(regions)},        {"segments", std::move(segments)},
-          {"motions", motions_json(hand)},        {"stops", std::move(stops)},
-          {"statuses", std::move(statuses)},      {"grips", std::move(grips)},
-          {"blood_flow_stop_mpa", kBloodFlowStop}};
+  return {{"regions", std::move(regions)},
+          {"segments", std::move(segments)},
+          {"motions", motions_json(hand)},
+          {"stops", std::move(stops)},
+          {"statuses", std::move(statuses)},
+          {"grips", std::move(grips)},
+          {"blood_flow_stop_mpa", grasp::kBloodFlowStop}};
 }
 
 PageJson colour_bar_json(const ColourScale& scale) {
@@ -108,7 +112,7 @@ std::string attached(Attachments& attachments, const std::string& name, std::str
 
 std::string attached_png(Attachments& attachments, const std::string& name,
                          const std::string& png) {
-  attachments[name] = "data:image/png;base64," + base64(png);
+  attachments[name] = "data:image/png;base64," + formats::base64(png);
   return "attachment:" + name;
 }
 
@@ -205,4 +209,4 @@ std::string render_page(const std::string& kind, const std::string& report, cons
                      std::move(attachments));
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -11,7 +11,7 @@
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/report/words/phrases.h"
 
-namespace palmar {
+namespace palmar::report {
 
 // Parts of the data of pages, by the types of apps/workbench/types.
 
@@ -22,7 +22,7 @@ std::string page_text(const PageJson& json);
 
 PageJson maker_json();
 /// Words, colours and limits by Palmar's names; ranges of motion are the hand's.
-PageJson vocabulary_json(const Hand& hand);
+PageJson vocabulary_json(const hand::Hand& hand);
 PageJson colour_bar_json(const ColourScale& scale);
 
 /// `<attachment:NAME>`, which becomes `text`.
@@ -53,4 +53,4 @@ void put_in_language(PageJson& json, const Phrases& phrases);
 std::string render_page(const std::string& kind, const std::string& report, const PageJson& view,
                         Attachments attachments);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -13,7 +13,7 @@
 #include "palmar/formats/process/external_program.h"
 #include "palmar/formats/process/program_missing.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,12 +26,12 @@ constexpr double kAddressSpace = 1.0e7;  // MB; a browser reserves far more than
 fs::path browser() {
   std::string names;
   for (const char* name : kBrowsers) {
-    if (const auto found = find_program(name)) return *found;
+    if (const auto found = formats::find_program(name)) return *found;
     names += (names.empty() ? "" : ", ") + std::string(name);
   }
-  throw ProgramMissing("PDF and slides: no browser is there to print with; install one of " +
-                       names +
-                       " (Debian: apt install chromium), or print report.html from your own");
+  throw formats::ProgramMissing(
+      "PDF and slides: no browser is there to print with; install one of " + names +
+      " (Debian: apt install chromium), or print report.html from your own");
 }
 
 /// As the path of an address.
@@ -61,15 +61,15 @@ void browse(const fs::path& program, const fs::path& page, const std::string& ha
   // A browser's sandbox doesn't work for root.
   if (geteuid() == 0) arguments.insert(arguments.begin(), "--no-sandbox");
   fs::remove(out);
-  create_folder(profile);
-  const ChildResult result = run_child(
+  formats::create_folder(profile);
+  const formats::ChildResult result = formats::run_child(
       program, arguments, profile / "log",
       {.seconds = kPatience, .memory_mb = kAddressSpace, .file_mb = 8192.0},
       [](const std::string&) {}, [&] { return progress.is_cancelled(); });
   std::error_code ignored;
   fs::remove_all(profile, ignored);
   progress.throw_if_cancelled();
-  if (result.end != ChildResult::End::kExited || result.code != 0 || !fs::exists(out)) {
+  if (result.end != formats::ChildResult::End::kExited || result.code != 0 || !fs::exists(out)) {
     throw OutputError(out.string() + ": " + program.filename().string() +
                       " wrote nothing; report.html can be printed from any browser");
   }
@@ -101,7 +101,8 @@ void print_pdf(const fs::path& report_html, Paper paper, const Progress& progres
 
 void take_slides(const fs::path& report_html, const Progress& progress) {
   const fs::path program = browser();
-  const bool has_pictures = read_file(report_html).find("data-picture=\"") != std::string::npos;
+  const bool has_pictures =
+      formats::read_file(report_html).find("data-picture=\"") != std::string::npos;
   for (const std::string slide : {"answer", "hold", "map"}) {
     if (slide != "answer" && !has_pictures) break;
     const fs::path out = report_html.parent_path() / ("slide-" + slide + ".png");
@@ -112,4 +113,4 @@ void take_slides(const fs::path& report_html, const Progress& progress) {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

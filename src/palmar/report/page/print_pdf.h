@@ -7,7 +7,7 @@
 
 #include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// Sizes of paper.
 enum class Paper { kA4, kLetter };
@@ -27,4 +27,4 @@ void print_pdf(const std::filesystem::path& report_html, Paper paper,
 /// and where it presses. A page without pictures gets the first alone. Throws as print_pdf().
 void take_slides(const std::filesystem::path& report_html, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::report

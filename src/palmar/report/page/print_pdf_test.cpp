@@ -11,7 +11,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/process/program_missing.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,7 +26,7 @@ TEST(PrintPdf, NamesTheBrowsersThatItLooksFor) {
   try {
     print_pdf("report.html", Paper::kA4);
     ADD_FAILURE() << "printed without a browser";
-  } catch (const ProgramMissing& error) {
+  } catch (const formats::ProgramMissing& error) {
     EXPECT_THAT(error.what(), HasSubstr("chromium"));
     EXPECT_EQ(error.exit_code(), 6);
   }
@@ -40,4 +40,4 @@ TEST(PrintPdf, PaperIsNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -8,7 +8,7 @@
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/report/page/desk_json.h"
 
-namespace palmar {
+namespace palmar::report {
 
 std::string name_of(Units units) { return units == Units::kUs ? "us" : "metric"; }
 
@@ -21,12 +21,13 @@ Units units_named(const std::string& name) {
 }
 
 PageJson desk_json(const ReportExtras& extras, Attachments& attachments) {
-  const Project& project = extras.project;
+  const records::Project& project = extras.project;
   PageJson shown = nullptr;
   if (!project.is_empty()) {
     PageJson logo = nullptr;
     if (!project.logo.empty()) {
-      attachments["logo"] = "data:" + project.logo_type + ";base64," + base64(project.logo);
+      attachments["logo"] =
+          "data:" + project.logo_type + ";base64," + formats::base64(project.logo);
       logo = "attachment:logo";
     }
     shown = {{"name", project.name},
@@ -40,12 +41,13 @@ PageJson desk_json(const ReportExtras& extras, Attachments& attachments) {
 void write_desk_tables(const std::filesystem::path& folder, const std::string& title,
                        const std::vector<DeskTable>& tables, const ReportExtras& extras) {
   if (!extras.excel && !extras.rounded_csv) return;
-  std::vector<WorkbookSheet> sheets;
+  std::vector<records::WorkbookSheet> sheets;
   for (const DeskTable& one : tables) {
     if (one.table.rows.empty()) continue;
     sheets.push_back({one.name, one.about, one.table});
     if (extras.rounded_csv) {
-      write_file(folder / (one.name + "-rounded.csv"), format_csv(rounded_table(one.table)));
+      formats::write_file(folder / (one.name + "-rounded.csv"),
+                          records::format_csv(records::rounded_table(one.table)));
     }
   }
   if (!extras.excel || sheets.empty()) return;
@@ -60,7 +62,7 @@ void write_desk_tables(const std::filesystem::path& folder, const std::string& t
       "Numbers are shown shortened and kept in full digits. Compare designs with each other; "
       "single "
       "figures are less certain.");
-  write_file(folder / "report.xlsx", format_workbook(title, notes, sheets));
+  formats::write_file(folder / "report.xlsx", records::format_workbook(title, notes, sheets));
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -10,7 +10,7 @@
 #include "palmar/records/project_file.h"
 #include "palmar/records/workbook.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// In which units a report's page opens; a button in it changes them. Files keep SI units.
 enum class Units { kMetric, kUs };
@@ -21,7 +21,7 @@ Units units_named(const std::string& name);
 /// Whose a report is, and which files it gets for programs of the desk.
 struct ReportExtras {
   Units units = Units::kMetric;
-  Project project;
+  records::Project project;
   bool excel = false;        ///< report.xlsx, one sheet a table
   bool rounded_csv = false;  ///< beside every table X.csv X-rounded.csv with three digits
   bool slides = false;       ///< pictures of hold and map are kept sharp for slides (print_pdf.h)
@@ -31,11 +31,11 @@ struct ReportExtras {
 struct DeskTable {
   std::string name;
   std::string about;
-  CsvTable table;
+  records::CsvTable table;
 };
 /// Writes what `extras` asks for of these tables into a report's folder; tables without rows are
 /// left out. Throws OutputError.
 void write_desk_tables(const std::filesystem::path& folder, const std::string& title,
                        const std::vector<DeskTable>& tables, const ReportExtras& extras);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -21,40 +21,40 @@
 #include "palmar/report/words/html_text.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
 
 // A ball that stands for a hand, pressed against a box at its palmar pole with known numbers.
-AssessmentSet ball_set() {
-  auto hand = std::make_shared<Hand>();
+study::AssessmentSet ball_set() {
+  auto hand = std::make_shared<hand::Hand>();
   hand->name = "ball <hand>";
-  hand->skin = make_icosphere(30.0, 2);
-  hand->segment.assign(hand->skin.vertices.size(), Segment::kPalm);
-  hand->region.assign(hand->skin.vertices.size(), Region::kCentralPalm);
+  hand->skin = geometry::make_icosphere(30.0, 2);
+  hand->segment.assign(hand->skin.vertices.size(), hand::Segment::kPalm);
+  hand->region.assign(hand->skin.vertices.size(), hand::Region::kCentralPalm);
   hand->dimensions.hand_length = 186.5;
-  AssessedProduct one;
+  study::AssessedProduct one;
   one.product.name = "box & \"co\"";
-  one.product.mesh = make_box({20, 60, 20}, 6);
+  one.product.mesh = geometry::make_box({20, 60, 20}, 6);
   for (Vec3& v : one.product.mesh.vertices) v.z() += 38.0;
-  one.assessment.grasp.status = GraspStatus::kPartlyHeld;
+  one.assessment.grasp.status = grasp::GraspStatus::kPartlyHeld;
   one.assessment.grasp.message = "only the palm <touches>";
-  ContactResult& contact = one.assessment.contact;
-  contact.status = ContactStatus::kSolved;
+  contact::ContactResult& contact = one.assessment.contact;
+  contact.status = contact::ContactStatus::kSolved;
   contact.undeformed = hand->skin.vertices;
   contact.deformed = hand->skin.vertices;
   for (Vec3& v : contact.deformed) {
     contact.pressure.push_back(v.z() > 25.0 ? 0.123456789 : 0.0);
     v.z() = std::min(v.z(), 28.0);
   }
-  RegionContact palm{.region = Region::kCentralPalm,
-                     .force = 12.3456789,
-                     .area = 345.678901,
-                     .peak_pressure = 0.123456789,
-                     .peak_pressure_cells = 0.0987654321,
-                     .mean_pressure = 0.0357142857};
+  contact::RegionContact palm{.region = hand::Region::kCentralPalm,
+                              .force = 12.3456789,
+                              .area = 345.678901,
+                              .peak_pressure = 0.123456789,
+                              .peak_pressure_cells = 0.0987654321,
+                              .mean_pressure = 0.0357142857};
   contact.regions = {palm};
   contact.total = palm;
   return {.hand = hand, .assessments = {one, one}, .command_line = "palmar assess a b"};
@@ -62,7 +62,7 @@ AssessmentSet ball_set() {
 
 class ReportFolder : public testing::Test {
  protected:
-  TestFolder own_;
+  formats::TestFolder own_;
   std::filesystem::path folder_ = own_ / "report";
 };
 
@@ -100,7 +100,7 @@ std::vector<std::string> badly_nested(const std::string& text) {
 }
 
 TEST_F(ReportFolder, HoldsEverythingADesignerOpens) {
-  const AssessmentSet set = ball_set();
+  const study::AssessmentSet set = ball_set();
   write_report(folder_.string(), set, {.picture_width = 200, .picture_height = 140});
   for (const char* name : {"report.html", "assessment.json", "regions.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
@@ -111,13 +111,13 @@ TEST_F(ReportFolder, HoldsEverythingADesignerOpens) {
     if (entry.is_directory()) ++folders;
     if (entry.path().extension() != ".png") continue;
     ++pictures;
-    const Image image = decode_png(read_file(entry.path()));
+    const Image image = decode_png(formats::read_file(entry.path()));
     EXPECT_EQ(image.width, 200) << entry.path();
   }
   EXPECT_EQ(folders, 2);  // two products of the same name don't overwrite each other
   EXPECT_EQ(pictures, 26);
 
-  const std::string html = read_file(folder_ / "report.html");
+  const std::string html = formats::read_file(folder_ / "report.html");
   EXPECT_EQ(badly_nested(html), std::vector<std::string>{});
   EXPECT_THAT(html, HasSubstr("box &amp; &quot;co&quot;"));
   EXPECT_THAT(html, HasSubstr("Only the palm &lt;touches&gt;"));
@@ -135,8 +135,8 @@ TEST_F(ReportFolder, HoldsEverythingADesignerOpens) {
 
 TEST_F(ReportFolder, NumbersInTheHtmlAreThoseOfTheJson) {
   write_report(folder_.string(), ball_set(), {.pictures = false});
-  const auto json = nlohmann::json::parse(read_file(folder_ / "assessment.json"));
-  const std::string html = read_file(folder_ / "report.html");
+  const auto json = nlohmann::json::parse(formats::read_file(folder_ / "assessment.json"));
+  const std::string html = formats::read_file(folder_ / "report.html");
   const auto& contact = json["assessments"][0]["contact"];
   for (const char* key : {"force_n", "contact_area_mm2", "peak_pressure_mpa",
                           "peak_pressure_cells_mpa", "mean_pressure_mpa"}) {
@@ -152,28 +152,28 @@ TEST_F(ReportFolder, NumbersInTheHtmlAreThoseOfTheJson) {
 
 TEST_F(ReportFolder, SameInputGivesTheSameBytes) {
   write_report(folder_.string(), ball_set(), {.picture_width = 128, .picture_height = 96});
-  const std::string first = read_file(folder_ / "report.html");
+  const std::string first = formats::read_file(folder_ / "report.html");
   write_report(folder_.string(), ball_set(), {.picture_width = 128, .picture_height = 96});
-  EXPECT_EQ(read_file(folder_ / "report.html"), first);
+  EXPECT_EQ(formats::read_file(folder_ / "report.html"), first);
 }
 
 TEST_F(ReportFolder, NothingTouchedIsReportedToo) {
-  AssessmentSet set = ball_set();
+  study::AssessmentSet set = ball_set();
   set.assessments.resize(1);
   set.assessments[0].assessment.contact = {};
-  set.assessments[0].assessment.grasp.status = GraspStatus::kTooLarge;
+  set.assessments[0].assessment.grasp.status = grasp::GraspStatus::kTooLarge;
   write_report(folder_.string(), set, {.picture_width = 100, .picture_height = 80});
-  const std::string html = read_file(folder_ / "report.html");
+  const std::string html = formats::read_file(folder_ / "report.html");
   EXPECT_THAT(html, HasSubstr("Too large for this hand"));
   EXPECT_THAT(html, HasSubstr("so there is no pressure to judge"));
   EXPECT_THAT(html, HasSubstr("too large for this hand"));
 }
 
 TEST_F(ReportFolder, WhatIsNotHeldHasDashesInsteadOfVerdicts) {
-  AssessmentSet set = ball_set();
-  set.assessments[1].assessment.grasp.status = GraspStatus::kTooSmall;
+  study::AssessmentSet set = ball_set();
+  set.assessments[1].assessment.grasp.status = grasp::GraspStatus::kTooSmall;
   write_report(folder_.string(), set, {.pictures = false});
-  const std::string html = read_file(folder_ / "report.html");
+  const std::string html = formats::read_file(folder_ / "report.html");
   const auto results = html.find("Results at a glance");
   const auto row = html.find("href=\"#product-1\"", results);
   const std::string cells = html.substr(row, html.find("</tr>", row) - row);
@@ -188,13 +188,13 @@ TEST_F(ReportFolder, WhatIsNotHeldHasDashesInsteadOfVerdicts) {
 }
 
 TEST_F(ReportFolder, TwoProductsStandSideBySideWithTheirDifferences) {
-  AssessmentSet set = ball_set();
-  ContactResult& second = set.assessments[1].assessment.contact;
+  study::AssessmentSet set = ball_set();
+  contact::ContactResult& second = set.assessments[1].assessment.contact;
   second.regions[0].force = 10.0;
   second.total.force = 10.0;
-  second.regions.push_back({.region = Region::kThenar, .force = 1.5, .area = 20.0});
+  second.regions.push_back({.region = hand::Region::kThenar, .force = 1.5, .area = 20.0});
   write_report(folder_.string(), set, {.picture_width = 100, .picture_height = 80});
-  std::string html = read_file(folder_ / "report.html");
+  std::string html = formats::read_file(folder_ / "report.html");
   EXPECT_EQ(badly_nested(html), std::vector<std::string>{});
   const auto from = html.find("id=\"difference\"");
   ASSERT_NE(from, std::string::npos);
@@ -203,36 +203,36 @@ TEST_F(ReportFolder, TwoProductsStandSideBySideWithTheirDifferences) {
   EXPECT_THAT(table, HasSubstr(">+1.50<"));  // only the second touches the thenar
   set.assessments.resize(1);
   write_report(folder_.string(), set, {.pictures = false});
-  EXPECT_THAT(read_file(folder_ / "report.html"), Not(HasSubstr("id=\"difference\"")));
+  EXPECT_THAT(formats::read_file(folder_ / "report.html"), Not(HasSubstr("id=\"difference\"")));
   set = ball_set();
   set.assessments.push_back(set.assessments[0]);
   write_report(folder_.string(), set, {.pictures = false});
-  html = read_file(folder_ / "report.html");
+  html = formats::read_file(folder_ / "report.html");
   EXPECT_THAT(html, HasSubstr("No product is clearly the best"));
   EXPECT_THAT(html, Not(HasSubstr("id=\"difference\"")));
 }
 
 // The ball's palm with soft and stiff tissue.
-void add_band(ContactResult& contact, double force_low, double force_high) {
-  const ContactBandRow row{.region = Region::kCentralPalm,
-                           .force_low = force_low,
-                           .force_high = force_high,
-                           .area_low = 340.0,
-                           .area_high = 350.0,
-                           .peak_pressure_low = 0.08,
-                           .peak_pressure_high = 0.19,
-                           .peak_pressure_cells_low = 0.04,
-                           .peak_pressure_cells_high = 0.13,
-                           .force_per_modulus = 12.0};
-  contact.band = ContactBand{.regions = {row}, .total = row};
+void add_band(contact::ContactResult& contact, double force_low, double force_high) {
+  const contact::ContactBandRow row{.region = hand::Region::kCentralPalm,
+                                    .force_low = force_low,
+                                    .force_high = force_high,
+                                    .area_low = 340.0,
+                                    .area_high = 350.0,
+                                    .peak_pressure_low = 0.08,
+                                    .peak_pressure_high = 0.19,
+                                    .peak_pressure_cells_low = 0.04,
+                                    .peak_pressure_cells_high = 0.13,
+                                    .force_per_modulus = 12.0};
+  contact.band = contact::ContactBand{.regions = {row}, .total = row};
 }
 
 TEST_F(ReportFolder, ReportsHowSureTheNumbersAre) {
-  AssessmentSet set = ball_set();
+  study::AssessmentSet set = ball_set();
   add_band(set.assessments[0].assessment.contact, 8.5, 15.5);
   add_band(set.assessments[1].assessment.contact, 8.0, 16.0);
   write_report(folder_.string(), set, {.pictures = false});
-  const std::string html = read_file(folder_ / "report.html");
+  const std::string html = formats::read_file(folder_ / "report.html");
   EXPECT_EQ(badly_nested(html), std::vector<std::string>{});
   EXPECT_THAT(html, HasSubstr("8.50 to 15.5 N (middle 12.3 N)"));
   EXPECT_THAT(html, HasSubstr("10 % stiffer (middle of the palm), the hand would press with 1.2 N "
@@ -244,31 +244,31 @@ TEST_F(ReportFolder, ReportsHowSureTheNumbersAre) {
 }
 
 TEST_F(ReportFolder, EndOfTheBandWithoutSolutionIsADash) {
-  AssessmentSet set = ball_set();
+  study::AssessmentSet set = ball_set();
   add_band(set.assessments[0].assessment.contact, 0.0, 15.5);
   write_report(folder_.string(), set, {.pictures = false});
-  const std::string html = read_file(folder_ / "report.html");
+  const std::string html = formats::read_file(folder_ / "report.html");
   EXPECT_THAT(html, HasSubstr("– to 15.5 N"));
   EXPECT_THAT(html, HasSubstr("could not be solved"));
-  const auto json = nlohmann::json::parse(read_file(folder_ / "assessment.json"));
+  const auto json = nlohmann::json::parse(formats::read_file(folder_ / "assessment.json"));
   const auto& force = json["assessments"][0]["contact"]["band"]["force_n"];
   EXPECT_TRUE(force["low"].is_null());
   EXPECT_EQ(force["high"], 15.5);
 }
 
 TEST_F(ReportFolder, LimitsAreThoseOfTheEquationsThatRan) {
-  AssessmentSet set = ball_set();
+  study::AssessmentSet set = ball_set();
   write_report(folder_.string(), set, {.pictures = false});
-  const std::string palmar = read_file(folder_ / "report.html");
+  const std::string palmar = formats::read_file(folder_ / "report.html");
   EXPECT_THAT(palmar, Not(HasSubstr("solved one by one;")));
   EXPECT_THAT(palmar, Not(HasSubstr("How sure are these numbers?")));  // no band was asked for
-  for (AssessedProduct& one : set.assessments) {
-    one.assessment.contact.model = xie2014_model();
+  for (study::AssessedProduct& one : set.assessments) {
+    one.assessment.contact.model = contact::xie2014_model();
     one.assessment.options.contact.coatings = {
         {.thickness = 3.0, .shear_modulus = 0.1, .poisson = 0.4, .where = {}}};
   }
   write_report(folder_.string(), set, {.pictures = false});
-  const std::string xie = read_file(folder_ / "report.html");
+  const std::string xie = formats::read_file(folder_ / "report.html");
   EXPECT_THAT(xie, HasSubstr("solved one by one;"));
   EXPECT_THAT(xie, HasSubstr("Equations that ran: xie2014."));
   EXPECT_THAT(xie, HasSubstr("Under its sleeve the product is rigid"));
@@ -280,10 +280,10 @@ TEST_F(ReportFolder, CancelledKeepsTheNumbersAndAReport) {
   std::atomic<bool> stop{true};
   const Progress progress{.report = {}, .cancel = &stop};
   EXPECT_THROW(write_report(folder_.string(), ball_set(), {}, progress), Cancelled);
-  const auto json = nlohmann::json::parse(read_file(folder_ / "assessment.json"));
+  const auto json = nlohmann::json::parse(formats::read_file(folder_ / "assessment.json"));
   EXPECT_EQ(json["assessments"].size(), 2U);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "regions.csv"));
-  const std::string html = read_file(folder_ / "report.html");
+  const std::string html = formats::read_file(folder_ / "report.html");
   EXPECT_EQ(badly_nested(html), std::vector<std::string>{});
   EXPECT_THAT(html, HasSubstr("This run was cancelled."));
 }
@@ -296,7 +296,7 @@ TEST_F(ReportFolder, CancelledBetweenProductsKeepsThePicturesOfTheFirst) {
   EXPECT_THROW(write_report(folder_.string(), ball_set(),
                             {.picture_width = 100, .picture_height = 80}, progress),
                Cancelled);
-  const std::string html = read_file(folder_ / "report.html");
+  const std::string html = formats::read_file(folder_ / "report.html");
   EXPECT_THAT(html, HasSubstr("alt=\"box &amp; &quot;co&quot;: pressure drawn"));
   EXPECT_THAT(html, HasSubstr("This run was cancelled."));
 }
@@ -304,7 +304,7 @@ TEST_F(ReportFolder, CancelledBetweenProductsKeepsThePicturesOfTheFirst) {
 TEST_F(ReportFolder, NeverOverwritesWhatPalmarDidNotWrite) {
   std::filesystem::create_directories(folder_);
   for (const char* name : {"report.html", "assessment.json", "regions.csv"}) {
-    write_file(folder_ / name, "{\"mine\": 1}");
+    formats::write_file(folder_ / name, "{\"mine\": 1}");
     try {
       write_report(folder_.string(), ball_set(), {.pictures = false});
       ADD_FAILURE() << name << " was overwritten";
@@ -323,13 +323,13 @@ TEST_F(ReportFolder, NeverOverwritesWhatPalmarDidNotWrite) {
 TEST_F(ReportFolder, UnwritableFolderIsAnOutputError) {
   std::filesystem::create_directories(folder_);
   const auto file = folder_ / "taken";
-  write_file(file, "x");
+  formats::write_file(file, "x");
   EXPECT_THROW(write_report((file / "inside").string(), ball_set()), OutputError);
   EXPECT_THROW(write_report(folder_.string(), ball_set(), {.picture_width = 10}), UsageError);
 }
 
 TEST(AssessmentPictures, PressedPoleIsColouredInTheCommonScale) {
-  const AssessmentSet set = ball_set();
+  const study::AssessmentSet set = ball_set();
   const ColourScale scale = pressure_scale(set);
   EXPECT_DOUBLE_EQ(scale.upper, 0.1);  // MPa; next round number above 0.0988 on cells
   const auto pictures =
@@ -346,13 +346,13 @@ TEST(AssessmentPictures, PressedPoleIsColouredInTheCommonScale) {
 }
 
 TEST(PressureScale, OneBadVertexDoesNotDarkenThePictures) {
-  AssessmentSet set = ball_set();
+  study::AssessmentSet set = ball_set();
   set.assessments[1].assessment.contact.total.peak_pressure = 9.0;
   const ColourScale scale = pressure_scale(set);
   EXPECT_DOUBLE_EQ(scale.upper, 0.1);
   ASSERT_TRUE(scale.is_open_ended);
   EXPECT_EQ(ticks_of(scale).text.back(), "\u2265 0.10");
-  for (AssessedProduct& one : set.assessments) {
+  for (study::AssessedProduct& one : set.assessments) {
     one.assessment.contact.total.peak_pressure = 0.0987;
   }
   EXPECT_FALSE(pressure_scale(set).is_open_ended);
@@ -360,22 +360,22 @@ TEST(PressureScale, OneBadVertexDoesNotDarkenThePictures) {
 }
 
 TEST(PressureScale, IsSetByTheProductsThatAreHeld) {
-  AssessmentSet set = ball_set();
-  set.assessments[1].assessment.grasp.status = GraspStatus::kTooLarge;
+  study::AssessmentSet set = ball_set();
+  set.assessments[1].assessment.grasp.status = grasp::GraspStatus::kTooLarge;
   set.assessments[1].assessment.contact.total.peak_pressure_cells = 5.0;
   EXPECT_DOUBLE_EQ(pressure_scale(set).upper, 0.1);
 }
 
 TEST(PressureLimits, FilmValuesOfTheStandardAreHeldAgainstPeaks) {
-  EXPECT_DOUBLE_EQ(pain_onset_film(Region::kIndexDistal), 3.0);
-  EXPECT_DOUBLE_EQ(pain_onset_film(Region::kUlnarPalm), 2.6);
-  EXPECT_DOUBLE_EQ(pain_onset_film(Region::kThenar), 2.0);
+  EXPECT_DOUBLE_EQ(grasp::pain_onset_film(hand::Region::kIndexDistal), 3.0);
+  EXPECT_DOUBLE_EQ(grasp::pain_onset_film(hand::Region::kUlnarPalm), 2.6);
+  EXPECT_DOUBLE_EQ(grasp::pain_onset_film(hand::Region::kThenar), 2.0);
 }
 
 TEST_F(ReportFolder, TheAnswerIsTheSameOnThePageAndInTheJson) {
   write_report(folder_.string(), ball_set(), {.picture_width = 100, .picture_height = 80});
-  const auto json = nlohmann::json::parse(read_file(folder_ / "assessment.json"));
-  const std::string html = read_file(folder_ / "report.html");
+  const auto json = nlohmann::json::parse(formats::read_file(folder_ / "assessment.json"));
+  const std::string html = formats::read_file(folder_ / "report.html");
   const std::string sentence = html_escaped(json["verdict"]["sentence"].get<std::string>());
   ASSERT_FALSE(sentence.empty());
   const auto answer = html.find("id=\"answer\"");
@@ -387,7 +387,7 @@ TEST_F(ReportFolder, TheAnswerIsTheSameOnThePageAndInTheJson) {
 
 TEST_F(ReportFolder, SpeaksGerman) {
   write_report(folder_.string(), ball_set(), {.language = Language::kGerman, .pictures = false});
-  const std::string html = read_file(folder_ / "report.html");
+  const std::string html = formats::read_file(folder_ / "report.html");
   EXPECT_THAT(html, HasSubstr("<html lang=\"de\">"));
   EXPECT_THAT(html, HasSubstr("Kein Urteil"));
   EXPECT_THAT(html, Not(HasSubstr("What follows")));
@@ -423,10 +423,10 @@ TEST(PlainWords, NumbersAreShortenedNotRoundedBeforeThePoint) {
 }
 
 TEST(PlainWords, RegionsReadAsADesignerCallsThem) {
-  EXPECT_EQ(plain_words(Region::kIndexDistal), "index finger, tip");
-  EXPECT_EQ(plain_words(Region::kThumbProximal), "thumb, base");
-  EXPECT_EQ(plain_words(Segment::kLittleMiddle), "little finger, middle");
-  EXPECT_EQ(plain_words(Dof::kIndexPipFlexion), "index PIP flexion");
+  EXPECT_EQ(plain_words(hand::Region::kIndexDistal), "index finger, tip");
+  EXPECT_EQ(plain_words(hand::Region::kThumbProximal), "thumb, base");
+  EXPECT_EQ(plain_words(hand::Segment::kLittleMiddle), "little finger, middle");
+  EXPECT_EQ(plain_words(hand::Dof::kIndexPipFlexion), "index PIP flexion");
 }
 
 TEST(HtmlText, NothingBreaksOutOfTextOrScript) {
@@ -456,4 +456,4 @@ TEST(StrokeText, WidthGrowsWithTheTextAndInkStaysInside) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

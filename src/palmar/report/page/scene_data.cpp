@@ -14,7 +14,7 @@
 #include "palmar/report/words/plain_words.h"
 #include "palmar/report/words/texts.h"
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
@@ -31,7 +31,7 @@ std::uint32_t share_16(double share) {
 }
 
 // {"low": corner of the box, "size": its sides, "data": positions as shares of the sides}
-std::string positions(const TriangleMesh& mesh) {
+std::string positions(const geometry::TriangleMesh& mesh) {
   Box3 box;
   for (const Vec3& v : mesh.vertices) box.extend(v);
   const Vec3 low = box.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(box.min());
@@ -42,11 +42,11 @@ std::string positions(const TriangleMesh& mesh) {
     for (int k = 0; k < 3; ++k) append_16(bytes, share_16((v[k] - low[k]) / size[k]));
   }
   return "{\"low\":" + json_triple(low) + ",\"size\":" + json_triple(size) + ",\"data\":\"" +
-         base64(bytes) + "\"}";
+         formats::base64(bytes) + "\"}";
 }
 
 // uint16 where that is enough for the number of vertices, else uint32; the viewer decides alike.
-std::string indices(const TriangleMesh& mesh) {
+std::string indices(const geometry::TriangleMesh& mesh) {
   const bool is_short = mesh.vertices.size() <= 65536;
   std::string bytes;
   bytes.reserve((is_short ? 6 : 12) * mesh.triangles.size());
@@ -56,17 +56,17 @@ std::string indices(const TriangleMesh& mesh) {
       if (!is_short) append_16(bytes, static_cast<std::uint32_t>(v) >> 16);
     }
   }
-  return base64(bytes);
+  return formats::base64(bytes);
 }
 
 // Pressures as shares of the scale's upper end: what is above has the colour of the end anyway.
-std::string mesh_object(const TriangleMesh& mesh, const std::vector<double>& pressure,
+std::string mesh_object(const geometry::TriangleMesh& mesh, const std::vector<double>& pressure,
                         double upper) {
   std::string shares;
   shares.reserve(2 * pressure.size());
   for (const double p : pressure) append_16(shares, share_16(p / upper));
   return "{\"position\":" + positions(mesh) + ",\"index\":\"" + indices(mesh) + "\",\"share\":\"" +
-         base64(shares) + "\"}";
+         formats::base64(shares) + "\"}";
 }
 
 std::string quoted_list(const std::vector<std::string>& words) {
@@ -74,47 +74,48 @@ std::string quoted_list(const std::vector<std::string>& words) {
 }
 
 // {"names": of regions, "ofVertex": uint8 per vertex of the skin}
-std::string regions(const Hand& hand, Language language) {
+std::string regions(const hand::Hand& hand, Language language) {
   const Texts texts(language);
   std::vector<std::string> names;
-  for (int r = 0; r < kRegionCount; ++r) {
-    names.push_back(texts("region." + std::string(name_of(static_cast<Region>(r)))));
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    names.push_back(texts("region." + std::string(name_of(static_cast<hand::Region>(r)))));
   }
   std::string bytes;
-  for (const Region region : hand.region) bytes += static_cast<char>(region);
-  return "{\"names\":" + quoted_list(names) + ",\"ofVertex\":\"" + base64(bytes) + "\"}";
+  for (const hand::Region region : hand.region) bytes += static_cast<char>(region);
+  return "{\"names\":" + quoted_list(names) + ",\"ofVertex\":\"" + formats::base64(bytes) + "\"}";
 }
 
 // {"names": of faces, "ofTriangle": uint16 per triangle of the mesh that is shown}, or null.
-std::string faces(const Product& product, const ProductFootprint& footprint,
-                  const TriangleMesh& shown, Language language) {
+std::string faces(const product::Product& product, const contact::ProductFootprint& footprint,
+                  const geometry::TriangleMesh& shown, Language language) {
   const bool is_whole = shown.triangles.size() == footprint.parent.size();
   if (product.faces == nullptr || !is_whole) return "null";
   std::vector<std::string> names;
   const Phrases phrases(language);
-  for (const ProductFace& face : product.faces->face) names.push_back(phrases(title_of(face)));
+  for (const product::ProductFace& face : product.faces->face)
+    names.push_back(phrases(product::title_of(face)));
   std::string bytes;
   for (const int parent : footprint.parent) {
     append_16(bytes, static_cast<std::uint32_t>(product.faces->face_of_triangle[parent]));
   }
-  return "{\"names\":" + quoted_list(names) + ",\"ofTriangle\":\"" + base64(bytes) + "\"}";
+  return "{\"names\":" + quoted_list(names) + ",\"ofTriangle\":\"" + formats::base64(bytes) + "\"}";
 }
 
 }  // namespace
 
-std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
+std::string scene_data_json(const hand::Hand& hand, const study::AssessedProduct& assessed,
                             const ColourScale& scale, Language language) {
-  const Assessment& assessment = assessed.assessment;
+  const study::Assessment& assessment = assessed.assessment;
   std::string table;
   for (const Rgb c : colour_table(scale.map)) {
     for (const std::uint8_t byte : {c.r, c.g, c.b}) table += static_cast<char>(byte);
   }
   const Quat& rotation = assessment.grasp.product_from_hand.rotation;
-  const double radial = hand.side == Side::kLeft ? -1.0 : 1.0;
-  const ProductFootprint footprint = footprint_of(assessed);
+  const double radial = hand.side == hand::Side::kLeft ? -1.0 : 1.0;
+  const contact::ProductFootprint footprint = footprint_of(assessed);
   const DisplayMesh product =
       display_mesh(footprint.surface, footprint.pressure, kMostProductTriangles);
-  return "{\"table\":\"" + base64(table) + "\",\"neutral\":" + json_triple(scale.neutral) +
+  return "{\"table\":\"" + formats::base64(table) + "\",\"neutral\":" + json_triple(scale.neutral) +
          ",\"skinColour\":" + json_triple(kSkinColour) +
          ",\"productColour\":" + json_triple(kProductColour) +
          ",\"palmward\":" + json_triple(rotation * Vec3::UnitZ()) +
@@ -128,4 +129,4 @@ std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
          ",\"faces\":" + faces(assessed.product, footprint, product.mesh, language) + "}";
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -8,7 +8,7 @@
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// The meshes of one grasp as JSON for the report's 3-D view (SceneData in
 /// apps/workbench/viewer/viewer.ts): skin deformed and undeformed, product with footprint, product
@@ -17,7 +17,7 @@ namespace palmar {
 /// full. With them go the region of every skin vertex and the face of every triangle of the
 /// product, in words of the language, for what is pointed at; no faces where the product is shown
 /// coarser.
-std::string scene_data_json(const Hand& hand, const AssessedProduct& assessed,
+std::string scene_data_json(const hand::Hand& hand, const study::AssessedProduct& assessed,
                             const ColourScale& scale, Language language = Language::kEnglish);
 
-}  // namespace palmar
+}  // namespace palmar::report

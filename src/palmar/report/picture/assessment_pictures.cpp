@@ -13,7 +13,7 @@
 #include "palmar/report/words/phrases.h"
 #include "palmar/study/assessment/verdict.h"
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
@@ -34,8 +34,8 @@ std::array<Viewpoint, 4> viewpoints() {
 }
 
 // The same eyes in scene axes.
-std::vector<Viewpoint> hand_viewpoints(Side side, const Quat& scene_from_hand) {
-  const double mirror = side == Side::kLeft ? -1.0 : 1.0;
+std::vector<Viewpoint> hand_viewpoints(hand::Side side, const Quat& scene_from_hand) {
+  const double mirror = side == hand::Side::kLeft ? -1.0 : 1.0;
   std::vector<Viewpoint> views;
   for (Viewpoint view : viewpoints()) {
     view.direction.x() *= mirror;
@@ -48,7 +48,7 @@ std::vector<Viewpoint> hand_viewpoints(Side side, const Quat& scene_from_hand) {
 
 // Four sides of the product about the grip axis, which stands upright with the thumb above: what
 // lies in the palm, under the fingers, and between the two.
-std::vector<Viewpoint> product_viewpoints(const Grasp& grasp) {
+std::vector<Viewpoint> product_viewpoints(const grasp::Grasp& grasp) {
   const Quat& product_from_hand = grasp.product_from_hand.rotation;
   const Vec3 axis = grasp.grip_axis.normalized();
   const Vec3 palmar = product_from_hand * Vec3::UnitZ();
@@ -120,7 +120,7 @@ void add_views(std::vector<Picture>& pictures, const Kind& kind, const Scene& sc
 }
 
 /// The pad of the thumb in the last picture, which shows the opened hand; cancelled: without it.
-void add_thumb(std::vector<Picture>& pictures, const Hand& hand, const Scene& open_hand,
+void add_thumb(std::vector<Picture>& pictures, const hand::Hand& hand, const Scene& open_hand,
                const PictureOptions& options, const Progress& progress) {
   if (pictures.empty() || progress.is_cancelled()) return;
   try {
@@ -135,7 +135,7 @@ void add_thumb(std::vector<Picture>& pictures, const Hand& hand, const Scene& op
 /// of the contact, where it is often largest; so contact and other skin are two meshes. Triangles
 /// with a loaded corner belong to the contact, and corners without load take the mean of those
 /// beside them.
-Scene friction_scene(const TriangleMesh& skin, const Assessment& assessment,
+Scene friction_scene(const geometry::TriangleMesh& skin, const study::Assessment& assessment,
                      const ColourScale& scale) {
   const std::size_t n = skin.vertices.size();
   std::vector<double> used = assessment.friction.mobilised, force = assessment.contact.force;
@@ -176,9 +176,10 @@ Scene friction_scene(const TriangleMesh& skin, const Assessment& assessment,
 
 }  // namespace
 
-TriangleMesh undeformed_skin(const Hand& hand, const Assessment& assessment) {
-  TriangleMesh mesh = hand.skin;
-  const ContactResult& contact = assessment.contact;
+geometry::TriangleMesh undeformed_skin(const hand::Hand& hand,
+                                       const study::Assessment& assessment) {
+  geometry::TriangleMesh mesh = hand.skin;
+  const contact::ContactResult& contact = assessment.contact;
   if (contact.undeformed.size() == mesh.vertices.size()) {
     mesh.vertices = contact.undeformed;
     return mesh;
@@ -188,21 +189,21 @@ TriangleMesh undeformed_skin(const Hand& hand, const Assessment& assessment) {
   return mesh;
 }
 
-TriangleMesh deformed_skin(const Hand& hand, const Assessment& assessment) {
-  TriangleMesh mesh = undeformed_skin(hand, assessment);
-  const ContactResult& contact = assessment.contact;
+geometry::TriangleMesh deformed_skin(const hand::Hand& hand, const study::Assessment& assessment) {
+  geometry::TriangleMesh mesh = undeformed_skin(hand, assessment);
+  const contact::ContactResult& contact = assessment.contact;
   if (contact.deformed.size() == mesh.vertices.size()) mesh.vertices = contact.deformed;
   return mesh;
 }
 
-std::vector<double> skin_pressure(const Hand& hand, const Assessment& assessment) {
+std::vector<double> skin_pressure(const hand::Hand& hand, const study::Assessment& assessment) {
   std::vector<double> pressure = assessment.contact.pressure;
   pressure.resize(hand.skin.vertices.size(), 0.0);
   return pressure;
 }
 
-ProductFootprint footprint_of(const AssessedProduct& assessed) {
-  ProductFootprint footprint = assessed.assessment.footprint;
+contact::ProductFootprint footprint_of(const study::AssessedProduct& assessed) {
+  contact::ProductFootprint footprint = assessed.assessment.footprint;
   if (footprint.surface.triangles.empty()) footprint = {assessed.product.mesh, {}};
   footprint.pressure.resize(footprint.surface.vertices.size(), 0.0);
   return footprint;
@@ -216,16 +217,16 @@ ColourScale friction_scale() {
           .neutral = kNeutralColour};
 }
 
-ColourScale pressure_scale(const AssessmentSet& set) {
-  const bool any_in_hand =
-      std::any_of(set.assessments.begin(), set.assessments.end(),
-                  [](const AssessedProduct& one) { return presses_on_skin(one.assessment); });
+ColourScale pressure_scale(const study::AssessmentSet& set) {
+  const bool any_in_hand = std::any_of(
+      set.assessments.begin(), set.assessments.end(),
+      [](const study::AssessedProduct& one) { return study::presses_on_skin(one.assessment); });
   double cells = 0.0;
   double peak = 0.0;
-  for (const AssessedProduct& one : set.assessments) {
-    const RegionContact& total = one.assessment.contact.total;
+  for (const study::AssessedProduct& one : set.assessments) {
+    const contact::RegionContact& total = one.assessment.contact.total;
     peak = std::max(peak, total.peak_pressure);
-    if (any_in_hand && !presses_on_skin(one.assessment)) continue;
+    if (any_in_hand && !study::presses_on_skin(one.assessment)) continue;
     cells = std::max(cells, total.peak_pressure_cells);
   }
   if (!(cells > 0.0)) cells = peak;
@@ -238,14 +239,15 @@ ColourScale pressure_scale(const AssessmentSet& set) {
   return scale;
 }
 
-std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct& assessed,
+std::vector<Picture> assessment_pictures(const hand::Hand& hand,
+                                         const study::AssessedProduct& assessed,
                                          const ColourScale& scale, const PictureOptions& options,
                                          const Progress& progress) {
-  const Assessment& assessment = assessed.assessment;
+  const study::Assessment& assessment = assessed.assessment;
   const std::vector<Viewpoint> all =
       hand_viewpoints(hand.side, assessment.grasp.product_from_hand.rotation);
   const std::vector<double> pressure = skin_pressure(hand, assessment);
-  const auto coloured = [&](TriangleMesh mesh, const std::vector<double>& field) {
+  const auto coloured = [&](geometry::TriangleMesh mesh, const std::vector<double>& field) {
     return SceneObject{.mesh = std::move(mesh),
                        .colour = scale.neutral,
                        .vertex_colours = {},
@@ -281,11 +283,11 @@ std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct
               friction_scene(deformed_skin(hand, assessment), assessment, used), all,
               assessed.product.name, used, options, progress);
   }
-  ProductFootprint footprint = footprint_of(assessed);
+  contact::ProductFootprint footprint = footprint_of(assessed);
   add({"footprint", "Pressure on the product", "product coloured by the pressure of the hand"},
       {coloured(std::move(footprint.surface), footprint.pressure)},
       product_viewpoints(assessment.grasp));
   return pictures;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

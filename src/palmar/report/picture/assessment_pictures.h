@@ -9,7 +9,7 @@
 #include "palmar/report/picture/colour_bar.h"
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// One finished picture.
 struct Picture {
@@ -29,7 +29,7 @@ struct PictureOptions {
 /// sensor cells of the products in the hand, rounded up; 0 to 0.1 MPa if nothing is touched. The
 /// peak at a single vertex may lie far above and would darken every picture: such values take the
 /// colour of the upper end, and the scale says so.
-ColourScale pressure_scale(const AssessmentSet& set);
+ColourScale pressure_scale(const study::AssessmentSet& set);
 
 /// Pictures of one grasp; all in the same pressure scale:
 ///
@@ -45,20 +45,21 @@ ColourScale pressure_scale(const AssessmentSet& set);
 /// finger's side (suffix palm, back, thumb, little); footprint from four sides about the grip axis
 /// (in_palm, under_fingers, under_knuckles, under_fingertips). When cancelled, those that are
 /// finished.
-std::vector<Picture> assessment_pictures(const Hand& hand, const AssessedProduct& assessed,
+std::vector<Picture> assessment_pictures(const hand::Hand& hand,
+                                         const study::AssessedProduct& assessed,
                                          const ColourScale& scale,
                                          const PictureOptions& options = {},
                                          const Progress& progress = {});
 
 /// Deformed skin (product frame, mm), or the posed skin if no contact was solved.
-TriangleMesh deformed_skin(const Hand& hand, const Assessment& assessment);
+geometry::TriangleMesh deformed_skin(const hand::Hand& hand, const study::Assessment& assessment);
 /// The same before contact.
-TriangleMesh undeformed_skin(const Hand& hand, const Assessment& assessment);
+geometry::TriangleMesh undeformed_skin(const hand::Hand& hand, const study::Assessment& assessment);
 /// Pressure per skin vertex, MPa; all 0 if no contact was solved.
-std::vector<double> skin_pressure(const Hand& hand, const Assessment& assessment);
+std::vector<double> skin_pressure(const hand::Hand& hand, const study::Assessment& assessment);
 /// From 0 to 1: friction over the coefficient times the pressure.
 ColourScale friction_scale();
 /// The product's surface with the pressure on it; plain if there was no contact.
-ProductFootprint footprint_of(const AssessedProduct& assessed);
+contact::ProductFootprint footprint_of(const study::AssessedProduct& assessed);
 
-}  // namespace palmar
+}  // namespace palmar::report

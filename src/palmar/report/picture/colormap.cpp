@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
@@ -109,7 +109,7 @@ constexpr Path kFernPath{.lightness_low = 0.28,
 
 // Thumb, index, middle, ring, little: hues of Okabe and Ito (orange, sky blue, green, purple,
 // blue), each in three depths from proximal to distal.
-constexpr std::array<Rgb, kRegionCount> kRegionColours{{
+constexpr std::array<Rgb, hand::kRegionCount> kRegionColours{{
     {200, 200, 200},                                    // dorsum
     {201, 98, 10},   {246, 173, 72},                    // thumb
     {20, 110, 170},  {86, 180, 233},  {172, 220, 246},  // index
@@ -150,6 +150,6 @@ std::vector<Rgb> field_colours(std::span<const double> field, double upper, Colo
   return colours;
 }
 
-Rgb region_colour(Region region) { return kRegionColours[static_cast<std::size_t>(region)]; }
+Rgb region_colour(hand::Region region) { return kRegionColours[static_cast<std::size_t>(region)]; }
 
-}  // namespace palmar
+}  // namespace palmar::report

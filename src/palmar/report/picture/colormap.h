@@ -9,7 +9,7 @@
 #include "palmar/hand/anatomy.h"
 #include "palmar/report/picture/image.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// 256 colours from low to high along a path through the OKLab colour space: lightness rises
 /// steadily, so the map stays readable in grey and for every kind of colour vision, and
@@ -41,6 +41,6 @@ std::vector<Rgb> field_colours(std::span<const double> field, double upper, Colo
 /// 20 colours that distinguish the regions: one hue per finger (after Okabe and Ito 2008, chosen
 /// for colour-blind readers), lighter towards the tip; the palm's pads in greys and earth colours.
 /// Neighbouring regions differ in lightness, too.
-Rgb region_colour(Region region);
+Rgb region_colour(hand::Region region);
 
-}  // namespace palmar
+}  // namespace palmar::report

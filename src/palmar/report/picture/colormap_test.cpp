@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/report/picture/colour_bar.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 // Relative luminance of sRGB (IEC 61966-2-1).
@@ -59,8 +59,8 @@ TEST(FieldColours, NothingIsNeutralAndTheUpperEndIsTheLastColour) {
 
 TEST(RegionColour, TwentyRegionsHaveTwentyColours) {
   std::set<std::tuple<int, int, int>> seen;
-  for (int i = 0; i < kRegionCount; ++i) {
-    const Rgb c = region_colour(static_cast<Region>(i));
+  for (int i = 0; i < hand::kRegionCount; ++i) {
+    const Rgb c = region_colour(static_cast<hand::Region>(i));
     seen.insert({c.r, c.g, c.b});
   }
   EXPECT_EQ(seen.size(), 20U);
@@ -78,4 +78,4 @@ TEST(ColourBar, ScaleEndsAtARoundNumberAboveThePeak) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

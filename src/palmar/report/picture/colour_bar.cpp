@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/report/picture/stroke_text.h"
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
@@ -98,4 +98,4 @@ void draw_colour_bar(Image& image, const ColourScale& scale) {
   draw_text(image, left + width + px(8), swatch + px(12), scale.none, label);
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

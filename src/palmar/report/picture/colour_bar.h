@@ -7,7 +7,7 @@
 
 #include "palmar/report/picture/colormap.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// What the colours of a picture mean: a map from 0 to `upper`.
 struct ColourScale {
@@ -40,4 +40,4 @@ void draw_colour_bar(Image& image, const ColourScale& scale);
 /// Width that draw_colour_bar() takes at the right edge, pixels.
 int colour_bar_width(int image_height);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using Eigen::Vector2d;
@@ -142,4 +142,4 @@ void CoverageMask::paint(Image& image, Rgb colour, double opacity) {
   last_row_ = -1;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -8,7 +8,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/report/picture/image.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// How much of every pixel a shape covers: the exact area of polygons within the pixel, summed
 /// along rows from the signed areas that the edges cut off. Shapes placed over one another must
@@ -32,4 +32,4 @@ class CoverageMask {
   std::vector<double> cover_;  // height x (width + 1): change of coverage from pixel to pixel
 };
 
-}  // namespace palmar
+}  // namespace palmar::report

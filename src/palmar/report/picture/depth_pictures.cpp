@@ -10,7 +10,7 @@
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 struct ShownSide {
@@ -19,7 +19,7 @@ struct ShownSide {
   Vec3 direction;  // into the scene
 };
 
-double extent_along(const TriangleMesh& mesh, const Vec3& direction) {
+double extent_along(const geometry::TriangleMesh& mesh, const Vec3& direction) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const Vec3& x : mesh.vertices) {
@@ -88,4 +88,4 @@ std::vector<Picture> depth_pictures(const DepthScene& scene, const PictureOption
   return pictures;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

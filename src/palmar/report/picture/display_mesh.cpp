@@ -9,12 +9,12 @@
 
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
-DisplayMesh clustered(const TriangleMesh& mesh, const std::vector<double>& value, const Box3& box,
-                      double cell) {
+DisplayMesh clustered(const geometry::TriangleMesh& mesh, const std::vector<double>& value,
+                      const Box3& box, double cell) {
   DisplayMesh coarse;
   std::map<std::array<int, 3>, int> joint_of;
   std::vector<int> joint(mesh.vertices.size());
@@ -47,7 +47,7 @@ DisplayMesh clustered(const TriangleMesh& mesh, const std::vector<double>& value
 
 }  // namespace
 
-DisplayMesh display_mesh(const TriangleMesh& mesh, const std::vector<double>& value,
+DisplayMesh display_mesh(const geometry::TriangleMesh& mesh, const std::vector<double>& value,
                          int most_triangles) {
   DisplayMesh result{mesh, value};
   if (mesh.triangle_count() <= most_triangles) return result;
@@ -72,4 +72,4 @@ std::string json_triple(Rgb colour) {
          std::to_string(colour.b) + "]";
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -8,11 +8,11 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 TEST(DisplayMesh, StaysOnTheSurfaceBelowTheLimit) {
-  const TriangleMesh ball = make_icosphere(50.0, 6);  // 81 920 triangles
+  const geometry::TriangleMesh ball = geometry::make_icosphere(50.0, 6);  // 81 920 triangles
   std::vector<double> value(ball.vertices.size(), 0.0);
   value[1234] = 0.7;
   const DisplayMesh coarse = display_mesh(ball, value, 20000);
@@ -24,11 +24,11 @@ TEST(DisplayMesh, StaysOnTheSurfaceBelowTheLimit) {
 }
 
 TEST(DisplayMesh, SmallMeshesComeBackAsTheyAre) {
-  const TriangleMesh box = make_box({1, 2, 3}, 2);
+  const geometry::TriangleMesh box = geometry::make_box({1, 2, 3}, 2);
   const DisplayMesh same = display_mesh(box, std::vector<double>(box.vertices.size(), 1.0), 1000);
   EXPECT_EQ(same.mesh.vertices, box.vertices);
   EXPECT_EQ(same.mesh.triangles, box.triangles);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -14,30 +14,31 @@
 #include "palmar/report/picture/image.h"
 #include "palmar/report/picture/render.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
-VertexColour vertex_colour(Rgb colour) { return {colour.r, colour.g, colour.b}; }
+formats::VertexColour vertex_colour(Rgb colour) { return {colour.r, colour.g, colour.b}; }
 
-std::string format_hand_glb(const Hand& hand, const TriangleMesh& skin, const Posture& posture) {
-  FieldMesh skin_mesh{.name = "skin", .mesh = skin, .colour = {}, .field = {}};
-  for (const Region region : hand.region)
+std::string format_hand_glb(const hand::Hand& hand, const geometry::TriangleMesh& skin,
+                            const hand::Posture& posture) {
+  formats::FieldMesh skin_mesh{.name = "skin", .mesh = skin, .colour = {}, .field = {}};
+  for (const hand::Region region : hand.region)
     skin_mesh.colour.push_back(vertex_colour(region_colour(region)));
-  std::vector<FieldMesh> meshes = {std::move(skin_mesh)};
-  const std::vector<TriangleMesh> bones = pose_bones(hand, posture);
+  std::vector<formats::FieldMesh> meshes = {std::move(skin_mesh)};
+  const std::vector<geometry::TriangleMesh> bones = hand::pose_bones(hand, posture);
   for (std::size_t i = 0; i < bones.size(); ++i) {
     meshes.push_back({.name = hand.bones[i].name,
                       .mesh = bones[i],
                       .colour = {vertex_colour(kBoneColour)},
                       .field = {}});
   }
-  return format_glb_fields(meshes);
+  return formats::format_glb_fields(meshes);
 }
 
 /// The posed skin seen from the palmar, the dorsal and the thumb's side, next to each other at one
 /// scale.
-Image hand_picture(const TriangleMesh& skin, Side side) {
-  const double radial = side == Side::kRight ? 1.0 : -1.0;
+Image hand_picture(const geometry::TriangleMesh& skin, hand::Side side) {
+  const double radial = side == hand::Side::kRight ? 1.0 : -1.0;
   const Scene scene = {{.mesh = skin, .colour = kSkinColour, .vertex_colours = {}}};
   std::vector<Camera> cameras;
   double view_height = 0.0;
@@ -60,19 +61,20 @@ Image hand_picture(const TriangleMesh& skin, Side side) {
 
 }  // namespace
 
-void export_posed_hand(const std::string& path, const Hand& hand, const Posture& posture) {
+void export_posed_hand(const std::string& path, const hand::Hand& hand,
+                       const hand::Posture& posture) {
   const std::string ending = std::filesystem::path(path).extension().string();
-  const TriangleMesh skin{pose_skin(hand, posture), hand.skin.triangles};
+  const geometry::TriangleMesh skin{hand::pose_skin(hand, posture), hand.skin.triangles};
   if (ending == ".glb") {
-    write_file(path, format_hand_glb(hand, skin, posture));
+    formats::write_file(path, format_hand_glb(hand, skin, posture));
   } else if (ending == ".png") {
-    write_file(path, encode_png(hand_picture(skin, hand.side)));
+    formats::write_file(path, encode_png(hand_picture(skin, hand.side)));
   } else if (ending == ".ply" || ending == ".obj" || ending == ".stl") {
-    write_mesh(path, skin);
+    formats::write_mesh(path, skin);
   } else {
     throw UsageError(path + ": the ending \"" + ending +
                      "\" is not known; .glb, .ply, .obj, .stl or .png is allowed");
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -6,11 +6,12 @@
 
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// Writes a posed hand by the ending of `path`: .glb (skin coloured by region, and bones), .ply,
 /// .obj, .stl (skin), .png (a picture from the palmar and the radial side). Throws UsageError on
 /// another ending, OutputError.
-void export_posed_hand(const std::string& path, const Hand& hand, const Posture& posture);
+void export_posed_hand(const std::string& path, const hand::Hand& hand,
+                       const hand::Posture& posture);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -13,13 +13,14 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr int kRound = 16;       // directions round the product
 constexpr int kGrid = 120;       // pixels on the longer side of the pictures that are counted
 constexpr double kReach = 1.25;  // hand lengths from the hand's middle that a picture shows
-constexpr std::array<double, 3> kRise = {15.0 * kDegree, 38.0 * kDegree, -15.0 * kDegree};
+constexpr std::array<double, 3> kRise = {15.0 * geometry::kDegree, 38.0 * geometry::kDegree,
+                                         -15.0 * geometry::kDegree};
 
 // What a pixel shows.
 enum Seen : int {
@@ -40,10 +41,10 @@ struct Painted {
   std::vector<int> seen;  // per triangle
 };
 
-int seen_on_hand(const Hand& hand, int vertex) {
-  const Region region = hand.region[vertex];
-  const std::optional<Finger> finger = finger_of(hand.segment[vertex]);
-  if (region == Region::kDorsum) return finger ? kBackOfFinger : kBack;
+int seen_on_hand(const hand::Hand& hand, int vertex) {
+  const hand::Region region = hand.region[vertex];
+  const std::optional<hand::Finger> finger = hand::finger_of(hand.segment[vertex]);
+  if (region == hand::Region::kDorsum) return finger ? kBackOfFinger : kBack;
   return finger ? kFirstFinger + static_cast<int>(index_of(*finger)) : kPalm;
 }
 
@@ -172,8 +173,8 @@ Vec3 best_view_of_hold(const HeldScene& scene, const Vec3& up) {
   std::size_t at = 0;
   for (std::size_t k = 0; k < directions.size(); ++k) {
     double fingers = 0.0;  // half of what can be seen of a finger is enough
-    for (int f = 0; f < kFingerCount; ++f) {
-      fingers += std::min(1.0, 2.0 * share(counts[k], kFirstFinger + f)) / kFingerCount;
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      fingers += std::min(1.0, 2.0 * share(counts[k], kFirstFinger + f)) / hand::kFingerCount;
     }
     const double thumb = std::min(1.0, 2.0 * share(counts[k], kFirstFinger));
     const double part = std::min(1.0, 1.5 * share(counts[k], kHeldPart));
@@ -195,4 +196,4 @@ Camera camera_of_hold(const HeldScene& scene, const Vec3& up, double aspect) {
                     {.aspect = aspect, .margin = 0.05});
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -5,13 +5,13 @@
 #include "palmar/hand/hand.h"
 #include "palmar/report/picture/render.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// A hand holding a product, in the product's frame, mm.
 struct HeldScene {
-  const Hand* hand = nullptr;
+  const hand::Hand* hand = nullptr;
   std::vector<Vec3> skin;  ///< the posed skin
-  const TriangleMesh* product = nullptr;
+  const geometry::TriangleMesh* product = nullptr;
   std::vector<char> is_held_part;  ///< per triangle of the product; empty: unknown
 };
 
@@ -25,4 +25,4 @@ Vec3 best_view_of_hold(const HeldScene& scene, const Vec3& up);
 /// the product's vertices within `reach` of the hand's middle.
 Camera camera_of_hold(const HeldScene& scene, const Vec3& up, double aspect);
 
-}  // namespace palmar
+}  // namespace palmar::report

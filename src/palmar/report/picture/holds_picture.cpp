@@ -16,7 +16,7 @@
 #include "palmar/report/picture/stroke_text.h"
 #include "palmar/report/words/phrases.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr Rgb kSheetInk{34, 40, 46};
@@ -31,7 +31,8 @@ struct Tile {
   int left = 0, top = 0, width = 0, height = 0;
 };
 
-std::vector<char> triangles_of_part(const ProductParts& parts, int number, std::size_t count) {
+std::vector<char> triangles_of_part(const product::ProductParts& parts, int number,
+                                    std::size_t count) {
   std::vector<char> is_held(count, 0);
   for (std::size_t k = 0; k < std::min(count, parts.part_of_triangle.size()); ++k) {
     const int part = parts.part_of_triangle[k];
@@ -71,11 +72,11 @@ void fill_disc(Image& image, double x, double y, double radius, Rgb colour) {
 }
 
 /// What a hold has against it that a designer should know first.
-std::string doubt_of(const RankedHold& hold) {
+std::string doubt_of(const grasp::RankedHold& hold) {
   return hold.against.empty() ? "" : "against it: " + hold.against;
 }
 
-void write_under(Image& sheet, const Tile& tile, int number, const RankedHold& hold,
+void write_under(Image& sheet, const Tile& tile, int number, const grasp::RankedHold& hold,
                  const Phrases& phrases) {
   const double s = tile.width / 480.0;
   const double x = tile.left + 16 * s, width = tile.width - 32 * s;
@@ -138,8 +139,9 @@ std::vector<std::string> wrapped(const std::string& text, double width, double c
   return lines;
 }
 
-Image holds_picture(const Hand& hand, const Product& product, const RankedHolds& ranked,
-                    const HoldsPictureOptions& options, const Progress& progress) {
+Image holds_picture(const hand::Hand& hand, const product::Product& product,
+                    const grasp::RankedHolds& ranked, const HoldsPictureOptions& options,
+                    const Progress& progress) {
   options.check();
   const int count =
       static_cast<int>(std::min(ranked.holds.size(), static_cast<std::size_t>(options.most)));
@@ -161,12 +163,12 @@ Image holds_picture(const Hand& hand, const Product& product, const RankedHolds&
   const int picture_height = static_cast<int>(side * (1.0 - kTextShare));
   const double aspect = static_cast<double>(side - 2) / (picture_height - 2);
   for (int k = 0; k < count; ++k) {
-    const RankedHold& hold = ranked.holds[static_cast<std::size_t>(k)];
+    const grasp::RankedHold& hold = ranked.holds[static_cast<std::size_t>(k)];
     const Tile tile{(k % columns) * side, head + (k / columns) * side, side, side};
     HeldScene held;
     held.hand = &hand;
     held.product = &product.mesh;
-    held.skin = pose_skin(hand, hold.grasp.posture);
+    held.skin = hand::pose_skin(hand, hold.grasp.posture);
     for (Vec3& p : held.skin) p = hold.grasp.product_from_hand * p;
     held.is_held_part =
         triangles_of_part(ranked.parts, hold.hold.part, product.mesh.triangles.size());
@@ -189,4 +191,4 @@ Image holds_picture(const Hand& hand, const Product& product, const RankedHolds&
   return sheet;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

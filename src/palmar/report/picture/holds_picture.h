@@ -10,7 +10,7 @@
 #include "palmar/grasp/holds/hold.h"
 #include "palmar/report/picture/image.h"
 
-namespace palmar {
+namespace palmar::report {
 
 struct HoldsPictureOptions {
   int tile_width = 480;    ///< pixels, 160 to 1600; a tile is as high as it is wide
@@ -24,12 +24,13 @@ struct HoldsPictureOptions {
 /// Ways to hold a product as one sheet, best first: hand and product of each, seen from where one
 /// sees best how it is held (hold_camera.h), with its number, words, score and what speaks against
 /// it. `hand` is the one that they were ranked with.
-Image holds_picture(const Hand& hand, const Product& product, const RankedHolds& ranked,
-                    const HoldsPictureOptions& options = {}, const Progress& progress = {});
+Image holds_picture(const hand::Hand& hand, const product::Product& product,
+                    const grasp::RankedHolds& ranked, const HoldsPictureOptions& options = {},
+                    const Progress& progress = {});
 
 /// Text in lines that are at most so many pixels wide; the last one ends in "..." if there would be
 /// more than `most`.
 std::vector<std::string> wrapped(const std::string& text, double width, double cap_height,
                                  std::size_t most);
 
-}  // namespace palmar
+}  // namespace palmar::report

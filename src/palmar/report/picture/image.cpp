@@ -12,7 +12,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
@@ -118,4 +118,4 @@ Image decode_png(std::string_view bytes) {
   return image;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

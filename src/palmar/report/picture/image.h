@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace palmar {
+namespace palmar::report {
 
 /// A colour as screens take it: sRGB, 0 to 255.
 struct Rgb {
@@ -56,4 +56,4 @@ Image narrowed(const Image& image, int width);
 /// on white. Throws InputError if they are no PNG.
 Image decode_png(std::string_view bytes);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 TEST(Png, ComesBackPixelForPixel) {
@@ -61,4 +61,4 @@ TEST(Narrowed, PixelsAreMeansOfWhatTheyCover) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -12,7 +12,7 @@
 #include "palmar/formats/mesh/vtk.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 std::string deflated(const std::string& bytes) {
@@ -24,7 +24,7 @@ std::string deflated(const std::string& bytes) {
   if (status != Z_OK)
     throw Error("report: zlib can't compress " + std::to_string(bytes.size()) + " bytes");
   packed.resize(size);
-  return base64(packed);
+  return formats::base64(packed);
 }
 
 // Small numbers of either sign as small numbers: 0, -1, 1, -2 -> 0, 1, 2, 3.
@@ -93,4 +93,4 @@ std::string packed_shares(std::span<const double> values, double upper) {
   return deflated(bytes);
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

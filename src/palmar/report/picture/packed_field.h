@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::report {
 
 // Meshes and fields for the study's 3-D view, small: quantised, as differences between neighbours,
 // deflated (zlib, RFC 1950; browsers have DecompressionStream), in base64. For display only.
@@ -30,4 +30,4 @@ std::string packed_numbers(std::span<const int> numbers);
 /// end.
 std::string packed_shares(std::span<const double> values, double upper);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 /// What a browser does: base64, then zlib.
@@ -89,4 +89,4 @@ TEST(PackedTriangles, AreDifferencesBetweenCorners) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -14,7 +14,7 @@
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 // Okabe, Ito 2008, "Color universal design", lightened where shading needs it.
@@ -43,7 +43,7 @@ struct PartsView {
 };
 
 // Directions of the most and the least extent of a cloud of points.
-Eigen::Matrix3d axes_of(const TriangleMesh& mesh) {
+Eigen::Matrix3d axes_of(const geometry::TriangleMesh& mesh) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : mesh.vertices) mean += p;
   mean /= static_cast<double>(mesh.vertices.size());
@@ -77,12 +77,12 @@ void draw_line(Image& image, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   }
 }
 
-Scene scene_of(const TriangleMesh& mesh, const ProductParts& parts) {
+Scene scene_of(const geometry::TriangleMesh& mesh, const product::ProductParts& parts) {
   Scene scene(std::max<std::size_t>(1, parts.parts.size()));
   std::vector<std::vector<int>> index(scene.size(), std::vector<int>(mesh.vertices.size(), -1));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const std::size_t part = parts.parts.empty() ? 0 : parts.part_of_triangle[t];
-    TriangleMesh& piece = scene[part].mesh;
+    geometry::TriangleMesh& piece = scene[part].mesh;
     Triangle corner = mesh.triangles[t];
     for (int& i : corner) {
       int& at = index[part][i];
@@ -101,7 +101,7 @@ Scene scene_of(const TriangleMesh& mesh, const ProductParts& parts) {
   return scene;
 }
 
-std::string line_of(const ProductPart& part) {
+std::string line_of(const product::ProductPart& part) {
   std::string text =
       fmt::format("{} {}: {:.0f} mm long, girth {:.0f} mm, {:.0f} x {:.0f} mm", part.number,
                   part.name, part.length, part.girth, part.width, part.thickness);
@@ -117,7 +117,7 @@ Rgb part_colour(int number) {
   return kPartColours[static_cast<std::size_t>(std::max(1, number) - 1) % kPartColours.size()];
 }
 
-Image parts_picture(const Product& product, const ProductParts& parts,
+Image parts_picture(const product::Product& product, const product::ProductParts& parts,
                     const PartsPictureOptions& options, const Progress& progress) {
   if (options.width < 200 || options.width > 8000 || options.height < 100 ||
       options.height > 4000) {
@@ -153,13 +153,13 @@ Image parts_picture(const Product& product, const ProductParts& parts,
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) picture.at(k * width + x, top + y) = rendered[k].at(x, y);
     }
-    for (const ProductPart& part : parts.parts) {
+    for (const product::ProductPart& part : parts.parts) {
       for (std::size_t i = 0; i + 1 < part.line.size(); ++i) {
         draw_line(picture, views[k].project(part.line[i].centre),
                   views[k].project(part.line[i + 1].centre), 2.0 * s, kInk);
       }
     }
-    for (const ProductPart& part : parts.parts) {
+    for (const product::ProductPart& part : parts.parts) {
       if (part.line.empty()) continue;
       // A ring's number stands on its line, beside the opening.
       const Eigen::Vector2d at = views[k].project(part.line[part.line.size() / 2].centre);
@@ -187,7 +187,7 @@ std::string picture_svg(const Image& image) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
       "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
       "<image width=\"{0}\" height=\"{1}\" xlink:href=\"data:image/png;base64,{2}\"/>\n</svg>\n",
-      image.width, image.height, base64(encode_png(image, PngEffort::kSmall)));
+      image.width, image.height, formats::base64(encode_png(image, PngEffort::kSmall)));
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

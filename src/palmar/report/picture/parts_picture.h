@@ -8,7 +8,7 @@
 #include "palmar/product/parts/product_parts.h"
 #include "palmar/report/picture/image.h"
 
-namespace palmar {
+namespace palmar::report {
 
 struct PartsPictureOptions {
   int width = 1600;  ///< pixels, 200 to 8000
@@ -20,10 +20,10 @@ Rgb part_colour(int number);
 
 /// A product from two sides, each part in its colour with its number and centre line, and a list
 /// of the parts with their sizes.
-Image parts_picture(const Product& product, const ProductParts& parts,
+Image parts_picture(const product::Product& product, const product::ProductParts& parts,
                     const PartsPictureOptions& options = {}, const Progress& progress = {});
 
 /// A picture as an SVG file, for documents that take no PNG.
 std::string picture_svg(const Image& image);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -15,22 +15,22 @@
 #include "palmar/report/picture/render.h"
 #include "palmar/report/picture/stroke_text.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr double kFine = 0.5;  // mm; edges of the painted mesh, so that borders look as they run
 constexpr Rgb kPlain{206, 208, 205};
 
 /// The map split fine, each vertex in the colour of the first region that it lies in.
-SceneObject painted(const TriangleMesh& map, const std::vector<ContactRegion>& regions,
-                    double finest) {
+SceneObject painted(const geometry::TriangleMesh& map,
+                    const std::vector<redesign::ContactRegion>& regions, double finest) {
   Box3 box;
   for (const Vec3& x : map.vertices) box.extend(x);
   SceneObject object;
   // Large products needn't be finer than pixels.
   const double edge = std::max(finest, box.diagonal().norm() / 400.0);
-  object.mesh = split_long_edges(map, edge);
-  const ClosestPointQuery query(map);
+  object.mesh = geometry::split_long_edges(map, edge);
+  const geometry::ClosestPointQuery query(map);
   object.vertex_colours.reserve(object.mesh.vertices.size());
   std::optional<int> hint;
   for (const Vec3& x : object.mesh.vertices) {
@@ -38,7 +38,7 @@ SceneObject painted(const TriangleMesh& map, const std::vector<ContactRegion>& r
     hint = found->triangle;
     const Triangle& t = map.triangles[static_cast<std::size_t>(found->triangle)];
     Rgb colour = kPlain;
-    for (const ContactRegion& region : regions) {
+    for (const redesign::ContactRegion& region : regions) {
       double value = 0.0;
       for (int k = 0; k < 3; ++k) {
         value += found->weights[static_cast<std::size_t>(k)] *
@@ -55,15 +55,15 @@ SceneObject painted(const TriangleMesh& map, const std::vector<ContactRegion>& r
 }
 
 /// From the axis towards the region of the palm, else of whatever there is.
-Vec3 towards_palm(const TriangleMesh& map, const std::vector<ContactRegion>& regions,
-                  const Vec3& axis) {
+Vec3 towards_palm(const geometry::TriangleMesh& map,
+                  const std::vector<redesign::ContactRegion>& regions, const Vec3& axis) {
   Box3 box;
   for (const Vec3& x : map.vertices) box.extend(x);
   Vec3 side = Vec3::Zero();
   for (const bool palm_only : {true, false}) {
-    for (const ContactRegion& region : regions) {
-      if (palm_only && region.part != HandPart::kPalm) continue;
-      for (const RegionPatch& patch : region.patches) {
+    for (const redesign::ContactRegion& region : regions) {
+      if (palm_only && region.part != redesign::HandPart::kPalm) continue;
+      for (const redesign::RegionPatch& patch : region.patches) {
         side += patch.area * (patch.centre - box.center());
       }
     }
@@ -75,23 +75,24 @@ Vec3 towards_palm(const TriangleMesh& map, const std::vector<ContactRegion>& reg
 
 }  // namespace
 
-Rgb colour_of(std::optional<HandPart> part) {
+Rgb colour_of(std::optional<redesign::HandPart> part) {
   if (!part) return {126, 87, 160};
   switch (*part) {
-    case HandPart::kFingers:
+    case redesign::HandPart::kFingers:
       return {196, 52, 46};
-    case HandPart::kThumb:
+    case redesign::HandPart::kThumb:
       return {232, 140, 38};
-    case HandPart::kPalm:
+    case redesign::HandPart::kPalm:
       return {44, 92, 178};
   }
   return kPlain;
 }
 
-ColouredMesh region_surface(const TriangleMesh& map, const std::vector<ContactRegion>& regions) {
+geometry::ColouredMesh region_surface(const geometry::TriangleMesh& map,
+                                      const std::vector<redesign::ContactRegion>& regions) {
   constexpr double kForViews = 1.0;  // mm; for a view that is turned, not printed
   SceneObject object = painted(map, regions, kForViews);
-  ColouredMesh surface;
+  geometry::ColouredMesh surface;
   surface.mesh = std::move(object.mesh);
   for (const Rgb c : object.vertex_colours) {
     surface.colour.emplace_back(static_cast<float>(c.r) / 255.0F, static_cast<float>(c.g) / 255.0F,
@@ -100,10 +101,11 @@ ColouredMesh region_surface(const TriangleMesh& map, const std::vector<ContactRe
   return surface;
 }
 
-Image region_picture(const TriangleMesh& map, const std::vector<ContactRegion>& regions,
-                     const Vec3& axis, const std::string& title,
-                     const RegionPictureOptions& options, const Progress& progress) {
-  for (const ContactRegion& region : regions) {
+Image region_picture(const geometry::TriangleMesh& map,
+                     const std::vector<redesign::ContactRegion>& regions, const Vec3& axis,
+                     const std::string& title, const RegionPictureOptions& options,
+                     const Progress& progress) {
+  for (const redesign::ContactRegion& region : regions) {
     if (region.field.size() != map.vertices.size()) {
       throw UsageError("region picture: a region belongs to another map");
     }
@@ -139,7 +141,7 @@ Image region_picture(const TriangleMesh& map, const std::vector<ContactRegion>& 
   draw_text(picture, 24 * s, 40 * s, title, {.cap_height = 15 * s, .weight = 0.15});
   double x = 24 * s;
   const TextStyle small{.cap_height = 11 * s};
-  for (const ContactRegion& region : regions) {
+  for (const redesign::ContactRegion& region : regions) {
     const std::string text = fmt::format("{}: {:.0f} mm²", region.title, region.area);
     fill_rectangle(picture, static_cast<int>(x), static_cast<int>(58 * s), static_cast<int>(14 * s),
                    static_cast<int>(14 * s), colour_of(region.part));
@@ -149,4 +151,4 @@ Image region_picture(const TriangleMesh& map, const std::vector<ContactRegion>& 
   return picture;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -16,7 +16,7 @@
 #include "palmar/geometry/distance/embree_mesh.h"
 #include "palmar/report/picture/shading_normals.h"
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
@@ -91,8 +91,8 @@ struct ShadedTriangle {
 
 // All objects in one mesh, so that one ray meets them in order.
 struct PreparedScene {
-  TriangleMesh all;
-  TriangleMesh opaque;
+  geometry::TriangleMesh all;
+  geometry::TriangleMesh opaque;
   std::vector<ShadedTriangle> triangles;  // of `all`
 };
 
@@ -125,7 +125,7 @@ void check_object(const SceneObject& object, std::size_t index) {
   }
 }
 
-void append(TriangleMesh& whole, const TriangleMesh& part) {
+void append(geometry::TriangleMesh& whole, const geometry::TriangleMesh& part) {
   const int first = whole.vertex_count();
   whole.vertices.insert(whole.vertices.end(), part.vertices.begin(), part.vertices.end());
   for (const Triangle& t : part.triangles) {
@@ -200,7 +200,7 @@ float free_share(RTCScene scene, const Vec3f& point, const Vec3f& normal, float 
 // over triangles larger than the range: those are left fully lit.
 void add_occlusion(PreparedScene& prepared, double range, const Progress& progress) {
   if (range <= 0.0 || prepared.opaque.triangles.empty()) return;
-  const EmbreeMesh opaque(prepared.opaque);
+  const geometry::EmbreeMesh opaque(prepared.opaque);
   // Corners of one vertex mostly share their normal: the last answer at a vertex often serves.
   struct Known {
     Vec3f normal = Vec3f::Zero();
@@ -290,7 +290,8 @@ struct Sample {
 
 class Caster {
  public:
-  Caster(const PreparedScene& prepared, const EmbreeMesh& mesh, const View& view, Rgb background)
+  Caster(const PreparedScene& prepared, const geometry::EmbreeMesh& mesh, const View& view,
+         Rgb background)
       : prepared_(prepared),
         scene_(mesh.scene()),
         view_(view),
@@ -379,8 +380,8 @@ bool differ(const Sample& a, const Sample& b) {
          (a.normal - b.normal).squaredNorm() > 0.08F;
 }
 
-Image render_view(const PreparedScene& prepared, const EmbreeMesh& mesh, const Camera& camera,
-                  const RenderOptions& options, const Progress& progress) {
+Image render_view(const PreparedScene& prepared, const geometry::EmbreeMesh& mesh,
+                  const Camera& camera, const RenderOptions& options, const Progress& progress) {
   Image image(options.width, options.height, options.background);
   const View view = make_view(camera, options, mesh.origin());
   const Caster caster(prepared, mesh, view, options.background);
@@ -514,7 +515,7 @@ std::vector<Image> render_views(const Scene& scene, const std::vector<Camera>& c
   }
   progress.throw_if_cancelled();
   add_occlusion(prepared, options.occlusion_range, progress);
-  const EmbreeMesh mesh(prepared.all);
+  const geometry::EmbreeMesh mesh(prepared.all);
   std::vector<Image> images;
   for (const Camera& camera : cameras) {
     progress.throw_if_cancelled();
@@ -528,4 +529,4 @@ Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions
   return std::move(render_views(scene, {camera}, options).front());
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -9,11 +9,11 @@
 #include "palmar/report/picture/colormap.h"
 #include "palmar/report/picture/image.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// One mesh in a picture.
 struct SceneObject {
-  TriangleMesh mesh = {};                ///< mm
+  geometry::TriangleMesh mesh = {};      ///< mm
   Rgb colour{200, 200, 200};             ///< where vertex_colours is empty
   std::vector<Rgb> vertex_colours = {};  ///< one per vertex, or empty
   std::vector<double> field = {};  ///< one per vertex, or empty: shown by `map` where it is above
@@ -77,4 +77,4 @@ Image render_scene(const Scene& scene, const Camera& camera, const RenderOptions
 std::vector<Image> render_views(const Scene& scene, const std::vector<Camera>& cameras,
                                 const RenderOptions& options = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::report

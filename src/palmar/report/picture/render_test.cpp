@@ -13,13 +13,13 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/report/picture/shading_normals.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr Rgb kRed{200, 40, 30};
 constexpr Rgb kBlue{30, 60, 200};
 
-TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
+geometry::TriangleMesh moved(geometry::TriangleMesh mesh, const Vec3& by) {
   for (Vec3& v : mesh.vertices) v += by;
   return mesh;
 }
@@ -42,7 +42,7 @@ int not_white(const Image& image) {
 }
 
 TEST(RenderScene, SphereCoversTheAreaOfItsSilhouette) {
-  const Scene scene{{.mesh = make_icosphere(30.0, 4), .colour = kRed}};
+  const Scene scene{{.mesh = geometry::make_icosphere(30.0, 4), .colour = kRed}};
   const Image image = render_scene(scene, front_camera(), small(400));
   // A disc of radius 30 mm at 4 pixels per mm; half a ring of border pixels counts as covered.
   const double radius = 30.0 * 4.0;
@@ -52,7 +52,7 @@ TEST(RenderScene, SphereCoversTheAreaOfItsSilhouette) {
 }
 
 TEST(RenderScene, SurfaceThatFacesTheEyeShowsItsOwnColour) {
-  const Scene scene{{.mesh = make_box({40, 40, 40}), .colour = kRed}};
+  const Scene scene{{.mesh = geometry::make_box({40, 40, 40}), .colour = kRed}};
   const Image image = render_scene(scene, front_camera(), small());
   const Rgb middle = image.at(100, 100);
   EXPECT_NEAR(middle.r, kRed.r, 1);
@@ -61,7 +61,7 @@ TEST(RenderScene, SurfaceThatFacesTheEyeShowsItsOwnColour) {
 }
 
 TEST(RenderScene, FieldShowsItsMapAndNothingWhereItIsZero) {
-  TriangleMesh patch = moved(make_grid_patch(2, 1, 40.0), {-40, -20, 0});
+  geometry::TriangleMesh patch = moved(geometry::make_grid_patch(2, 1, 40.0), {-40, -20, 0});
   std::vector<double> field;
   for (const Vec3& v : patch.vertices) field.push_back(v.x() > 1.0 ? 0.4 : 0.0);
   const Scene scene{{.mesh = patch, .colour = kBlue, .field = field, .field_upper = 0.4}};
@@ -74,7 +74,7 @@ TEST(RenderScene, FieldShowsItsMapAndNothingWhereItIsZero) {
 }
 
 TEST(RenderScene, NearerBodyHidesTheOneBehindIt) {
-  const TriangleMesh box = make_box({30, 30, 2});
+  const geometry::TriangleMesh box = geometry::make_box({30, 30, 2});
   const Scene scene{{.mesh = moved(box, {0, 0, -20}), .colour = kBlue},
                     {.mesh = moved(box, {0, 0, 20}), .colour = kRed}};
   EXPECT_NEAR(render_scene(scene, front_camera(), small()).at(100, 100).r, kRed.r, 1);
@@ -85,7 +85,7 @@ TEST(RenderScene, NearerBodyHidesTheOneBehindIt) {
 }
 
 TEST(RenderScene, TranslucentBodyLetsTheOneBehindShine) {
-  const TriangleMesh box = make_box({30, 30, 2});
+  const geometry::TriangleMesh box = geometry::make_box({30, 30, 2});
   Scene scene{{.mesh = moved(box, {0, 0, -20}), .colour = {0, 0, 0}},
               {.mesh = moved(box, {0, 0, 20}), .colour = {255, 255, 255}, .opacity = 0.5}};
   const Rgb c = render_scene(scene, front_camera(), small()).at(100, 100);
@@ -94,7 +94,7 @@ TEST(RenderScene, TranslucentBodyLetsTheOneBehindShine) {
 
 TEST(RenderScene, PerspectiveShowsWhatIsNearLarger) {
   const auto covered = [](double z) {
-    const Scene scene{{.mesh = moved(make_box({20, 20, 1}), {0, 0, z}), .colour = kRed}};
+    const Scene scene{{.mesh = moved(geometry::make_box({20, 20, 1}), {0, 0, z}), .colour = kRed}};
     Camera camera = front_camera();
     camera.is_orthographic = false;
     return not_white(render_scene(scene, camera, small()));
@@ -104,8 +104,8 @@ TEST(RenderScene, PerspectiveShowsWhatIsNearLarger) {
 }
 
 TEST(RenderScene, SameBytesOnAnyNumberOfThreads) {
-  const Scene scene{{.mesh = make_torus(25, 10, 40, 20), .colour = kRed},
-                    {.mesh = make_icosphere(20, 3), .colour = kBlue, .opacity = 0.4}};
+  const Scene scene{{.mesh = geometry::make_torus(25, 10, 40, 20), .colour = kRed},
+                    {.mesh = geometry::make_icosphere(20, 3), .colour = kBlue, .opacity = 0.4}};
   const RenderOptions options{.width = 160, .height = 120};
   set_thread_count(1);
   const Image one = render_scene(scene, front_camera(), options);
@@ -117,11 +117,11 @@ TEST(RenderScene, SameBytesOnAnyNumberOfThreads) {
 
 TEST(RenderScene, PointCloseToAWallIsDarker) {
   // A ball 1 mm above a finely cut floor takes ambient light from under it.
-  const TriangleMesh floor = moved(make_grid_patch(40, 40, 2.0), {-40, -40, 0});
+  const geometry::TriangleMesh floor = moved(geometry::make_grid_patch(40, 40, 2.0), {-40, -40, 0});
   Scene scene{{.mesh = floor, .colour = {180, 180, 180}}};
   const RenderOptions options{.width = 200, .height = 200, .occlusion_range = 18.0};
   const int free = render_scene(scene, front_camera(), options).at(100, 140).r;
-  scene.push_back({.mesh = moved(make_icosphere(12, 3), {0, 0, 13}), .colour = kRed});
+  scene.push_back({.mesh = moved(geometry::make_icosphere(12, 3), {0, 0, 13}), .colour = kRed});
   const int near = render_scene(scene, front_camera(), options).at(100, 128).r;
   EXPECT_LT(near, free - 4);
 }
@@ -139,7 +139,7 @@ TEST(RenderScene, NamesWhatIsWrongWithAScene) {
     }
     return "nothing";
   };
-  const TriangleMesh box = make_box({1, 1, 1});
+  const geometry::TriangleMesh box = geometry::make_box({1, 1, 1});
   EXPECT_THAT(message({{.mesh = box, .vertex_colours = {kRed}}}),
               testing::HasSubstr("1 vertex colours for 8 vertices"));
   EXPECT_THAT(message({{.mesh = box, .opacity = 0.0}}), testing::HasSubstr("opacity is 0"));
@@ -149,7 +149,7 @@ TEST(RenderScene, NamesWhatIsWrongWithAScene) {
 }
 
 TEST(FitCamera, ShowsTheWholeSceneWithItsMargin) {
-  const Scene scene{{.mesh = make_box({50, 20, 30}), .colour = kRed}};
+  const Scene scene{{.mesh = geometry::make_box({50, 20, 30}), .colour = kRed}};
   for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(1, -1, 0.5), Vec3(-1, 0.2, 0)}) {
     const Camera camera =
         fit_camera(scene, direction, Vec3::UnitZ() + 0.01 * Vec3::UnitX(), {.aspect = 1.5});
@@ -170,18 +170,18 @@ TEST(FitCamera, ShowsTheWholeSceneWithItsMargin) {
 }
 
 TEST(ShadingNormals, SphereGetsRadialNormalsAndABoxKeepsItsEdges) {
-  const TriangleMesh sphere = make_icosphere(10.0, 3);
+  const geometry::TriangleMesh sphere = geometry::make_icosphere(10.0, 3);
   const auto smooth = shading_normals(sphere, 0.8);
   for (std::size_t t = 0; t < smooth.size(); ++t) {
     const Vec3 radial =
         sphere.vertices[static_cast<std::size_t>(sphere.triangles[t][0])].normalized();
     EXPECT_GT(smooth[t][0].dot(radial), 0.999);
   }
-  for (const auto& corners : shading_normals(make_box({1, 2, 3}), 0.8)) {
+  for (const auto& corners : shading_normals(geometry::make_box({1, 2, 3}), 0.8)) {
     EXPECT_NEAR(corners[0].cwiseAbs().maxCoeff(), 1.0, 1e-12);
     EXPECT_EQ(corners[0], corners[1]);
   }
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -7,12 +7,12 @@
 #include <numeric>
 #include <tuple>
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
 // For each vertex the first one that stands at the same place.
-std::vector<int> places_of(const TriangleMesh& mesh) {
+std::vector<int> places_of(const geometry::TriangleMesh& mesh) {
   std::vector<int> order(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0);
   const auto key = [&](int v) {
@@ -37,7 +37,8 @@ struct Corner {
 
 }  // namespace
 
-std::vector<std::array<Vec3, 3>> shading_normals(const TriangleMesh& mesh, double crease_angle) {
+std::vector<std::array<Vec3, 3>> shading_normals(const geometry::TriangleMesh& mesh,
+                                                 double crease_angle) {
   const std::vector<int> place = places_of(mesh);
   std::vector<Vec3> face(mesh.triangles.size(), Vec3::UnitZ());
   std::vector<std::vector<Corner>> fan(mesh.vertices.size());
@@ -73,4 +74,4 @@ std::vector<std::array<Vec3, 3>> shading_normals(const TriangleMesh& mesh, doubl
   return normals;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

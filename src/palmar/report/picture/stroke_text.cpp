@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
@@ -313,4 +313,4 @@ void fill_rectangle(Image& image, int x, int y, int width, int height, Rgb colou
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -8,7 +8,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/report/picture/image.h"
 
-namespace palmar {
+namespace palmar::report {
 
 enum class Align { kLeft, kCentre, kRight };
 
@@ -39,4 +39,4 @@ std::vector<char32_t> code_points(std::string_view text);
 /// Fills the rectangle [x, x + width) x [y, y + height), clipped to the picture.
 void fill_rectangle(Image& image, int x, int y, int width, int height, Rgb colour);
 
-}  // namespace palmar
+}  // namespace palmar::report

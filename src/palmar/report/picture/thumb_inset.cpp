@@ -6,13 +6,13 @@
 
 #include "palmar/report/picture/stroke_text.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr double kInsetWidth = 0.20, kInsetHeight = 0.42;  // of the picture
 constexpr Rgb kInsetFrame{160, 168, 176};
 
-Vec3 middle_of(const Hand& hand, Region region) {
+Vec3 middle_of(const hand::Hand& hand, hand::Region region) {
   Vec3 sum = Vec3::Zero();
   int count = 0;
   for (std::size_t i = 0; i < hand.region.size(); ++i) {
@@ -24,7 +24,7 @@ Vec3 middle_of(const Hand& hand, Region region) {
 }
 
 /// Mean direction that the skin of a region faces, outwards.
-Vec3 facing_of(const Hand& hand, Region region) {
+Vec3 facing_of(const hand::Hand& hand, hand::Region region) {
   Vec3 sum = Vec3::Zero();
   const std::vector<Vec3>& p = hand.skin.vertices;
   for (const Triangle& t : hand.skin.triangles) {
@@ -34,30 +34,32 @@ Vec3 facing_of(const Hand& hand, Region region) {
   return sum.norm() > 0.0 ? Vec3(sum.normalized()) : Vec3(Vec3::UnitZ());
 }
 
-bool is_of_thumb(Region region) {
-  return region == Region::kThumbDistal || region == Region::kThumbProximal ||
-         region == Region::kThenar;
+bool is_of_thumb(hand::Region region) {
+  return region == hand::Region::kThumbDistal || region == hand::Region::kThumbProximal ||
+         region == hand::Region::kThenar;
 }
 
 }  // namespace
 
-Camera thumb_pad_camera(const Hand& hand, double aspect) {
+Camera thumb_pad_camera(const hand::Hand& hand, double aspect) {
   SceneObject thumb;
   for (std::size_t i = 0; i < hand.region.size(); ++i) {
-    const bool is_shown = is_of_thumb(hand.region[i]) || hand.segment[i] == Segment::kThumbDistal ||
-                          hand.segment[i] == Segment::kThumbProximal;
+    const bool is_shown = is_of_thumb(hand.region[i]) ||
+                          hand.segment[i] == hand::Segment::kThumbDistal ||
+                          hand.segment[i] == hand::Segment::kThumbProximal;
     if (is_shown) thumb.mesh.vertices.push_back(hand.skin.vertices[i]);
   }
   if (thumb.mesh.vertices.empty()) thumb.mesh.vertices = hand.skin.vertices;
   for (int i = 0; i < thumb.mesh.vertex_count(); ++i) thumb.mesh.triangles.push_back({i, i, i});
-  const Vec3 facing = facing_of(hand, Region::kThumbDistal);
-  Vec3 up = middle_of(hand, Region::kThumbDistal) - middle_of(hand, Region::kThumbProximal);
+  const Vec3 facing = facing_of(hand, hand::Region::kThumbDistal);
+  Vec3 up =
+      middle_of(hand, hand::Region::kThumbDistal) - middle_of(hand, hand::Region::kThumbProximal);
   up -= up.dot(facing) * facing;
   if (!(up.norm() > 1e-6)) up = facing.unitOrthogonal();
   return fit_camera({thumb}, -facing, up, {.aspect = aspect, .margin = 0.04});
 }
 
-void add_thumb_inset(Image& picture, const Hand& hand, const Scene& open_hand,
+void add_thumb_inset(Image& picture, const hand::Hand& hand, const Scene& open_hand,
                      const std::string& title, const Progress& progress) {
   const double s = picture.height / 700.0;
   const int width = static_cast<int>(kInsetWidth * picture.width);
@@ -78,4 +80,4 @@ void add_thumb_inset(Image& picture, const Hand& hand, const Scene& open_hand,
             {.cap_height = 14 * s, .colour = Rgb{96, 102, 110}});
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

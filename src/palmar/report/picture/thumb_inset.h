@@ -9,16 +9,16 @@
 #include "palmar/report/picture/image.h"
 #include "palmar/report/picture/render.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// Camera that looks straight at the pad of the thumb of a hand in its reference posture, the
 /// thumb's tip upwards; the thumb and its ball fill the picture. Seen from the palm, the thumb
 /// shows its side: what its pad carries can't be seen there.
-Camera thumb_pad_camera(const Hand& hand, double aspect);
+Camera thumb_pad_camera(const hand::Hand& hand, double aspect);
 
 /// Draws that view of `open_hand` (the skin of `hand` as in its reference posture, coloured) into
 /// the lower left of a picture of the opened hand, under `title`. Throws Cancelled.
-void add_thumb_inset(Image& picture, const Hand& hand, const Scene& open_hand,
+void add_thumb_inset(Image& picture, const hand::Hand& hand, const Scene& open_hand,
                      const std::string& title, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -6,12 +6,12 @@
 #include "palmar/report/words/plain_words.h"
 #include "palmar/report/words/study_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 std::size_t as_size(int i) { return static_cast<std::size_t>(i); }
 
-const ProductFace& face_at(const Product& product, int face) {
+const product::ProductFace& face_at(const product::Product& product, int face) {
   return product.faces->face[as_size(face)];
 }
 
@@ -19,36 +19,39 @@ std::string percent(double share) { return short_number(100.0 * share, 2) + " %"
 
 }  // namespace
 
-std::string face_words(const ProductFace& face, const FaceSummary* summary) {
+std::string face_words(const product::ProductFace& face, const study::FaceSummary* summary) {
   if (summary == nullptr) return title_of(face) + ": nobody touches it";
   return title_of(face) + ": peak " + short_number(summary->peak.mean, 2) + " MPa" +
          (summary->peak.n > 1 ? " in the mean" : "") + ", highest of the product in " +
          percent(summary->has_peak.share) + " of " + counted(summary->has_peak.n, "hand");
 }
 
-std::string face_words(const StudyPlan& plan, const Product& product,
-                       const FaceStatistics& statistics) {
-  const FaceSummary* hottest = hottest_face(statistics);
+std::string face_words(const study::StudyPlan& plan, const product::Product& product,
+                       const study::FaceStatistics& statistics) {
+  const study::FaceSummary* hottest = study::hottest_face(statistics);
   if (hottest == nullptr || product.faces == nullptr) return {};
   return capitalised(plan.products[as_size(statistics.product)].name) + ": " +
          face_words(face_at(product, hottest->face), hottest) + ".";
 }
 
-std::vector<std::string> face_sentences(const StudyPlan& plan, const std::vector<Product>& products,
-                                        const std::vector<FaceStatistics>& faces,
-                                        const StudyCondition& condition) {
+std::vector<std::string> face_sentences(const study::StudyPlan& plan,
+                                        const std::vector<product::Product>& products,
+                                        const std::vector<study::FaceStatistics>& faces,
+                                        const study::StudyCondition& condition) {
   std::vector<std::string> sentences;
-  for (const FaceStatistics& one : faces) {
-    if (!is_same(one.condition, condition)) continue;
+  for (const study::FaceStatistics& one : faces) {
+    if (!study::is_same(one.condition, condition)) continue;
     std::string words = face_words(plan, products[as_size(one.product)], one);
     if (!words.empty()) sentences.push_back(std::move(words));
   }
   return sentences;
 }
 
-CsvTable face_statistics_csv(const StudyPlan& plan, const std::vector<Product>& products,
-                             const std::vector<FaceStatistics>& faces, double threshold) {
-  CsvTable table;
+records::CsvTable face_statistics_csv(const study::StudyPlan& plan,
+                                      const std::vector<product::Product>& products,
+                                      const std::vector<study::FaceStatistics>& faces,
+                                      double threshold) {
+  records::CsvTable table;
   table.header = {"population",
                   "profile",
                   "setting",
@@ -83,16 +86,16 @@ CsvTable face_statistics_csv(const StudyPlan& plan, const std::vector<Product>& 
                   "force_mean_n",
                   "force_share_mean",
                   "area_mean_mm2"};
-  for (const FaceStatistics& one : faces) {
-    const Product& product = products[as_size(one.product)];
-    for (const FaceSummary& summary : one.faces) {
-      const ProductFace& face = face_at(product, summary.face);
+  for (const study::FaceStatistics& one : faces) {
+    const product::Product& product = products[as_size(one.product)];
+    for (const study::FaceSummary& summary : one.faces) {
+      const product::ProductFace& face = face_at(product, summary.face);
       std::vector<std::string> row = condition_cells(plan, one.condition);
       row.insert(row.end(), {plan.products[as_size(one.product)].name, std::to_string(face.number),
                              title_of(face), face.name, face.part, name_of(face.kind),
                              face.is_fillet ? "1" : "0", exact_number(face.radius),
                              exact_number(face.area), std::to_string(one.hands)});
-      const auto add = [&](const Proportion& share) {
+      const auto add = [&](const statistics::Proportion& share) {
         row.insert(row.end(),
                    {std::to_string(share.count), exact_number(share.share),
                     exact_number(share.interval.low), exact_number(share.interval.high)});
@@ -112,4 +115,4 @@ CsvTable face_statistics_csv(const StudyPlan& plan, const std::vector<Product>& 
   return table;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -15,7 +15,7 @@
 #include "palmar/report/words/verdict_words.h"
 #include "palmar/study/statistics/study_statistics.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr const char* kPeak = "peak_pressure_cells_mpa";
@@ -25,8 +25,8 @@ constexpr int kHandsOfRedesign = 12;
 constexpr int kFewHands = 3;    // that are named one by one: our choice
 constexpr int kManyHands = 30;  // of a study that is to decide; as in Xie 2014, chapter 5
 
-StudyQuantity hand_quantity(const std::string& key) {
-  for (const StudyQuantity& one : hand_quantities()) {
+study::StudyQuantity hand_quantity(const std::string& key) {
+  for (const study::StudyQuantity& one : study::hand_quantities()) {
     if (one.key == key) return one;
   }
   return {.key = key, .name = key, .unit = ""};
@@ -34,24 +34,25 @@ StudyQuantity hand_quantity(const std::string& key) {
 
 class StudySpeaker {
  public:
-  StudySpeaker(const StudyResults& results, const StudyAnswerOptions& options)
+  StudySpeaker(const study::StudyResults& results, const StudyAnswerOptions& options)
       : results_(results),
         options_(options),
         texts_(options.language),
         phrases_(options.language),
-        condition_(conditions_of(results.plan).front()) {}
+        condition_(study::conditions_of(results.plan).front()) {}
 
   StudyAnswer speak() {
-    const StudyPlan& plan = results_.plan;
+    const study::StudyPlan& plan = results_.plan;
     for (int p = 0; p < static_cast<int>(plan.products.size()); ++p) {
-      statistics_.push_back(product_statistics(results_, {hand_quantity(kPeak)}, condition_, p));
+      statistics_.push_back(
+          study::product_statistics(results_, {hand_quantity(kPeak)}, condition_, p));
     }
     if (plan.products.size() == 1) {
       speak_of_one();
     } else {
       speak_of_pair();
     }
-    const auto count = conditions_of(plan).size();
+    const auto count = study::conditions_of(plan).size();
     if (count > 1) {
       answer_.reasons.push_back(texts_(
           "study.conditions",
@@ -65,7 +66,7 @@ class StudySpeaker {
   static std::size_t as_index(int i) { return static_cast<std::size_t>(i); }
 
   std::optional<double> mean_peak(int p) const {
-    const QuantitySummary* one = summary_of(statistics_[as_index(p)], kPeak);
+    const study::QuantitySummary* one = study::summary_of(statistics_[as_index(p)], kPeak);
     return one != nullptr ? std::optional(one->summary.mean) : std::nullopt;
   }
 
@@ -94,7 +95,7 @@ class StudySpeaker {
   }
 
   void redesign(int p) {
-    const StudyProduct& product = results_.plan.products[as_index(p)];
+    const study::StudyProduct& product = results_.plan.products[as_index(p)];
     if (!is_plain_product(product)) {
       look_at_report();
       return;
@@ -107,11 +108,12 @@ class StudySpeaker {
   }
 
   void add_hardest_region(int p) {
-    const ProductStatistics& one = statistics_[as_index(p)];
-    const auto worst = std::max_element(one.regions.begin(), one.regions.end(),
-                                        [](const RegionSummary& a, const RegionSummary& b) {
-                                          return a.peak_pressure_cells < b.peak_pressure_cells;
-                                        });
+    const study::ProductStatistics& one = statistics_[as_index(p)];
+    const auto worst =
+        std::max_element(one.regions.begin(), one.regions.end(),
+                         [](const study::RegionSummary& a, const study::RegionSummary& b) {
+                           return a.peak_pressure_cells < b.peak_pressure_cells;
+                         });
     if (worst == one.regions.end()) return;
     answer_.reasons.push_back(
         texts_("study.region", {{"product", name(p)},
@@ -124,9 +126,9 @@ class StudySpeaker {
   std::optional<int> add_comfort(int p, bool is_named) {
     int hands = 0, pain = 0, discomfort = 0;
     double no_blood = 0.0;
-    for (const int hand : hands_of(results_.plan, condition_)) {
-      const StudyRecord* record = record_of(results_, condition_, p, hand);
-      if (record == nullptr || !is_in_hand(*record)) continue;
+    for (const int hand : study::hands_of(results_.plan, condition_)) {
+      const study::StudyRecord* record = study::record_of(results_, condition_, p, hand);
+      if (record == nullptr || !study::is_in_hand(*record)) continue;
       const auto at_pain = index_value(*record, "pain_onset_percent");
       const auto at_discomfort = index_value(*record, "discomfort_onset_percent");
       const auto skin = index_value(*record, "skin_above_50_kpa_percent");
@@ -149,8 +151,8 @@ class StudySpeaker {
     answer_.reasons.push_back(is_named ? name(p) + ": " + words : capitalised(words));
     return discomfort;
   }
-  static std::optional<double> index_value(const StudyRecord& record, std::string_view key) {
-    for (const IndexRecord& one : record.indices) {
+  static std::optional<double> index_value(const study::StudyRecord& record, std::string_view key) {
+    for (const study::IndexRecord& one : record.indices) {
       if (one.key == key) return one.value;
     }
     return std::nullopt;
@@ -158,9 +160,9 @@ class StudySpeaker {
 
   /// "Hand 1, P5 woman, doesn't hold mug: slips out." for the few that don't.
   void add_who_does_not(int p) {
-    for (const int hand : hands_of(results_.plan, condition_)) {
-      const StudyRecord* record = record_of(results_, condition_, p, hand);
-      if (record == nullptr || is_in_hand(*record)) continue;
+    for (const int hand : study::hands_of(results_.plan, condition_)) {
+      const study::StudyRecord* record = study::record_of(results_, condition_, p, hand);
+      if (record == nullptr || study::is_in_hand(*record)) continue;
       answer_.reasons.push_back(texts_(
           "study.not_held_by", {{"hand", phrases_(hand_words(results_.plan, condition_, hand))},
                                 {"product", name(p)},
@@ -171,7 +173,7 @@ class StudySpeaker {
   /// Products that not every hand holds.
   void add_missing() {
     for (int p = 0; p < static_cast<int>(statistics_.size()); ++p) {
-      const OutcomeCounts& outcomes = statistics_[as_index(p)].outcomes;
+      const study::OutcomeCounts& outcomes = statistics_[as_index(p)].outcomes;
       if (outcomes.in_hand() == outcomes.hands()) continue;
       if (outcomes.hands() - outcomes.in_hand() <= kFewHands) {
         add_who_does_not(p);
@@ -185,8 +187,8 @@ class StudySpeaker {
   }
 
   void speak_of_one() {
-    const ProductStatistics& one = statistics_.front();
-    const QuantitySummary* peak = summary_of(one, kPeak);
+    const study::ProductStatistics& one = statistics_.front();
+    const study::QuantitySummary* peak = study::summary_of(one, kPeak);
     if (peak == nullptr) {
       answer_.tone = "bad";
       answer_.sentence = texts_("study.none", {{"product", name(0)}});
@@ -206,9 +208,10 @@ class StudySpeaker {
     if (one.outcomes.hands() - one.outcomes.in_hand() <= kFewHands) add_who_does_not(0);
     add_hardest_region(0);
     const std::optional<int> discomfort = add_comfort(0, false);
-    if (!is_drawn_by_chance(results_.plan)) answer_.reasons.push_back(texts_("study.chosen"));
+    if (!study::is_drawn_by_chance(results_.plan))
+      answer_.reasons.push_back(texts_("study.chosen"));
     // Where nobody finds it uncomfortable there is nothing to press.
-    if (discomfort == 0 && !is_drawn_by_chance(results_.plan)) {
+    if (discomfort == 0 && !study::is_drawn_by_chance(results_.plan)) {
       run_again("drawn", kManyHands, "");
     } else if (discomfort == 0) {
       look_at_report();
@@ -230,13 +233,13 @@ class StudySpeaker {
   }
 
   /// A pair of a quantity, turned so that its second product is `better`.
-  ProductPair pair_of(const std::string& key, int better, int worse) const {
-    const QuantityComparison all =
-        compare_products(results_, condition_, hand_quantity(key), options_.comparison);
-    for (const ProductPair& pair : all.pairs) {
+  study::ProductPair pair_of(const std::string& key, int better, int worse) const {
+    const study::QuantityComparison all =
+        study::compare_products(results_, condition_, hand_quantity(key), options_.comparison);
+    for (const study::ProductPair& pair : all.pairs) {
       if (pair.first == worse && pair.second == better) return pair;
       if (pair.first != better || pair.second != worse) continue;
-      ProductPair turned = pair;
+      study::ProductPair turned = pair;
       std::swap(turned.first, turned.second);
       std::swap(turned.mean_first, turned.mean_second);
       turned.t_test.interval = {-pair.t_test.interval.high, -pair.t_test.interval.low};
@@ -260,13 +263,13 @@ class StudySpeaker {
     const auto [better, worse] = lowest_two();
     answer_.better = better;
     answer_.worse = worse;
-    const ProductPair peak = pair_of(kPeak, better, worse);
+    const study::ProductPair peak = pair_of(kPeak, better, worse);
     answer_.changes = peak.change;
     TextValues values = {{"better", name(better)},
                          {"worse", name(worse)},
                          {"hands", std::to_string(peak.pairs)},
                          {"agree", std::to_string(peak.lower_in_second)},
-                         {"limit", texts_.percent(kToldApart)}};
+                         {"limit", texts_.percent(grasp::kToldApart)}};
     if (peak.pairs < 2) {
       answer_.sentence = texts_("study.few", values);
       add_missing();
@@ -277,20 +280,20 @@ class StudySpeaker {
     const double low = peak.t_test.interval.low / peak.mean_first;
     const double high = peak.t_test.interval.high / peak.mean_first;
     values["percent"] = texts_.percent(change);
-    const ProductPair area = pair_of(kArea, better, worse);
+    const study::ProductPair area = pair_of(kArea, better, worse);
     values["area"] =
         area_words(area.mean_first > 0.0 ? area.mean_second / area.mean_first - 1.0 : 0.0, texts_);
-    const auto forces = grip_forces(results_, condition_, worse, better);
+    const auto forces = study::grip_forces(results_, condition_, worse, better);
     if (forces) {
       values["force"] = texts_.number(forces->second, 2);
       values["better_force"] = texts_.number(forces->second, 2);
       values["worse_force"] = texts_.number(forces->first, 2);
     }
-    const bool is_drawn = is_drawn_by_chance(results_.plan);
-    const bool is_shown = is_drawn ? peak.verdict == DifferenceVerdict::kShown
+    const bool is_drawn = study::is_drawn_by_chance(results_.plan);
+    const bool is_shown = is_drawn ? peak.verdict == study::DifferenceVerdict::kShown
                                    : 2 * peak.lower_in_second > peak.pairs;
-    const bool is_large = std::abs(change) >= kToldApart;
-    const bool is_surely_small = std::max(std::abs(low), std::abs(high)) < kToldApart;
+    const bool is_large = std::abs(change) >= grasp::kToldApart;
+    const bool is_surely_small = std::max(std::abs(low), std::abs(high)) < grasp::kToldApart;
     if (forces && forces->are_unequal()) {
       speak_of_unequal(values, *forces, is_kept_posture(better, worse) && is_shown && is_large);
     } else if (is_shown && is_large) {
@@ -325,14 +328,14 @@ class StudySpeaker {
   /// Whether a product is shown to press by a difference that matters more than another one, at the
   /// same grip force; in words.
   std::optional<std::string> behind(int better, int worse) const {
-    const ProductPair peak = pair_of(kPeak, better, worse);
-    const auto forces = grip_forces(results_, condition_, worse, better);
+    const study::ProductPair peak = pair_of(kPeak, better, worse);
+    const auto forces = study::grip_forces(results_, condition_, worse, better);
     if (peak.pairs < 2 || !(peak.mean_second > 0.0) || !forces || forces->are_unequal()) return {};
     const double more = peak.mean_first / peak.mean_second - 1.0;
-    const bool is_shown = is_drawn_by_chance(results_.plan)
-                              ? peak.verdict == DifferenceVerdict::kShown
+    const bool is_shown = study::is_drawn_by_chance(results_.plan)
+                              ? peak.verdict == study::DifferenceVerdict::kShown
                               : 2 * peak.lower_in_second > peak.pairs;
-    if (!is_shown || more < kToldApart) return {};
+    if (!is_shown || more < grasp::kToldApart) return {};
     return texts_("study.behind", {{"worse", name(worse)},
                                    {"better", name(better)},
                                    {"percent", texts_.percent(more)},
@@ -364,7 +367,7 @@ class StudySpeaker {
     answer_.reasons.push_back(of_two);
   }
 
-  void speak_of_unequal(const TextValues& values, const GripForces& forces, bool is_kept) {
+  void speak_of_unequal(const TextValues& values, const study::GripForces& forces, bool is_kept) {
     answer_.sentence = texts_(is_kept ? "study.kept_unequal" : "study.unequal_force", values);
     // A kept posture makes the redesign's grip weak; in a posture of its own it reaches more.
     const bool is_redesign = !options_.command.empty();
@@ -383,19 +386,19 @@ class StudySpeaker {
     }
   }
 
-  const StudyResults& results_;
+  const study::StudyResults& results_;
   const StudyAnswerOptions& options_;
   Texts texts_;
   Phrases phrases_;
-  StudyCondition condition_;
-  std::vector<ProductStatistics> statistics_;
+  study::StudyCondition condition_;
+  std::vector<study::ProductStatistics> statistics_;
   StudyAnswer answer_;
 };
 
 }  // namespace
 
-StudyAnswer study_answer(const StudyResults& results, const StudyAnswerOptions& options) {
+StudyAnswer study_answer(const study::StudyResults& results, const StudyAnswerOptions& options) {
   return StudySpeaker(results, options).speak();
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

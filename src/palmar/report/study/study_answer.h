@@ -10,7 +10,7 @@
 #include "palmar/study/statistics/study_comparison.h"
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// What a study comes to, for the first of its conditions: which product presses less at its
 /// hardest place, by how much, in how many hands, at which grip force; or that there is no
@@ -28,11 +28,12 @@ struct StudyAnswer {
 
 struct StudyAnswerOptions {
   Language language = Language::kEnglish;
-  ComparisonOptions comparison;
+  study::ComparisonOptions comparison;
   std::string store;    ///< of the study, for commands; may be empty
   std::string command;  ///< of the redesign that the study is of; may be empty
 };
 
-StudyAnswer study_answer(const StudyResults& results, const StudyAnswerOptions& options = {});
+StudyAnswer study_answer(const study::StudyResults& results,
+                         const StudyAnswerOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -7,58 +7,58 @@
 
 #include "palmar/study/statistics/study_statistics.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
 /// A study of hands 160, 162, ... mm long, nothing run yet.
-StudyResults empty_study(int hands, const std::vector<std::string>& products) {
-  StudyResults results;
+study::StudyResults empty_study(int hands, const std::vector<std::string>& products) {
+  study::StudyResults results;
   results.plan.populations.resize(1);
   results.plan.populations.front().population.name = "xie2014";
-  results.plan.profiles = {HandProfile{}};
-  results.plan.settings = {StudySetting{}};
+  results.plan.profiles = {population::HandProfile{}};
+  results.plan.settings = {study::StudySetting{}};
   results.plan.grips = {std::nullopt};
   for (int h = 0; h < hands; ++h) {
-    StudyHand hand;
-    hand.sample.dimensions = {{kHandLength, 160.0 + 2.0 * h}};
+    study::StudyHand hand;
+    hand.sample.dimensions = {{study::kHandLength, 160.0 + 2.0 * h}};
     results.plan.hands.push_back(hand);
   }
   for (const std::string& name : products) {
-    StudyProduct product;
+    study::StudyProduct product;
     product.name = product.family = name;
     results.plan.products.push_back(product);
   }
   return results;
 }
 
-StudyRecord grasp_of(std::int64_t number, double peak) {
-  StudyRecord record;
+study::StudyRecord grasp_of(std::int64_t number, double peak) {
+  study::StudyRecord record;
   record.number = number;
-  record.outcome = StudyOutcome::kHeld;
+  record.outcome = study::StudyOutcome::kHeld;
   record.force = 100.0;
   record.area = 3000.0;
   record.peak_pressure_cells = peak;
   return record;
 }
 
-StudyRecord failed_grasp(std::int64_t number, StudyOutcome outcome) {
-  StudyRecord record;
+study::StudyRecord failed_grasp(std::int64_t number, study::StudyOutcome outcome) {
+  study::StudyRecord record;
   record.number = number;
   record.outcome = outcome;
   return record;
 }
 
 /// Hands that hold a and b with these peaks [MPa] and grip forces [N].
-StudyResults pair_study(const std::vector<double>& a, const std::vector<double>& b,
-                        double force_a = 60.0, double force_b = 60.0) {
-  StudyResults results = empty_study(static_cast<int>(a.size()), {"a", "b"});
-  for (StudyProduct& product : results.plan.products) product.file = product.name + ".stl";
+study::StudyResults pair_study(const std::vector<double>& a, const std::vector<double>& b,
+                               double force_a = 60.0, double force_b = 60.0) {
+  study::StudyResults results = empty_study(static_cast<int>(a.size()), {"a", "b"});
+  for (study::StudyProduct& product : results.plan.products) product.file = product.name + ".stl";
   for (std::size_t h = 0; h < a.size(); ++h) {
-    StudyRecord one = grasp_of(static_cast<std::int64_t>(2 * h), a[h]);
-    StudyRecord other = grasp_of(static_cast<std::int64_t>(2 * h + 1), b[h]);
+    study::StudyRecord one = grasp_of(static_cast<std::int64_t>(2 * h), a[h]);
+    study::StudyRecord other = grasp_of(static_cast<std::int64_t>(2 * h + 1), b[h]);
     one.grip_force = force_a;
     other.grip_force = force_b;
     results.records.push_back(one);
@@ -111,10 +111,10 @@ TEST(StudyAnswer, SaysWhatFallsBehindWhereTheBestTwoAreAlike) {
   const std::vector<std::vector<double>> peaks = {{0.30, 0.31, 0.29, 0.30, 0.28, 0.30},
                                                   {0.31, 0.30, 0.30, 0.29, 0.29, 0.30},
                                                   {0.40, 0.42, 0.38, 0.41, 0.39, 0.40}};
-  StudyResults results = empty_study(6, {"a", "b", "c"});
+  study::StudyResults results = empty_study(6, {"a", "b", "c"});
   for (std::size_t h = 0; h < 6; ++h) {
     for (std::size_t p = 0; p < 3; ++p) {
-      StudyRecord record = grasp_of(static_cast<std::int64_t>(3 * h + p), peaks[p][h]);
+      study::StudyRecord record = grasp_of(static_cast<std::int64_t>(3 * h + p), peaks[p][h]);
       record.grip_force = 60.0;
       results.records.push_back(record);
     }
@@ -137,8 +137,8 @@ TEST(StudyAnswer, UnequalGripsAreNotCompared) {
 }
 
 TEST(StudyAnswer, AKeptPostureSaysThatItIsHeldLessFirmly) {
-  StudyResults results = pair_study({0.40, 0.42, 0.41, 0.40, 0.41, 0.42},
-                                    {0.20, 0.21, 0.22, 0.20, 0.21, 0.22}, 107, 74);
+  study::StudyResults results = pair_study({0.40, 0.42, 0.41, 0.40, 0.41, 0.42},
+                                           {0.20, 0.21, 0.22, 0.20, 0.21, 0.22}, 107, 74);
   results.plan.products[1].posture_of = "a";
   const StudyAnswer answer = study_answer(
       results, {.language = Language::kEnglish,
@@ -153,35 +153,36 @@ TEST(StudyAnswer, AKeptPostureSaysThatItIsHeldLessFirmly) {
 }
 
 TEST(StudyAnswer, NamesProductsThatNotEveryHandHolds) {
-  StudyResults results = pair_study({0.4, 0.4, 0.4}, {0.3, 0.3, 0.3});
-  results.records[5] = failed_grasp(5, StudyOutcome::kTooSmall);
+  study::StudyResults results = pair_study({0.4, 0.4, 0.4}, {0.3, 0.3, 0.3});
+  results.records[5] = failed_grasp(5, study::StudyOutcome::kTooSmall);
   // Few are named one by one, many are counted.
   EXPECT_THAT(study_answer(results).reasons,
               Contains(HasSubstr("b isn’t held by this hand (too small for the hand): Hand 3")));
-  StudyResults many = pair_study({0.4, 0.4, 0.4, 0.4, 0.4, 0.4}, {0.3, 0.3, 0.3, 0.3, 0.3, 0.3});
+  study::StudyResults many =
+      pair_study({0.4, 0.4, 0.4, 0.4, 0.4, 0.4}, {0.3, 0.3, 0.3, 0.3, 0.3, 0.3});
   for (const int k : {1, 3, 5, 7}) {
-    many.records[static_cast<std::size_t>(k)] = failed_grasp(k, StudyOutcome::kTooSmall);
+    many.records[static_cast<std::size_t>(k)] = failed_grasp(k, study::StudyOutcome::kTooSmall);
   }
   EXPECT_THAT(study_answer(many).reasons, Contains("b is held by 2 of 6 hands."));
-  results.records[1] = failed_grasp(1, StudyOutcome::kTooSmall);
+  results.records[1] = failed_grasp(1, study::StudyOutcome::kTooSmall);
   EXPECT_THAT(study_answer(results).sentence, HasSubstr("No verdict: too few hands hold both"));
 }
 
 TEST(StudyAnswer, OfOneProductSaysWhatHandsFeel) {
-  StudyResults results = empty_study(2, {"a"});
+  study::StudyResults results = empty_study(2, {"a"});
   results.records = {grasp_of(0, 0.2), grasp_of(1, 0.4)};
   EXPECT_THAT(study_answer(results).sentence,
               HasSubstr("2 of 2 hands hold a; the highest pressure is "
                         "0.30 MPa on average, 0.20 to 0.40 MPa"));
-  results.records = {failed_grasp(0, StudyOutcome::kTooLarge)};
+  results.records = {failed_grasp(0, study::StudyOutcome::kTooLarge)};
   EXPECT_EQ(study_answer(results).sentence, "No hand holds a.");
 }
 
-StudyResults one_product_with_comfort(double discomfort_percent) {
-  StudyResults results = empty_study(3, {"a"});
+study::StudyResults one_product_with_comfort(double discomfort_percent) {
+  study::StudyResults results = empty_study(3, {"a"});
   results.plan.products.front().file = "a.stl";
   for (int h = 0; h < 3; ++h) {
-    StudyRecord record = grasp_of(h, 0.1);
+    study::StudyRecord record = grasp_of(h, 0.1);
     record.indices = {{"pain_onset_percent", h == 0 ? 100.0 : 40.0},
                       {"discomfort_onset_percent", h < 2 ? discomfort_percent : 50.0},
                       {"skin_above_50_kpa_percent", 10.0 * h}};
@@ -207,7 +208,7 @@ TEST(StudyAnswer, AFewHandsThatAllAgreeShowNothing) {
 }
 
 TEST(StudyAnswer, AMadeProductIsRedesignedByItsWords) {
-  StudyResults results = one_product_with_comfort(120.0);
+  study::StudyResults results = one_product_with_comfort(120.0);
   results.plan.products.front().file = "made: prism width_mm=40";
   EXPECT_EQ(study_answer(results).command,
             "palmar redesign press 'made: prism width_mm=40' --hands 12 --out pressed");
@@ -221,4 +222,4 @@ TEST(StudyAnswer, WhereNobodyIsUncomfortableNothingIsPressed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -8,7 +8,7 @@
 #include "palmar/report/words/study_words.h"
 #include "palmar/study/statistics/study_holds.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -27,25 +27,26 @@ Row joined(Row first, const Row& second) {
 }
 
 template <class Visit>
-CsvTable table_of(const StudyResults& results, const StudyAnalysis& analysis, const Row& header,
-                  Visit&& visit) {
-  CsvTable table{joined(kConditionHeader, header), {}};
-  for (const ConditionAnalysis& one : analysis.conditions) {
+records::CsvTable table_of(const study::StudyResults& results, const study::StudyAnalysis& analysis,
+                           const Row& header, Visit&& visit) {
+  records::CsvTable table{joined(kConditionHeader, header), {}};
+  for (const study::ConditionAnalysis& one : analysis.conditions) {
     const Row cells = condition_cells(results.plan, one.condition);
     visit(one, [&](const Row& row) { table.rows.push_back(joined(cells, row)); });
   }
   return table;
 }
 
-CsvTable statistics_table(const StudyResults& results, const StudyAnalysis& analysis) {
+records::CsvTable statistics_table(const study::StudyResults& results,
+                                   const study::StudyAnalysis& analysis) {
   return table_of(
       results, analysis,
       {"product", "quantity", "unit", "n", "mean", "sd", "mean_low_95", "mean_high_95", "min", "p5",
        "p25", "median", "p75", "p95", "max"},
-      [&](const ConditionAnalysis& one, const auto& add) {
-        for (const ProductStatistics& product : one.products) {
-          for (const QuantitySummary& q : product.quantities) {
-            const Summary& s = q.summary;
+      [&](const study::ConditionAnalysis& one, const auto& add) {
+        for (const study::ProductStatistics& product : one.products) {
+          for (const study::QuantitySummary& q : product.quantities) {
+            const statistics::Summary& s = q.summary;
             const auto& ci = s.mean_interval;
             add({results.plan.products[at(product.product)].name, q.quantity.key, q.quantity.unit,
                  count(s.n), text(s.mean), text(s.sd), ci ? text(ci->low) : "",
@@ -56,61 +57,65 @@ CsvTable statistics_table(const StudyResults& results, const StudyAnalysis& anal
       });
 }
 
-CsvTable outcome_table(const StudyResults& results, const StudyAnalysis& analysis) {
+records::CsvTable outcome_table(const study::StudyResults& results,
+                                const study::StudyAnalysis& analysis) {
   Row header = {"product"};
-  for (int k = 0; k < kStudyOutcomes; ++k) {
-    header.push_back(name_of(static_cast<StudyOutcome>(k)));
+  for (int k = 0; k < study::kStudyOutcomes; ++k) {
+    header.push_back(name_of(static_cast<study::StudyOutcome>(k)));
   }
   header.insert(header.end(), {"not_run", "not_at_rest"});
-  return table_of(results, analysis, header, [&](const ConditionAnalysis& one, const auto& add) {
-    for (const ProductStatistics& product : one.products) {
-      Row row = {results.plan.products[at(product.product)].name};
-      for (const int hands : product.outcomes.of) row.push_back(count(hands));
-      row.push_back(count(product.outcomes.not_run));
-      row.push_back(count(product.unbalanced));
-      add(row);
-    }
-  });
+  return table_of(results, analysis, header,
+                  [&](const study::ConditionAnalysis& one, const auto& add) {
+                    for (const study::ProductStatistics& product : one.products) {
+                      Row row = {results.plan.products[at(product.product)].name};
+                      for (const int hands : product.outcomes.of) row.push_back(count(hands));
+                      row.push_back(count(product.outcomes.not_run));
+                      row.push_back(count(product.unbalanced));
+                      add(row);
+                    }
+                  });
 }
 
-CsvTable holds_table(const StudyResults& results, const StudyAnalysis& analysis) {
-  return table_of(
-      results, analysis,
-      {"product", "hands", "part", "part_name", "part_kind", "held_in", "along", "toward",
-       "turn_deg", "hold"},
-      [&](const ConditionAnalysis& one, const auto& add) {
-        for (const ProductStatistics& product : one.products) {
-          const std::string& name = results.plan.products[at(product.product)].name;
-          for (const HandsByHold& held : holds_of(results, one.condition, product.product)) {
-            if (!held.hold) {
-              add({name, count(held.hands), "", "", "", "", "", "", "", ""});
-              continue;
-            }
-            const Hold& hold = held.hold->hold;
-            add({name, count(held.hands), count(hold.part), hold.part_name,
-                 held.hold->kind ? name_of(*held.hold->kind) : "", std::string(name_of(hold.grip)),
-                 text(hold.along), count(hold.toward), text(hold.turn * kDegreesPerRadian),
-                 held.hold->words});
-          }
-        }
-      });
+records::CsvTable holds_table(const study::StudyResults& results,
+                              const study::StudyAnalysis& analysis) {
+  return table_of(results, analysis,
+                  {"product", "hands", "part", "part_name", "part_kind", "held_in", "along",
+                   "toward", "turn_deg", "hold"},
+                  [&](const study::ConditionAnalysis& one, const auto& add) {
+                    for (const study::ProductStatistics& product : one.products) {
+                      const std::string& name = results.plan.products[at(product.product)].name;
+                      for (const study::HandsByHold& held :
+                           study::holds_of(results, one.condition, product.product)) {
+                        if (!held.hold) {
+                          add({name, count(held.hands), "", "", "", "", "", "", "", ""});
+                          continue;
+                        }
+                        const grasp::Hold& hold = held.hold->hold;
+                        add({name, count(held.hands), count(hold.part), hold.part_name,
+                             held.hold->kind ? name_of(*held.hold->kind) : "",
+                             std::string(name_of(hold.grip)), text(hold.along), count(hold.toward),
+                             text(hold.turn * geometry::kDegreesPerRadian), held.hold->words});
+                      }
+                    }
+                  });
 }
 
-CsvTable accommodation_table(const StudyResults& results, const StudyAnalysis& analysis) {
+records::CsvTable accommodation_table(const study::StudyResults& results,
+                                      const study::StudyAnalysis& analysis) {
   return table_of(
       results, analysis,
       {"product", "criterion", "hands", "of", "share", "share_low_95", "share_high_95", "causes"},
-      [&](const ConditionAnalysis& one, const auto& add) {
+      [&](const study::ConditionAnalysis& one, const auto& add) {
         for (std::size_t p = 0; p < one.accommodation.size(); ++p) {
-          const Accommodation& a = one.accommodation[p];
+          const study::Accommodation& a = one.accommodation[p];
           const std::string& product = results.plan.products[p].name;
-          const auto row = [&](const std::string& criterion, const Proportion& share,
+          const auto row = [&](const std::string& criterion, const statistics::Proportion& share,
                                const std::string& causes) {
             add({product, criterion, count(share.count), count(share.n), text(share.share),
                  text(share.interval.low), text(share.interval.high), causes});
           };
           std::string causes;
-          for (const OutsideCause& cause : a.causes) {
+          for (const study::OutsideCause& cause : a.causes) {
             causes += (causes.empty() ? "" : "; ") + count(cause.hands) + " " + cause.cause;
           }
           row("in the hand", a.in_hand, "");
@@ -118,22 +123,24 @@ CsvTable accommodation_table(const StudyResults& results, const StudyAnalysis& a
             row(words_of(results, results.plan.limits[k]), a.inside_limit[k], "");
           }
           row("inside all limits", a.inside, causes);
-          const Exclusion& exclusion = one.exclusion[p];
+          const study::Exclusion& exclusion = one.exclusion[p];
           row("excluded", exclusion.excluded, "");
           for (const auto& [cause, share] : exclusion.causes) {
-            if (cause != ExclusionCause::kNone) row("excluded by " + name_of(cause), share, "");
+            if (cause != study::ExclusionCause::kNone)
+              row("excluded by " + name_of(cause), share, "");
           }
         }
       });
 }
 
-CsvTable region_table_of(const StudyResults& results, const StudyAnalysis& analysis) {
+records::CsvTable region_table_of(const study::StudyResults& results,
+                                  const study::StudyAnalysis& analysis) {
   return table_of(results, analysis,
                   {"product", "region", "hands", "touching", "force_mean_n", "force_sd_n",
                    "area_mean_mm2", "peak_pressure_cells_mean_mpa", "peak_pressure_cells_max_mpa"},
-                  [&](const ConditionAnalysis& one, const auto& add) {
-                    for (const ProductStatistics& product : one.products) {
-                      for (const RegionSummary& r : product.regions) {
+                  [&](const study::ConditionAnalysis& one, const auto& add) {
+                    for (const study::ProductStatistics& product : one.products) {
+                      for (const study::RegionSummary& r : product.regions) {
                         add({results.plan.products[at(product.product)].name,
                              std::string(name_of(r.region)), count(product.outcomes.in_hand()),
                              count(r.touching), text(r.force), text(r.force_sd), text(r.area),
@@ -143,19 +150,21 @@ CsvTable region_table_of(const StudyResults& results, const StudyAnalysis& analy
                   });
 }
 
-CsvTable dependence_table(const StudyResults& results, const StudyAnalysis& analysis) {
+records::CsvTable dependence_table(const study::StudyResults& results,
+                                   const study::StudyAnalysis& analysis) {
   return table_of(
       results, analysis,
       {"product", "quantity", "unit", "size", "n", "intercept", "slope_per_mm", "slope_p", "r2",
        "residual_sd", "rank_correlation"},
-      [&](const ConditionAnalysis& one, const auto& add) {
-        for (const ProductStatistics& product : one.products) {
-          for (const StudyQuantity& q : analysis.quantities) {
-            for (const HandDimension dimension : {kHandLength, kHandCircumference}) {
+      [&](const study::ConditionAnalysis& one, const auto& add) {
+        for (const study::ProductStatistics& product : one.products) {
+          for (const study::StudyQuantity& q : analysis.quantities) {
+            for (const hand::HandDimension dimension :
+                 {study::kHandLength, study::kHandCircumference}) {
               const auto found =
-                  size_dependence(results, one.condition, product.product, q.key, dimension);
+                  study::size_dependence(results, one.condition, product.product, q.key, dimension);
               if (!found) continue;
-              const LinearFit& fit = found->fit;
+              const statistics::LinearFit& fit = found->fit;
               add({results.plan.products[at(product.product)].name, q.key, q.unit,
                    name_of(dimension) + "_mm", count(fit.n), text(fit.intercept.estimate),
                    text(fit.slopes.front().estimate), text(fit.slopes.front().p_value),
@@ -166,16 +175,17 @@ CsvTable dependence_table(const StudyResults& results, const StudyAnalysis& anal
       });
 }
 
-CsvTable size_table(const StudyResults& results, const StudyAnalysis& analysis) {
+records::CsvTable size_table(const study::StudyResults& results,
+                             const study::StudyAnalysis& analysis) {
   return table_of(
       results, analysis,
       {"family", "sizes", "product", "hand_length_from_mm", "hand_length_to_mm", "taken_by_length",
        "inside", "inside_alone", "hands", "share_served", "share_served_low_95",
        "share_served_high_95", "share_served_by_length"},
-      [&](const ConditionAnalysis& one, const auto& add) {
-        for (const ProductSizes& family : one.sizes) {
-          for (const SizeChoice& choice : family.choices) {
-            for (const ServedBySize& size : choice.sizes) {
+      [&](const study::ConditionAnalysis& one, const auto& add) {
+        for (const study::ProductSizes& family : one.sizes) {
+          for (const study::SizeChoice& choice : family.choices) {
+            for (const study::ServedBySize& size : choice.sizes) {
               add({family.family, count(static_cast<int>(choice.sizes.size())),
                    results.plan.products[at(size.product)].name, text(size.from), text(size.to),
                    size.is_taken ? "1" : "0", count(size.inside), count(size.alone),
@@ -189,78 +199,79 @@ CsvTable size_table(const StudyResults& results, const StudyAnalysis& analysis) 
 
 }  // namespace
 
-std::vector<std::string> condition_cells(const StudyPlan& plan, const StudyCondition& one) {
-  const std::optional<Grip>& grip = plan.grips[at(one.grip)];
+std::vector<std::string> condition_cells(const study::StudyPlan& plan,
+                                         const study::StudyCondition& one) {
+  const std::optional<grasp::Grip>& grip = plan.grips[at(one.grip)];
   return {one.population ? plan.populations[at(*one.population)].population.name : "all",
           plan.profiles[at(one.profile)].name, plan.settings[at(one.setting)].name,
           grip ? std::string(name_of(*grip)) : "auto"};
 }
 
-CsvTable comparison_csv(const StudyResults& results, const StudyAnalysis& analysis,
-                        const std::string& key) {
-  const StudyPlan& plan = results.plan;
-  return table_of(results, analysis,
-                  {"quantity",
-                   "unit",
-                   "first",
-                   "second",
-                   "hands",
-                   "pairs",
-                   "left_out",
-                   "mean_first",
-                   "mean_second",
-                   "difference",
-                   "difference_low_95",
-                   "difference_high_95",
-                   "t",
-                   "df",
-                   "t_p",
-                   "t_p_holm",
-                   "wilcoxon_v",
-                   "wilcoxon_p",
-                   "wilcoxon_p_holm",
-                   "cohen_dz",
-                   "cohen_dz_low_95",
-                   "cohen_dz_high_95",
-                   "verdict"},
-                  [&](const ConditionAnalysis& one, const auto& add) {
-                    for (const QuantityComparison& comparison : one.comparisons) {
-                      if (!key.empty() && comparison.quantity.key != key) continue;
-                      for (const ProductPair& pair : comparison.pairs) {
-                        const bool is_tested = pair.verdict != DifferenceVerdict::kTooFewPairs;
-                        const auto tested = [&](double value) {
-                          return is_tested ? text(value) : "";
-                        };
-                        const PairedTest& t = pair.t_test;
-                        add({comparison.quantity.key,
-                             comparison.quantity.unit,
-                             plan.products[at(pair.first)].name,
-                             plan.products[at(pair.second)].name,
-                             count(pair.hands),
-                             count(pair.pairs),
-                             left_out_words(plan, pair),
-                             pair.pairs > 0 ? text(pair.mean_first) : "",
-                             pair.pairs > 0 ? text(pair.mean_second) : "",
-                             tested(t.difference),
-                             tested(t.interval.low),
-                             tested(t.interval.high),
-                             tested(t.t),
-                             tested(t.df),
-                             tested(t.p_value),
-                             tested(pair.t_p_holm),
-                             tested(pair.wilcoxon.v),
-                             tested(pair.wilcoxon.p_value),
-                             tested(pair.wilcoxon_p_holm),
-                             tested(t.effect_size),
-                             tested(t.effect_interval.low),
-                             tested(t.effect_interval.high),
-                             name_of(pair.verdict)});
-                      }
-                    }
-                  });
+records::CsvTable comparison_csv(const study::StudyResults& results,
+                                 const study::StudyAnalysis& analysis, const std::string& key) {
+  const study::StudyPlan& plan = results.plan;
+  return table_of(
+      results, analysis,
+      {"quantity",
+       "unit",
+       "first",
+       "second",
+       "hands",
+       "pairs",
+       "left_out",
+       "mean_first",
+       "mean_second",
+       "difference",
+       "difference_low_95",
+       "difference_high_95",
+       "t",
+       "df",
+       "t_p",
+       "t_p_holm",
+       "wilcoxon_v",
+       "wilcoxon_p",
+       "wilcoxon_p_holm",
+       "cohen_dz",
+       "cohen_dz_low_95",
+       "cohen_dz_high_95",
+       "verdict"},
+      [&](const study::ConditionAnalysis& one, const auto& add) {
+        for (const study::QuantityComparison& comparison : one.comparisons) {
+          if (!key.empty() && comparison.quantity.key != key) continue;
+          for (const study::ProductPair& pair : comparison.pairs) {
+            const bool is_tested = pair.verdict != study::DifferenceVerdict::kTooFewPairs;
+            const auto tested = [&](double value) { return is_tested ? text(value) : ""; };
+            const statistics::PairedTest& t = pair.t_test;
+            add({comparison.quantity.key,
+                 comparison.quantity.unit,
+                 plan.products[at(pair.first)].name,
+                 plan.products[at(pair.second)].name,
+                 count(pair.hands),
+                 count(pair.pairs),
+                 left_out_words(plan, pair),
+                 pair.pairs > 0 ? text(pair.mean_first) : "",
+                 pair.pairs > 0 ? text(pair.mean_second) : "",
+                 tested(t.difference),
+                 tested(t.interval.low),
+                 tested(t.interval.high),
+                 tested(t.t),
+                 tested(t.df),
+                 tested(t.p_value),
+                 tested(pair.t_p_holm),
+                 tested(pair.wilcoxon.v),
+                 tested(pair.wilcoxon.p_value),
+                 tested(pair.wilcoxon_p_holm),
+                 tested(t.effect_size),
+                 tested(t.effect_interval.low),
+                 tested(t.effect_interval.high),
+                 name_of(pair.verdict)});
+          }
+        }
+      });
 }
 
-std::vector<NamedTable> study_csv(const StudyResults& results, const StudyAnalysis& analysis) {
+std::vector<NamedTable> study_csv(const study::StudyResults& results,
+                                  const study::StudyAnalysis& analysis) {
   return {{"statistics.csv", statistics_table(results, analysis),
            "One quantity of one product under one condition, over the hands that hold it."},
           {"comparison.csv", comparison_csv(results, analysis),
@@ -277,4 +288,4 @@ std::vector<NamedTable> study_csv(const StudyResults& results, const StudyAnalys
            "Which sizes of a product serve how many hands."}};
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

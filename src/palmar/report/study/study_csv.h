@@ -8,12 +8,12 @@
 #include "palmar/records/csv.h"
 #include "palmar/study/statistics/study_analysis.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// A table with the name of its file.
 struct NamedTable {
   std::string name;  ///< "comparison.csv"
-  CsvTable table;
+  records::CsvTable table;
   std::string about;  ///< what a row is, a sentence
 };
 
@@ -21,13 +21,15 @@ struct NamedTable {
 /// comparison.csv (per pair), accommodation.csv, outcomes.csv (how grasps ended), holds.csv (by
 /// which part and how each product is held), regions.csv,
 /// size_dependence.csv, sizes.csv. Units stand in the headers or in a column beside the quantity.
-std::vector<NamedTable> study_csv(const StudyResults& results, const StudyAnalysis& analysis);
+std::vector<NamedTable> study_csv(const study::StudyResults& results,
+                                  const study::StudyAnalysis& analysis);
 
 /// Population, profile, setting and grip of a condition: what every table begins with.
-std::vector<std::string> condition_cells(const StudyPlan& plan, const StudyCondition& one);
+std::vector<std::string> condition_cells(const study::StudyPlan& plan,
+                                         const study::StudyCondition& one);
 
 /// The comparison alone; only of one quantity if `key` isn't empty.
-CsvTable comparison_csv(const StudyResults& results, const StudyAnalysis& analysis,
-                        const std::string& key = {});
+records::CsvTable comparison_csv(const study::StudyResults& results,
+                                 const study::StudyAnalysis& analysis, const std::string& key = {});
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -6,21 +6,21 @@
 
 #include "palmar/core/text.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
-std::string file_ending(const StudyProduct& product) {
+std::string file_ending(const study::StudyProduct& product) {
   return lower_case(std::filesystem::path(product.file).extension().string());
 }
 
 }  // namespace
 
-bool is_mesh_file(const StudyProduct& product) {
+bool is_mesh_file(const study::StudyProduct& product) {
   const std::string end = file_ending(product);
   return end == ".stl" || end == ".obj" || end == ".ply";
 }
 
-bool is_plain_product(const StudyProduct& product) {
+bool is_plain_product(const study::StudyProduct& product) {
   const std::string end = file_ending(product);
   const bool is_known = is_mesh_file(product) || end == ".step" || end == ".stp" ||
                         end == ".iges" || end == ".igs" || end == ".3mf" || end == ".glb" ||
@@ -28,9 +28,9 @@ bool is_plain_product(const StudyProduct& product) {
   return is_known && product.size == 1.0 && product.posture_of.empty();
 }
 
-std::string product_options(const StudyPlan& plan) {
+std::string product_options(const study::StudyPlan& plan) {
   std::string line, unit;
-  for (const StudyProduct& one : plan.products) {
+  for (const study::StudyProduct& one : plan.products) {
     if (!is_plain_product(one)) return "";
     line += (line.empty() ? "" : " ") + ("--product " + shell_word(one.file));
     if (is_mesh_file(one)) unit = one.unit;
@@ -38,12 +38,12 @@ std::string product_options(const StudyPlan& plan) {
   return unit.empty() ? line : line + " --unit " + unit;
 }
 
-std::string mass_option(const StudyPlan& plan) {
+std::string mass_option(const study::StudyPlan& plan) {
   const double first = plan.products.front().mass;
-  for (const StudyProduct& one : plan.products) {
+  for (const study::StudyProduct& one : plan.products) {
     if (one.mass != first) return "";
   }
   return first > 0.0 ? " --mass-kg " + significant(first, 4) : "";
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

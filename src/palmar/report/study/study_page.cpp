@@ -14,7 +14,7 @@
 #include "palmar/report/words/study_words.h"
 #include "palmar/study/statistics/study_holds.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr std::size_t kMostDrawnConditions = 4;  // the page stays small; files hold all
@@ -22,42 +22,42 @@ constexpr std::size_t kMostFaces = 12;           // in the page; faces.csv holds
 
 std::size_t page_index(int i) { return static_cast<std::size_t>(i); }
 
-PageJson proportion_json(const Proportion& one) {
+PageJson proportion_json(const statistics::Proportion& one) {
   return {{"count", one.count},
           {"n", one.n},
-          {"share", finite_or_null(one.share)},
-          {"low", finite_or_null(one.interval.low)},
-          {"high", finite_or_null(one.interval.high)}};
+          {"share", records::finite_or_null(one.share)},
+          {"low", records::finite_or_null(one.interval.low)},
+          {"high", records::finite_or_null(one.interval.high)}};
 }
 
-PageJson estimate_json(double value, const Interval& interval) {
-  return {{"value", finite_or_null(value)},
-          {"low", finite_or_null(interval.low)},
-          {"high", finite_or_null(interval.high)}};
+PageJson estimate_json(double value, const statistics::Interval& interval) {
+  return {{"value", records::finite_or_null(value)},
+          {"low", records::finite_or_null(interval.low)},
+          {"high", records::finite_or_null(interval.high)}};
 }
 
-PageJson quantity_json(const StudyQuantity& one) {
+PageJson quantity_json(const study::StudyQuantity& one) {
   return {{"key", one.key}, {"name", one.name}, {"unit", one.unit}};
 }
 
-PageJson summaries_json(const ProductStatistics& one) {
+PageJson summaries_json(const study::ProductStatistics& one) {
   PageJson all = PageJson::object();
-  for (const QuantitySummary& summary : one.quantities) {
+  for (const study::QuantitySummary& summary : one.quantities) {
     const bool has_ends = has_percentiles(summary);
     all[summary.quantity.key] = {
         {"n", summary.summary.n},
-        {"mean", finite_or_null(summary.summary.mean)},
-        {"sd", finite_or_null(summary.summary.sd)},
-        {"median", finite_or_null(summary.summary.median)},
-        {"p5", has_ends ? finite_or_null(summary.p5) : PageJson(nullptr)},
-        {"p95", has_ends ? finite_or_null(summary.p95) : PageJson(nullptr)}};
+        {"mean", records::finite_or_null(summary.summary.mean)},
+        {"sd", records::finite_or_null(summary.summary.sd)},
+        {"median", records::finite_or_null(summary.summary.median)},
+        {"p5", has_ends ? records::finite_or_null(summary.p5) : PageJson(nullptr)},
+        {"p95", has_ends ? records::finite_or_null(summary.p95) : PageJson(nullptr)}};
   }
   return all;
 }
 
-PageJson regions_json(const ProductStatistics& one) {
+PageJson regions_json(const study::ProductStatistics& one) {
   PageJson all = PageJson::object();
-  for (const RegionSummary& region : one.regions) {
+  for (const study::RegionSummary& region : one.regions) {
     all[std::string(name_of(region.region))] = {
         {"force_n", region.force},
         {"area_mm2", region.area},
@@ -67,23 +67,23 @@ PageJson regions_json(const ProductStatistics& one) {
   return all;
 }
 
-PageJson accommodation_json(const Accommodation& one) {
+PageJson accommodation_json(const study::Accommodation& one) {
   PageJson causes = PageJson::array();
-  for (const OutsideCause& cause : one.causes) {
+  for (const study::OutsideCause& cause : one.causes) {
     causes.push_back({{"words", cause_words(cause.cause)}, {"hands", cause.hands}});
   }
   return {{"in_hand", proportion_json(one.in_hand)},
           {"inside", proportion_json(one.inside)},
           {"outside_because_of", std::move(causes)},
           {"not_run", one.not_run},
-          {"shortest_outside_mm", or_null(one.shortest_outside)},
-          {"longest_outside_mm", or_null(one.longest_outside)}};
+          {"shortest_outside_mm", records::or_null(one.shortest_outside)},
+          {"longest_outside_mm", records::or_null(one.longest_outside)}};
 }
 
-PageJson exclusion_json(const Exclusion& one) {
+PageJson exclusion_json(const study::Exclusion& one) {
   PageJson causes = PageJson::array();
   for (const auto& [cause, share] : one.causes) {
-    if (cause == ExclusionCause::kNone || share.count == 0) continue;
+    if (cause == study::ExclusionCause::kNone || share.count == 0) continue;
     causes.push_back({{"words", words_of(cause)}, {"hands", share.count}});
   }
   return {{"excluded", proportion_json(one.excluded)},
@@ -91,10 +91,11 @@ PageJson exclusion_json(const Exclusion& one) {
           {"unknown", one.unknown}};
 }
 
-PageJson holds_json(const StudyResults& results, const ConditionAnalysis& one, int product) {
+PageJson holds_json(const study::StudyResults& results, const study::ConditionAnalysis& one,
+                    int product) {
   PageJson list = PageJson::array();
-  for (const HandsByHold& held : holds_of(results, one.condition, product)) {
-    const Hold* hold = held.hold ? &held.hold->hold : nullptr;
+  for (const study::HandsByHold& held : study::holds_of(results, one.condition, product)) {
+    const grasp::Hold* hold = held.hold ? &held.hold->hold : nullptr;
     list.push_back({{"hands", held.hands},
                     {"words", hold ? PageJson(held.hold->words) : PageJson(nullptr)},
                     {"part", hold ? PageJson(hold->part) : PageJson(nullptr)},
@@ -104,10 +105,10 @@ PageJson holds_json(const StudyResults& results, const ConditionAnalysis& one, i
   return list;
 }
 
-PageJson products_json(const StudyResults& results, const ConditionAnalysis& one) {
+PageJson products_json(const study::StudyResults& results, const study::ConditionAnalysis& one) {
   PageJson list = PageJson::array();
   for (std::size_t p = 0; p < one.products.size(); ++p) {
-    const ProductStatistics& product = one.products[p];
+    const study::ProductStatistics& product = one.products[p];
     list.push_back({{"hands", product.outcomes.hands()},
                     {"hands_holding", product.outcomes.in_hand()},
                     {"holds", holds_json(results, one, product.product)},
@@ -119,7 +120,7 @@ PageJson products_json(const StudyResults& results, const ConditionAnalysis& one
   return list;
 }
 
-PageJson pair_json(const StudyPlan& plan, const ProductPair& pair) {
+PageJson pair_json(const study::StudyPlan& plan, const study::ProductPair& pair) {
   return {{"first", pair.first},
           {"second", pair.second},
           {"hands", pair.hands},
@@ -128,38 +129,38 @@ PageJson pair_json(const StudyPlan& plan, const ProductPair& pair) {
           {"left_out_words", left_out_words(plan, pair)},
           {"difference", estimate_json(pair.t_test.difference, pair.t_test.interval)},
           {"effect_size", estimate_json(pair.t_test.effect_size, pair.t_test.effect_interval)},
-          {"t_p_holm", finite_or_null(pair.t_p_holm)},
-          {"wilcoxon_p_holm", finite_or_null(pair.wilcoxon_p_holm)},
+          {"t_p_holm", records::finite_or_null(pair.t_p_holm)},
+          {"wilcoxon_p_holm", records::finite_or_null(pair.wilcoxon_p_holm)},
           {"verdict", name_of(pair.verdict)}};
 }
 
-PageJson comparisons_json(const StudyPlan& plan, const ConditionAnalysis& one) {
+PageJson comparisons_json(const study::StudyPlan& plan, const study::ConditionAnalysis& one) {
   PageJson list = PageJson::array();
   if (plan.products.size() < 2) return list;
   for (const std::string& key : main_quantities()) {
-    const QuantityComparison* comparison = comparison_of(one, key);
+    const study::QuantityComparison* comparison = study::comparison_of(one, key);
     if (comparison == nullptr) continue;
     PageJson pairs = PageJson::array();
-    for (const ProductPair& pair : comparison->pairs) pairs.push_back(pair_json(plan, pair));
+    for (const study::ProductPair& pair : comparison->pairs) pairs.push_back(pair_json(plan, pair));
     list.push_back(
         {{"quantity", quantity_json(comparison->quantity)}, {"pairs", std::move(pairs)}});
   }
   return list;
 }
 
-PageJson sizes_json(const ConditionAnalysis& one) {
+PageJson sizes_json(const study::ConditionAnalysis& one) {
   PageJson list = PageJson::array();
-  for (const ProductSizes& family : one.sizes) {
+  for (const study::ProductSizes& family : one.sizes) {
     PageJson choices = PageJson::array();
-    for (const SizeChoice& choice : family.choices) {
+    for (const study::SizeChoice& choice : family.choices) {
       PageJson sizes = PageJson::array();
-      for (const ServedBySize& size : choice.sizes) {
+      for (const study::ServedBySize& size : choice.sizes) {
         sizes.push_back({{"product", size.product},
                          {"inside", size.inside},
                          {"alone", size.alone},
                          {"is_taken", size.is_taken},
-                         {"from_mm", or_null(size.from)},
-                         {"to_mm", or_null(size.to)}});
+                         {"from_mm", records::or_null(size.from)},
+                         {"to_mm", records::or_null(size.to)}});
       }
       choices.push_back({{"sizes", std::move(sizes)},
                          {"served", proportion_json(choice.served)},
@@ -171,24 +172,24 @@ PageJson sizes_json(const ConditionAnalysis& one) {
   return list;
 }
 
-PageJson dependence_json(const StudyPage& page, const ConditionAnalysis& one) {
+PageJson dependence_json(const StudyPage& page, const study::ConditionAnalysis& one) {
   PageJson list = PageJson::array();
   for (const std::string& key : main_quantities()) {
-    const QuantityComparison* comparison = comparison_of(one, key);
+    const study::QuantityComparison* comparison = study::comparison_of(one, key);
     if (comparison == nullptr) continue;
     for (std::size_t p = 0; p < page.results.plan.products.size(); ++p) {
-      for (const HandDimension dimension : {kHandLength, kHandCircumference}) {
-        const auto found =
-            size_dependence(page.results, one.condition, static_cast<int>(p), key, dimension);
+      for (const hand::HandDimension dimension : {study::kHandLength, study::kHandCircumference}) {
+        const auto found = study::size_dependence(page.results, one.condition, static_cast<int>(p),
+                                                  key, dimension);
         if (!found) continue;
-        const Coefficient& slope = found->fit.slopes.front();
+        const statistics::Coefficient& slope = found->fit.slopes.front();
         list.push_back({{"quantity", quantity_json(comparison->quantity)},
                         {"product", p},
-                        {"size", dimension == kHandLength ? "length" : "circumference"},
-                        {"slope_per_mm", finite_or_null(slope.estimate)},
-                        {"r2", finite_or_null(found->fit.r2)},
-                        {"rank_correlation", finite_or_null(found->rank_correlation)},
-                        {"p_value", finite_or_null(slope.p_value)},
+                        {"size", dimension == study::kHandLength ? "length" : "circumference"},
+                        {"slope_per_mm", records::finite_or_null(slope.estimate)},
+                        {"r2", records::finite_or_null(found->fit.r2)},
+                        {"rank_correlation", records::finite_or_null(found->rank_correlation)},
+                        {"p_value", records::finite_or_null(slope.p_value)},
                         {"hands", found->fit.n}});
       }
     }
@@ -197,34 +198,36 @@ PageJson dependence_json(const StudyPage& page, const ConditionAnalysis& one) {
 }
 
 /// Those with the product's peak in most hands first; among equals the higher peak.
-std::vector<FaceSummary> by_peak(std::vector<FaceSummary> faces) {
-  std::stable_sort(faces.begin(), faces.end(), [](const FaceSummary& a, const FaceSummary& b) {
-    if (a.has_peak.count != b.has_peak.count) return a.has_peak.count > b.has_peak.count;
-    return a.peak.mean > b.peak.mean;
-  });
+std::vector<study::FaceSummary> by_peak(std::vector<study::FaceSummary> faces) {
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const study::FaceSummary& a, const study::FaceSummary& b) {
+                     if (a.has_peak.count != b.has_peak.count)
+                       return a.has_peak.count > b.has_peak.count;
+                     return a.peak.mean > b.peak.mean;
+                   });
   return faces;
 }
 
-PageJson faces_json(const StudyPage& page, const StudyCondition& condition) {
+PageJson faces_json(const StudyPage& page, const study::StudyCondition& condition) {
   PageJson list = PageJson::array();
-  for (const FaceStatistics& one : page.faces) {
-    if (!is_same(one.condition, condition) || one.faces.empty()) continue;
-    const Product& product = page.products[page_index(one.product)];
+  for (const study::FaceStatistics& one : page.faces) {
+    if (!study::is_same(one.condition, condition) || one.faces.empty()) continue;
+    const product::Product& product = page.products[page_index(one.product)];
     PageJson faces = PageJson::array();
-    for (const FaceSummary& summary : by_peak(one.faces)) {
+    for (const study::FaceSummary& summary : by_peak(one.faces)) {
       if (faces.size() == kMostFaces) break;
-      const ProductFace& face = product.faces->face[page_index(summary.face)];
+      const product::ProductFace& face = product.faces->face[page_index(summary.face)];
       faces.push_back({{"title", title_of(face)},
                        {"part", face.part},
                        {"has_peak", proportion_json(summary.has_peak)},
                        {"touched", proportion_json(summary.touched)},
                        {"above", proportion_json(summary.above)},
                        {"touching", summary.peak.n},
-                       {"peak_mean_mpa", finite_or_null(summary.peak.mean)},
-                       {"peak_sd_mpa", finite_or_null(summary.peak.sd)},
-                       {"peak_p95_mpa", finite_or_null(summary.peak_p95)},
-                       {"peak_max_mpa", finite_or_null(summary.peak.max)},
-                       {"force_share", finite_or_null(summary.force_share)}});
+                       {"peak_mean_mpa", records::finite_or_null(summary.peak.mean)},
+                       {"peak_sd_mpa", records::finite_or_null(summary.peak.sd)},
+                       {"peak_p95_mpa", records::finite_or_null(summary.peak_p95)},
+                       {"peak_max_mpa", records::finite_or_null(summary.peak.max)},
+                       {"force_share", records::finite_or_null(summary.force_share)}});
     }
     list.push_back({{"product", one.product},
                     {"words", face_words(page.results.plan, product, one)},
@@ -237,8 +240,8 @@ PageJson faces_json(const StudyPage& page, const StudyCondition& condition) {
 }
 
 PageJson condition_json(const StudyPage& page, std::size_t index, Attachments& attachments) {
-  const StudyPlan& plan = page.results.plan;
-  const ConditionAnalysis& one = page.analysis.conditions[index];
+  const study::StudyPlan& plan = page.results.plan;
+  const study::ConditionAnalysis& one = page.analysis.conditions[index];
   PageJson figures = PageJson::array();
   for (const StudyFigure& figure : page.figures) {
     if (figure.condition != static_cast<int>(index) || index >= kMostDrawnConditions) continue;
@@ -262,12 +265,12 @@ PageJson condition_json(const StudyPage& page, std::size_t index, Attachments& a
 
 PageJson scene_json(const StudyPage& page, Attachments& attachments) {
   if (page.scene.empty()) return nullptr;
-  const StudyPlan& plan = page.results.plan;
-  const StudyCondition& first = page.analysis.conditions.front().condition;
+  const study::StudyPlan& plan = page.results.plan;
+  const study::StudyCondition& first = page.analysis.conditions.front().condition;
   PageJson hands = PageJson::array();
   for (const int hand : page.shown_hands) hands.push_back(hand_words(plan, first, hand));
   return {{"hands", std::move(hands)},
-          {"hands_in_all", hands_of(plan, first).size()},
+          {"hands_in_all", study::hands_of(plan, first).size()},
           {"has_faces", !page.faces.empty()},
           {"scales",
            {{"grasp", colour_bar_json(page.scales.grasp)},
@@ -277,13 +280,13 @@ PageJson scene_json(const StudyPage& page, Attachments& attachments) {
           {"data", attached(attachments, "scene", script_escaped(page.scene))}};
 }
 
-PageJson populations_json(const StudyPlan& plan) {
+PageJson populations_json(const study::StudyPlan& plan) {
   PageJson list = PageJson::array();
   for (std::size_t p = 0; p < plan.populations.size(); ++p) {
-    const StudyPopulation& one = plan.populations[p];
+    const study::StudyPopulation& one = plan.populations[p];
     const auto hands = std::count_if(
         plan.hands.begin(), plan.hands.end(),
-        [&](const StudyHand& hand) { return hand.population == static_cast<int>(p); });
+        [&](const study::StudyHand& hand) { return hand.population == static_cast<int>(p); });
     list.push_back({{"name", one.population.name},
                     {"title", one.population.title},
                     {"hands", hands},
@@ -296,9 +299,9 @@ PageJson populations_json(const StudyPlan& plan) {
   return list;
 }
 
-PageJson settings_json(const StudyPlan& plan) {
+PageJson settings_json(const study::StudyPlan& plan) {
   PageJson list = PageJson::array();
-  for (const StudySetting& one : plan.settings) {
+  for (const study::StudySetting& one : plan.settings) {
     list.push_back({{"name", one.name},
                     {"palm_limit_depth_mm", one.palm_limit_depth},
                     {"finger_limit_depth_mm", one.finger_limit_depth},
@@ -311,9 +314,9 @@ PageJson settings_json(const StudyPlan& plan) {
   return list;
 }
 
-PageJson profiles_json(const StudyPlan& plan) {
+PageJson profiles_json(const study::StudyPlan& plan) {
   PageJson list = PageJson::array();
-  for (const HandProfile& one : plan.profiles) {
+  for (const population::HandProfile& one : plan.profiles) {
     if (one.name == "none") continue;
     list.push_back({{"name", one.name},
                     {"range_share", one.range_share},
@@ -327,9 +330,9 @@ PageJson profiles_json(const StudyPlan& plan) {
 }
 
 PageJson provenance_json(const StudyPage& page) {
-  const StudyPlan& plan = page.results.plan;
+  const study::StudyPlan& plan = page.results.plan;
   PageJson products = PageJson::array();
-  for (const StudyProduct& one : plan.products) {
+  for (const study::StudyProduct& one : plan.products) {
     products.push_back({{"name", one.name},
                         {"file", one.file},
                         {"size", one.size},
@@ -338,11 +341,11 @@ PageJson provenance_json(const StudyPage& page) {
                         {"sha256", one.content_hash}});
   }
   PageJson grips = PageJson::array();
-  for (const std::optional<Grip>& grip : plan.grips) {
+  for (const std::optional<grasp::Grip>& grip : plan.grips) {
     grips.push_back(grip ? PageJson(name_of(*grip)) : PageJson(nullptr));
   }
   PageJson stiffness = PageJson::array();
-  for (const Region region : {Region::kIndexDistal, Region::kThenar}) {
+  for (const hand::Region region : {hand::Region::kIndexDistal, hand::Region::kThenar}) {
     const auto& nominal =
         page.base.tissue.region[page_index(static_cast<int>(region))].half_space.nominal;
     stiffness.push_back({{"region", plain_words(region)},
@@ -350,7 +353,7 @@ PageJson provenance_json(const StudyPage& page) {
                          {"at_limit_mpa", nominal.g_limit},
                          {"limit_depth_mm", nominal.limit_depth}});
   }
-  const Hand& hand = page.base;
+  const hand::Hand& hand = page.base;
   return {{"study", plan.name},
           {"seed", plan.seed},
           {"sha256", page.digest},
@@ -386,14 +389,14 @@ PageJson answer_json(const StudyAnswer& answer) {
           {"reasons", answer.reasons},
           {"next", answer.next},
           {"command", answer.command},
-          {"better", or_null(answer.better)},
-          {"worse", or_null(answer.worse)},
+          {"better", records::or_null(answer.better)},
+          {"worse", records::or_null(answer.worse)},
           {"changes", answer.changes}};
 }
 
-PageJson warnings_json(const std::vector<StudyWarning>& warnings) {
+PageJson warnings_json(const std::vector<study::StudyWarning>& warnings) {
   PageJson list = PageJson::array();
-  for (const StudyWarning& one : warnings) {
+  for (const study::StudyWarning& one : warnings) {
     list.push_back({{"is_outside", one.is_outside}, {"subject", one.subject}, {"text", one.text}});
   }
   return list;
@@ -402,7 +405,7 @@ PageJson warnings_json(const std::vector<StudyWarning>& warnings) {
 }  // namespace
 
 std::string study_page(const StudyPage& page) {
-  const StudyPlan& plan = page.results.plan;
+  const study::StudyPlan& plan = page.results.plan;
   if (page.analysis.conditions.empty() || plan.products.empty()) {
     throw UsageError("study report: the plan has no condition or no product");
   }
@@ -418,11 +421,12 @@ std::string study_page(const StudyPage& page) {
                         name, attachments)}});
   }
   PageJson quantities = PageJson::array();
-  for (const StudyQuantity& one : page.analysis.quantities) {
+  for (const study::StudyQuantity& one : page.analysis.quantities) {
     quantities.push_back(quantity_json(one));
   }
   PageJson limits = PageJson::array();
-  for (const StudyLimit& limit : plan.limits) limits.push_back(words_of(page.results, limit));
+  for (const study::StudyLimit& limit : plan.limits)
+    limits.push_back(words_of(page.results, limit));
   PageJson conditions = PageJson::array();
   for (std::size_t c = 0; c < page.analysis.conditions.size(); ++c) {
     conditions.push_back(condition_json(page, c, attachments));
@@ -432,7 +436,7 @@ std::string study_page(const StudyPage& page) {
                    {"title", plan.title.empty() ? plan.name : plan.title},
                    {"hands", plan.hands.size()},
                    {"grasps", page.results.records.size()},
-                   {"grasps_planned", task_count(plan)},
+                   {"grasps_planned", study::task_count(plan)},
                    {"vocabulary", vocabulary_json(page.base)},
                    {"products", std::move(products)},
                    {"language", name_of(page.language)},
@@ -453,4 +457,4 @@ std::string study_page(const StudyPage& page) {
   return render_page(page_text(json), std::move(attachments));
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -13,24 +13,24 @@
 #include "palmar/study/statistics/face_statistics.h"
 #include "palmar/study/statistics/study_analysis.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// Everything that the page of a study shows, computed beforehand.
 struct StudyPage {
-  const StudyResults& results;
-  const StudyAnalysis& analysis;
-  const Hand& base;
-  const std::vector<StudyWarning>& warnings;
+  const study::StudyResults& results;
+  const study::StudyAnalysis& analysis;
+  const hand::Hand& base;
+  const std::vector<study::StudyWarning>& warnings;
   const std::vector<StudyFigure>& figures;
   const StudyScales& scales;
   const std::vector<std::vector<EncodedPicture>>& pictures;  ///< of the maps, by product; or empty
-  const std::vector<Product>& products;
-  const std::vector<FaceStatistics>& faces;  ///< of products that have any
-  std::string scene;                         ///< study_scene_json(); "": no 3-D view
-  std::vector<int> shown_hands;              ///< in the 3-D view, its order
-  double threshold = 0.0;                    ///< of the maps, MPa
-  std::string program;                       ///< that ran the study
-  std::string digest;                        ///< of the store; "": not finished
+  const std::vector<product::Product>& products;
+  const std::vector<study::FaceStatistics>& faces;  ///< of products that have any
+  std::string scene;                                ///< study_scene_json(); "": no 3-D view
+  std::vector<int> shown_hands;                     ///< in the 3-D view, its order
+  double threshold = 0.0;                           ///< of the maps, MPa
+  std::string program;                              ///< that ran the study
+  std::string digest;                               ///< of the store; "": not finished
   Language language = Language::kEnglish;
   StudyAnswer answer;
   ReportExtras extras = {};
@@ -46,6 +46,7 @@ std::string study_page(const StudyPage& page);
 /// is shown, and whether the grip forces are equal; which suits how many hands and whom it leaves
 /// out; how many sizes are needed. It speaks of the first condition and says so; a sentence for
 /// each other one says whom products exclude and whether the differences still stand.
-std::vector<std::string> study_verdict(const StudyResults& results, const StudyAnalysis& analysis);
+std::vector<std::string> study_verdict(const study::StudyResults& results,
+                                       const study::StudyAnalysis& analysis);
 
-}  // namespace palmar
+}  // namespace palmar::report

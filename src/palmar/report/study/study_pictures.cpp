@@ -12,13 +12,13 @@
 #include "palmar/report/words/phrases.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr Rgb kBorderColour{110, 118, 126};
 
 /// A surface with a field in the colours of a scale.
-SceneObject painted(const TriangleMesh& mesh, const std::vector<double>& field,
+SceneObject painted(const geometry::TriangleMesh& mesh, const std::vector<double>& field,
                     const ColourScale& scale, Rgb colour) {
   SceneObject object;
   object.mesh = mesh;
@@ -30,14 +30,14 @@ SceneObject painted(const TriangleMesh& mesh, const std::vector<double>& field,
 }
 
 /// Borders of the product's faces as dark threads; empty if it has none.
-Scene threads_on_borders(const Product& product) {
+Scene threads_on_borders(const product::Product& product) {
   if (product.faces == nullptr) return {};
   Box3 box;
   for (const Vec3& v : product.mesh.vertices) box.extend(v);
   const double radius = 0.0016 * box.diagonal().norm();
   SceneObject threads;
   threads.colour = kBorderColour;
-  for (const auto& [a, b] : border_edges(product.mesh, product.faces->face_of_triangle)) {
+  for (const auto& [a, b] : product::border_edges(product.mesh, product.faces->face_of_triangle)) {
     const Vec3 &start = product.mesh.vertices[static_cast<std::size_t>(a)],
                &end = product.mesh.vertices[static_cast<std::size_t>(b)];
     if (!((end - start).norm() > 0.0)) continue;
@@ -89,16 +89,16 @@ Picture picture_of(const Scene& scene, const ProductView& view, const std::strin
 
 }  // namespace
 
-std::vector<Picture> study_pictures(const Hand& base, const Product& product,
-                                    const std::string& name, const StudyMaps& maps,
-                                    const Rigid3& product_from_hand, const StudyScales& scales,
-                                    double threshold, const PictureOptions& options,
-                                    const Progress& progress) {
-  const double mirror = base.side == Side::kLeft ? -1.0 : 1.0;
+std::vector<Picture> study_pictures(const hand::Hand& base, const product::Product& product,
+                                    const std::string& name, const study::StudyMaps& maps,
+                                    const geometry::Rigid3& product_from_hand,
+                                    const StudyScales& scales, double threshold,
+                                    const PictureOptions& options, const Progress& progress) {
+  const double mirror = base.side == hand::Side::kLeft ? -1.0 : 1.0;
   const std::string hands = std::to_string(maps.hands) + (maps.hands == 1 ? " hand" : " hands");
   const std::string limit = short_number(1000.0 * threshold) + " kPa";
   const Vec3 palm(mirror * 0.12, -0.10, -1.0);
-  const TriangleMesh surface = product_map(product.mesh);
+  const geometry::TriangleMesh surface = study::product_map(product.mesh);
   const Quat& turn = product_from_hand.rotation;
   // The bar has room for short words only; titles say which pressure.
   ColourScale mean = scales.mean, percent = scales.above;
@@ -147,10 +147,11 @@ std::vector<Picture> study_pictures(const Hand& base, const Product& product,
   return pictures;
 }
 
-Picture study_hold_picture(const Hand& hand, const StudyRecord& record, const Product& product,
-                           const std::string& name, const std::string& whose,
-                           const PictureOptions& options, const Progress& progress) {
-  const double mirror = hand.side == Side::kLeft ? -1.0 : 1.0;
+Picture study_hold_picture(const hand::Hand& hand, const study::StudyRecord& record,
+                           const product::Product& product, const std::string& name,
+                           const std::string& whose, const PictureOptions& options,
+                           const Progress& progress) {
+  const double mirror = hand.side == hand::Side::kLeft ? -1.0 : 1.0;
   const Quat& turn = record.product_from_hand.rotation;
   SceneObject skin, held;
   skin.mesh = {displayed_skin(hand, record, product), hand.skin.triangles};
@@ -172,4 +173,4 @@ Picture study_hold_picture(const Hand& hand, const StudyRecord& record, const Pr
   return picture;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -19,7 +19,7 @@
 #include "palmar/report/study/study_pictures.h"
 #include "palmar/report/words/study_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr int kStudyPictureWidth = 640;  // pixels; the page shows pictures about 540 wide
@@ -32,7 +32,8 @@ void check_folder(const std::filesystem::path& folder) {
   }
   const std::filesystem::path page = folder / "report.html";
   if (!std::filesystem::is_regular_file(page) || std::filesystem::file_size(page) == 0) return;
-  if (read_file(page).find("<meta name=\"generator\" content=\"Palmar ") == std::string::npos) {
+  if (formats::read_file(page).find("<meta name=\"generator\" content=\"Palmar ") ==
+      std::string::npos) {
     throw UsageError(page.string() +
                      ": was not written by Palmar and would be overwritten; choose another folder "
                      "or move the file");
@@ -40,23 +41,24 @@ void check_folder(const std::filesystem::path& folder) {
 }
 
 /// The grasp of the typical hand of a condition, or null if nobody holds the product.
-const StudyRecord* typical_grasp(const StudyResults& results, const StudyCondition& condition,
-                                 int product) {
+const study::StudyRecord* typical_grasp(const study::StudyResults& results,
+                                        const study::StudyCondition& condition, int product) {
   std::vector<int> holding;
-  for (const int hand : hands_of(results.plan, condition)) {
-    const StudyRecord* record = record_of(results, condition, product, hand);
-    if (record != nullptr && is_in_hand(*record)) holding.push_back(hand);
+  for (const int hand : study::hands_of(results.plan, condition)) {
+    const study::StudyRecord* record = study::record_of(results, condition, product, hand);
+    if (record != nullptr && study::is_in_hand(*record)) holding.push_back(hand);
   }
   if (holding.empty()) return nullptr;
-  return record_of(results, condition, product, typical_hand(results.plan, holding));
+  return study::record_of(results, condition, product, typical_hand(results.plan, holding));
 }
 
 std::vector<std::vector<EncodedPicture>> write_pictures(
     const std::filesystem::path& folder, const StudyReportInput& input,
-    const StudyCondition& condition, const std::vector<StudyMaps>& maps, const StudyScales& scales,
-    const StudyHandMaker& hand_of, const StudyReportOptions& options, const Progress& progress) {
-  create_folder(folder);
-  const StudyPlan& plan = input.results.plan;
+    const study::StudyCondition& condition, const std::vector<study::StudyMaps>& maps,
+    const StudyScales& scales, const study::StudyHandMaker& hand_of,
+    const StudyReportOptions& options, const Progress& progress) {
+  formats::create_folder(folder);
+  const study::StudyPlan& plan = input.results.plan;
   std::vector<std::vector<EncodedPicture>> embedded(plan.products.size());
   std::set<std::string> used;
   for (std::size_t p = 0; p < plan.products.size(); ++p) {
@@ -64,16 +66,16 @@ std::vector<std::vector<EncodedPicture>> write_pictures(
                     "maps of " + plan.products[p].name);
     const std::string name = unique_file_name(plan.products[p].name, used, FullStops::kReplaced);
     if (maps[p].hands == 0) continue;
-    const StudyRecord* grasp = typical_grasp(input.results, condition, static_cast<int>(p));
+    const study::StudyRecord* grasp = typical_grasp(input.results, condition, static_cast<int>(p));
     const PictureOptions drawing{.width = options.picture_width,
                                  .height = options.picture_height,
                                  .language = options.language};
     std::vector<Picture> pictures =
         study_pictures(*input.inputs.base, input.inputs.products[p], plan.products[p].name, maps[p],
-                       grasp != nullptr ? grasp->product_from_hand : Rigid3{}, scales,
+                       grasp != nullptr ? grasp->product_from_hand : geometry::Rigid3{}, scales,
                        options.threshold, drawing, progress);
     if (grasp != nullptr && !progress.is_cancelled()) {
-      const StudyTask task = task_at(plan, grasp->number);
+      const study::StudyTask task = study::task_at(plan, grasp->number);
       pictures.push_back(
           study_hold_picture(hand_of(task), *grasp, input.inputs.products[p], plan.products[p].name,
                              hand_words(plan, condition, task.hand), drawing, progress));
@@ -94,14 +96,14 @@ std::vector<std::vector<EncodedPicture>> write_pictures(
           .thumbnail = ""};
     });
     for (std::size_t k = 0; k < pictures.size(); ++k) {
-      write_file(folder / (name + "_" + pictures[k].name + ".png"), full[k]);
+      formats::write_file(folder / (name + "_" + pictures[k].name + ".png"), full[k]);
     }
   }
   return embedded;
 }
 
 void write_figures(const std::filesystem::path& folder, const std::vector<StudyFigure>& figures) {
-  create_folder(folder);
+  formats::create_folder(folder);
   struct Files {
     std::string svg, png, pdf;
   };
@@ -111,9 +113,9 @@ void write_figures(const std::filesystem::path& folder, const std::vector<StudyF
     files[picture_place(i)] = {to_svg(figure), to_png(figure), to_pdf(figure)};
   });
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    write_file(folder / (figures[i].name + ".svg"), files[i].svg);
-    write_file(folder / (figures[i].name + ".png"), files[i].png);
-    write_file(folder / (figures[i].name + ".pdf"), files[i].pdf);
+    formats::write_file(folder / (figures[i].name + ".svg"), files[i].svg);
+    formats::write_file(folder / (figures[i].name + ".png"), files[i].png);
+    formats::write_file(folder / (figures[i].name + ".pdf"), files[i].pdf);
   }
 }
 
@@ -121,7 +123,7 @@ void write_figures(const std::filesystem::path& folder, const std::vector<StudyF
 
 void StudyReportOptions::check() const {
   comparison.check();
-  MeanMapOptions{threshold}.check();
+  study::MeanMapOptions{threshold}.check();
   if (most_grasps < 0 || most_grasps > 5000) {
     throw UsageError("study report: most_grasps is " + std::to_string(most_grasps) +
                      "; 0 to 5000 are allowed");
@@ -138,8 +140,8 @@ void StudyReportOptions::check() const {
 void write_study_report(const std::string& folder, const StudyReportInput& input,
                         const StudyReportOptions& options, const Progress& progress) {
   options.check();
-  const StudyResults& results = input.results;
-  const StudyPlan& plan = results.plan;
+  const study::StudyResults& results = input.results;
+  const study::StudyPlan& plan = results.plan;
   results.check();
   if (results.records.empty()) {
     throw UsageError("study report: no grasp was run yet; there is nothing to report");
@@ -149,13 +151,13 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
   }
   const std::filesystem::path root(folder);
   check_folder(root);
-  create_folder(root);
+  formats::create_folder(root);
 
   progress.update(0.0, "statistics");
-  const StudyAnalysis analysis = analyse_study(results, options.comparison);
+  const study::StudyAnalysis analysis = study::analyse_study(results, options.comparison);
   std::vector<DeskTable> desk;
   for (const NamedTable& one : study_csv(results, analysis)) {
-    write_file(root / one.name, format_csv(one.table));
+    formats::write_file(root / one.name, records::format_csv(one.table));
     desk.push_back({std::filesystem::path(one.name).stem().string(), one.about, one.table});
   }
   write_desk_tables(root, plan.title.empty() ? plan.name : plan.title, desk, options.extras);
@@ -167,14 +169,14 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
   if (options.figure_files) write_figures(root / "figures", figures);
 
   progress.update(0.2, "maps");
-  const StudyCondition& condition = analysis.conditions.front().condition;
+  const study::StudyCondition& condition = analysis.conditions.front().condition;
   std::vector<int> vertices;
-  for (const Product& product : input.inputs.products) {
-    vertices.push_back(product_map(product.mesh).vertex_count());
+  for (const product::Product& product : input.inputs.products) {
+    vertices.push_back(study::product_map(product.mesh).vertex_count());
   }
-  std::vector<StudyMaps> maps =
-      mean_maps(plan, input.records, input.inputs.base->skin.vertex_count(), vertices,
-                {.threshold = options.threshold});
+  std::vector<study::StudyMaps> maps =
+      study::mean_maps(plan, input.records, input.inputs.base->skin.vertex_count(), vertices,
+                       {.threshold = options.threshold});
   maps.resize(plan.products.size());  // the first condition's
   StudyScales scales = study_scales(results, maps);
   for (ColourScale* one : {&scales.grasp, &scales.mean, &scales.sd, &scales.above}) {
@@ -182,14 +184,15 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
     one->none = phrases(one->none);
   }
 
-  const std::vector<FaceStatistics> faces =
-      face_statistics(plan, input.inputs.products, input.records, {.threshold = options.threshold});
+  const std::vector<study::FaceStatistics> faces = study::face_statistics(
+      plan, input.inputs.products, input.records, {.threshold = options.threshold});
   if (!faces.empty()) {
-    write_file(root / "faces.csv", format_csv(face_statistics_csv(plan, input.inputs.products,
-                                                                  faces, options.threshold)));
+    formats::write_file(root / "faces.csv",
+                        records::format_csv(face_statistics_csv(plan, input.inputs.products, faces,
+                                                                options.threshold)));
   }
   progress.update(0.3, "3-D view");
-  const StudyHandMaker hand_of = study_hand_maker(plan, input.inputs.base);
+  const study::StudyHandMaker hand_of = study::study_hand_maker(plan, input.inputs.base);
   std::string scene;
   if (options.most_grasps > 0) {
     scene = study_scene_json({results, input.inputs, maps, condition, input.records, hand_of,
@@ -201,8 +204,8 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
         write_pictures(root / "maps", input, condition, maps, scales, hand_of, options, progress);
   }
   progress.update(0.95, "report.html");
-  const std::vector<StudyWarning> warnings =
-      study_warnings(results, input.inputs.products, input.inputs.base->dimensions);
+  const std::vector<study::StudyWarning> warnings =
+      study::study_warnings(results, input.inputs.products, input.inputs.base->dimensions);
   const StudyPage page{results,
                        analysis,
                        *input.inputs.base,
@@ -223,7 +226,7 @@ void write_study_report(const std::string& folder, const StudyReportInput& input
                                               .store = "",
                                               .command = options.command}),
                        options.extras};
-  write_file(root / "report.html", study_page(page));
+  formats::write_file(root / "report.html", study_page(page));
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -19,7 +19,7 @@
 #include "palmar/report/words/study_words.h"
 #include "palmar/study/statistics/study_statistics.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr int kMostTrianglesEach = 40000;
@@ -37,7 +37,7 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-std::vector<double> unpacked(const SparseField& field, std::size_t size) {
+std::vector<double> unpacked(const study::SparseField& field, std::size_t size) {
   std::vector<double> result(size, 0.0);
   for (std::size_t i = 0; i < field.vertex.size(); ++i) {
     if (field.vertex[i] < 0 || place(field.vertex[i]) >= size) {
@@ -51,7 +51,7 @@ std::vector<double> unpacked(const SparseField& field, std::size_t size) {
 
 /// A product as it is shown: its map, coarser if it is very fine.
 struct ShownProduct {
-  TriangleMesh map;
+  geometry::TriangleMesh map;
   std::vector<int> face_of_triangle;  ///< of `map`
   DisplayMesh shown;
   std::vector<double> shown_field(const std::vector<double>& field) const {
@@ -59,9 +59,9 @@ struct ShownProduct {
   }
 };
 
-ShownProduct shown_product(const Product& product) {
+ShownProduct shown_product(const product::Product& product) {
   ShownProduct one;
-  ProductMap map = product_map(product);
+  study::ProductMap map = study::product_map(product);
   one.map = std::move(map.mesh);
   one.face_of_triangle = std::move(map.face_of_triangle);
   one.shown =
@@ -70,15 +70,15 @@ ShownProduct shown_product(const Product& product) {
 }
 
 /// A grasp of the view; with `skin` if the product was in the hand.
-std::string grasp_json(const StudySceneInput& input, const StudyRecord& record, const Hand& hand,
-                       const std::vector<ShownProduct>& products, int shown_hand,
-                       const Phrases& phrases) {
-  const StudyTask task = task_at(input.results.plan, record.number);
+std::string grasp_json(const StudySceneInput& input, const study::StudyRecord& record,
+                       const hand::Hand& hand, const std::vector<ShownProduct>& products,
+                       int shown_hand, const Phrases& phrases) {
+  const study::StudyTask task = study::task_at(input.results.plan, record.number);
   std::string json = "{\"hand\":" + std::to_string(shown_hand) +
                      ",\"product\":" + std::to_string(task.product) +
                      ",\"says\":" + quoted(phrases(grasp_words(record)));
-  if (is_in_hand(record)) {
-    const Product& product = input.inputs.products[place(task.product)];
+  if (study::is_in_hand(record)) {
+    const product::Product& product = input.inputs.products[place(task.product)];
     const ShownProduct& shown = products[place(task.product)];
     const double upper = input.scales.grasp.upper;
     json += ",\"skin\":" + packed_positions(displayed_skin(hand, record, product)) +
@@ -96,15 +96,15 @@ std::string grasp_json(const StudySceneInput& input, const StudyRecord& record, 
 /// What the view says and draws of a product's faces; "null" if it has none.
 std::string faces_json(const StudySceneInput& input, int product, const ShownProduct& shown,
                        const Phrases& phrases) {
-  const Product& given = input.inputs.products[place(product)];
+  const product::Product& given = input.inputs.products[place(product)];
   if (given.faces == nullptr) return "null";
-  std::vector<const FaceSummary*> summary(given.faces->face.size(), nullptr);
-  for (const FaceStatistics& one : input.faces) {
-    if (one.product != product || !is_same(one.condition, input.condition)) continue;
-    for (const FaceSummary& face : one.faces) summary[place(face.face)] = &face;
+  std::vector<const study::FaceSummary*> summary(given.faces->face.size(), nullptr);
+  for (const study::FaceStatistics& one : input.faces) {
+    if (one.product != product || !study::is_same(one.condition, input.condition)) continue;
+    for (const study::FaceSummary& face : one.faces) summary[place(face.face)] = &face;
   }
   std::vector<Vec3> borders;
-  for (const auto& edge : border_edges(given.mesh, given.faces->face_of_triangle)) {
+  for (const auto& edge : product::border_edges(given.mesh, given.faces->face_of_triangle)) {
     for (const int v : edge) borders.push_back(given.mesh.vertices[place(v)]);
   }
   std::string says;
@@ -119,8 +119,8 @@ std::string faces_json(const StudySceneInput& input, int product, const ShownPro
          ",\"says\":[" + says + "]}";
 }
 
-std::string map_json(const PressureMap& skin, const PressureMap& product, const ShownProduct& shown,
-                     const StudyScales& scales) {
+std::string map_json(const study::PressureMap& skin, const study::PressureMap& product,
+                     const ShownProduct& shown, const StudyScales& scales) {
   const auto pair = [&](const char* key, const std::vector<double>& on_skin,
                         const std::vector<double>& on_product, double upper) {
     return std::string("\"") + key + "\":{\"skin\":\"" + packed_shares(on_skin, upper) +
@@ -137,23 +137,24 @@ std::string map_json(const PressureMap& skin, const PressureMap& product, const 
 
 /// What is shown of one hand.
 struct GraspsOfHand {
-  std::vector<const StudyRecord*> records;
+  std::vector<const study::StudyRecord*> records;
   std::vector<std::string> grasps;
 };
 
 }  // namespace
 
-StudyScales study_scales(const StudyResults& results, const std::vector<StudyMaps>& maps) {
+StudyScales study_scales(const study::StudyResults& results,
+                         const std::vector<study::StudyMaps>& maps) {
   std::vector<double> peaks;
-  for (const StudyRecord& record : results.records) {
-    if (is_in_hand(record)) peaks.push_back(record.peak_pressure_cells);
+  for (const study::StudyRecord& record : results.records) {
+    if (study::is_in_hand(record)) peaks.push_back(record.peak_pressure_cells);
   }
   std::sort(peaks.begin(), peaks.end());
-  const double high = peaks.empty() ? 0.0 : quantile(peaks, 0.95);
+  const double high = peaks.empty() ? 0.0 : statistics::quantile(peaks, 0.95);
   const bool thesis_fits = high >= 0.3 && high <= 0.8;
   double mean = 0.0, sd = 0.0;
-  for (const StudyMaps& one : maps) {
-    for (const PressureMap* map : {&one.skin, &one.on_product}) {
+  for (const study::StudyMaps& one : maps) {
+    for (const study::PressureMap* map : {&one.skin, &one.on_product}) {
       for (const double value : map->mean) mean = std::max(mean, value);
       for (const double value : map->sd) sd = std::max(sd, value);
     }
@@ -171,15 +172,15 @@ StudyScales study_scales(const StudyResults& results, const std::vector<StudyMap
   return scales;
 }
 
-std::vector<int> shown_hands(const StudyPlan& plan, const StudyCondition& condition,
+std::vector<int> shown_hands(const study::StudyPlan& plan, const study::StudyCondition& condition,
                              int most_grasps) {
-  std::vector<int> hands = hands_of(plan, condition);
+  std::vector<int> hands = study::hands_of(plan, condition);
   const auto products = std::max<std::size_t>(1, plan.products.size());
   const std::size_t most = std::max<std::size_t>(1, place(std::max(0, most_grasps)) / products);
   if (hands.size() <= most) return hands;
   std::stable_sort(hands.begin(), hands.end(), [&](int a, int b) {
-    return size_of(plan.hands[place(a)], kHandLength).value_or(0.0) <
-           size_of(plan.hands[place(b)], kHandLength).value_or(0.0);
+    return study::size_of(plan.hands[place(a)], study::kHandLength).value_or(0.0) <
+           study::size_of(plan.hands[place(b)], study::kHandLength).value_or(0.0);
   });
   std::vector<int> chosen;
   for (std::size_t k = 0; k < most; ++k) {
@@ -191,16 +192,16 @@ std::vector<int> shown_hands(const StudyPlan& plan, const StudyCondition& condit
   return chosen;
 }
 
-int typical_hand(const StudyPlan& plan, const std::vector<int>& hands) {
+int typical_hand(const study::StudyPlan& plan, const std::vector<int>& hands) {
   if (hands.empty()) throw UsageError("report: no hand to choose from");
   std::vector<double> far(hands.size(), 0.0);
-  for (const HandDimension dimension : {kHandLength, kHandCircumference}) {
+  for (const hand::HandDimension dimension : {study::kHandLength, study::kHandCircumference}) {
     std::vector<double> sizes;
     for (const int h : hands) {
-      if (const auto size = size_of(plan.hands[place(h)], dimension)) sizes.push_back(*size);
+      if (const auto size = study::size_of(plan.hands[place(h)], dimension)) sizes.push_back(*size);
     }
     if (sizes.size() != hands.size()) continue;
-    const Summary summary = summarise(sizes);
+    const statistics::Summary summary = statistics::summarise(sizes);
     if (!(summary.sd > 0.0)) continue;
     for (std::size_t i = 0; i < hands.size(); ++i) {
       far[i] += std::pow((sizes[i] - summary.mean) / summary.sd, 2);
@@ -209,14 +210,14 @@ int typical_hand(const StudyPlan& plan, const std::vector<int>& hands) {
   return hands[static_cast<std::size_t>(std::min_element(far.begin(), far.end()) - far.begin())];
 }
 
-std::vector<Vec3> displayed_skin(const Hand& hand, const StudyRecord& record,
-                                 const Product& product) {
-  std::vector<Vec3> skin = pose_skin(hand, record.posture);
+std::vector<Vec3> displayed_skin(const hand::Hand& hand, const study::StudyRecord& record,
+                                 const product::Product& product) {
+  std::vector<Vec3> skin = hand::pose_skin(hand, record.posture);
   for (Vec3& v : skin) v = record.product_from_hand * v;
-  std::vector<DistanceSample> samples(skin.size());
+  std::vector<geometry::DistanceSample> samples(skin.size());
   product.distance->sample(skin, kShownReach, samples);
   for (std::size_t i = 0; i < skin.size(); ++i) {
-    const DistanceSample& sample = samples[i];
+    const geometry::DistanceSample& sample = samples[i];
     if (sample.distance >= 0.0 || sample.distance <= -kShownReach) continue;
     // Along the gradient, not to the closest point: that may be on a thin product's far side.
     skin[i] -= sample.distance * sample.normal;
@@ -225,23 +226,23 @@ std::vector<Vec3> displayed_skin(const Hand& hand, const StudyRecord& record,
 }
 
 std::string study_scene_json(const StudySceneInput& input) {
-  const StudyPlan& plan = input.results.plan;
+  const study::StudyPlan& plan = input.results.plan;
   if (input.inputs.products.size() != plan.products.size() ||
       input.maps.size() != plan.products.size()) {
     throw UsageError("report: " + std::to_string(input.inputs.products.size()) + " products and " +
                      std::to_string(input.maps.size()) + " maps for a plan of " +
                      std::to_string(plan.products.size()) + " products");
   }
-  const Hand& base = *input.inputs.base;
+  const hand::Hand& base = *input.inputs.base;
   const Phrases phrases(input.language);
   std::vector<ShownProduct> products(plan.products.size());
   parallel_for(static_cast<int>(products.size()),
                [&](int p) { products[place(p)] = shown_product(input.inputs.products[place(p)]); });
 
   const std::vector<int> hands = shown_hands(plan, input.condition, input.most_grasps);
-  std::vector<StudyRecord> records;
-  input.records([&](const StudyRecord& record) {
-    const StudyTask task = task_at(plan, record.number);
+  std::vector<study::StudyRecord> records;
+  input.records([&](const study::StudyRecord& record) {
+    const study::StudyTask task = study::task_at(plan, record.number);
     if (task.profile == input.condition.profile && task.setting == input.condition.setting &&
         task.grip == input.condition.grip &&
         std::binary_search(hands.begin(), hands.end(), task.hand)) {
@@ -249,16 +250,17 @@ std::string study_scene_json(const StudySceneInput& input) {
     }
   });
   std::vector<GraspsOfHand> parts(hands.size());
-  for (const StudyRecord& record : records) {
+  for (const study::StudyRecord& record : records) {
     const auto place =
-        std::lower_bound(hands.begin(), hands.end(), task_at(plan, record.number).hand);
+        std::lower_bound(hands.begin(), hands.end(), study::task_at(plan, record.number).hand);
     parts[static_cast<std::size_t>(place - hands.begin())].records.push_back(&record);
   }
   parallel_for(static_cast<int>(parts.size()), [&](int i) {
     GraspsOfHand& part = parts[place(i)];
-    std::optional<Hand> hand;
-    for (const StudyRecord* record : part.records) {
-      if (!hand && is_in_hand(*record)) hand = input.hand_of(task_at(plan, record->number));
+    std::optional<hand::Hand> hand;
+    for (const study::StudyRecord* record : part.records) {
+      if (!hand && study::is_in_hand(*record))
+        hand = input.hand_of(study::task_at(plan, record->number));
       part.grasps.push_back(grasp_json(input, *record, hand ? *hand : base, products, i, phrases));
     }
   });
@@ -271,8 +273,8 @@ std::string study_scene_json(const StudySceneInput& input) {
   for (const Rgb c : colour_table(input.scales.above.map)) {
     for (const std::uint8_t byte : {c.r, c.g, c.b}) fern += static_cast<char>(byte);
   }
-  std::string json = "{\"table\":\"" + base64(table) + "\",\"shareTable\":\"" + base64(fern) +
-                     "\",\"neutral\":" + json_triple(kNeutralColour) +
+  std::string json = "{\"table\":\"" + formats::base64(table) + "\",\"shareTable\":\"" +
+                     formats::base64(fern) + "\",\"neutral\":" + json_triple(kNeutralColour) +
                      ",\"skinColour\":" + json_triple(kSkinColour) +
                      ",\"productColour\":" + json_triple(kProductColour) +
                      ",\"vertices\":" + std::to_string(base.skin.vertices.size()) +
@@ -282,19 +284,20 @@ std::string study_scene_json(const StudySceneInput& input) {
     json += (i > 0 ? "," : "") + quoted(phrases(hand_words(plan, input.condition, hands[i])));
   }
   json += "],\"products\":[";
-  const double radial = base.side == Side::kLeft ? -1.0 : 1.0;
+  const double radial = base.side == hand::Side::kLeft ? -1.0 : 1.0;
   for (std::size_t p = 0; p < products.size(); ++p) {
     // Seen as the typical hand holds it; the maps are shown on that hand, too.
     std::vector<int> holding;
     for (const int h : hands) {
-      const StudyRecord* record = record_of(input.results, input.condition, static_cast<int>(p), h);
-      if (record != nullptr && is_in_hand(*record)) holding.push_back(h);
+      const study::StudyRecord* record =
+          study::record_of(input.results, input.condition, static_cast<int>(p), h);
+      if (record != nullptr && study::is_in_hand(*record)) holding.push_back(h);
     }
     int typical = -1;
     Quat rotation = Quat::Identity();
     if (!holding.empty()) {
       const int hand = typical_hand(plan, holding);
-      rotation = record_of(input.results, input.condition, static_cast<int>(p), hand)
+      rotation = study::record_of(input.results, input.condition, static_cast<int>(p), hand)
                      ->product_from_hand.rotation;
       typical =
           static_cast<int>(std::lower_bound(hands.begin(), hands.end(), hand) - hands.begin());
@@ -323,4 +326,4 @@ std::string study_scene_json(const StudySceneInput& input) {
   return json + "]}";
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -6,15 +6,15 @@
 #include "palmar/report/words/plain_words.h"
 #include "palmar/report/words/study_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 /// The product with the lowest mean of a quantity among those in some hand, or -1.
-int lowest_of(const ConditionAnalysis& analysis, const std::string& key) {
+int lowest_of(const study::ConditionAnalysis& analysis, const std::string& key) {
   int lowest = -1;
   double least = 0.0;
-  for (const ProductStatistics& one : analysis.products) {
-    const QuantitySummary* summary = summary_of(one, key);
+  for (const study::ProductStatistics& one : analysis.products) {
+    const study::QuantitySummary* summary = study::summary_of(one, key);
     if (summary == nullptr) continue;
     if (lowest < 0 || summary->summary.mean < least) {
       lowest = one.product;
@@ -24,12 +24,12 @@ int lowest_of(const ConditionAnalysis& analysis, const std::string& key) {
   return lowest;
 }
 
-void describe_pairs(const StudyResults& results, const ConditionAnalysis& analysis,
+void describe_pairs(const study::StudyResults& results, const study::ConditionAnalysis& analysis,
                     const std::string& key, std::vector<std::string>& sentences) {
-  const QuantityComparison* comparison = comparison_of(analysis, key);
+  const study::QuantityComparison* comparison = study::comparison_of(analysis, key);
   const int lowest = lowest_of(analysis, key);
   if (comparison == nullptr || lowest < 0) return;
-  for (const ProductPair& pair : comparison->pairs) {
+  for (const study::ProductPair& pair : comparison->pairs) {
     if (pair.first != lowest && pair.second != lowest) continue;
     const std::string force =
         grip_force_words(results, analysis.condition, pair.first, pair.second);
@@ -38,19 +38,19 @@ void describe_pairs(const StudyResults& results, const ConditionAnalysis& analys
   }
 }
 
-std::string share_words(const StudyResults& results, const Accommodation& one,
-                        const Exclusion& exclusion, bool is_only) {
+std::string share_words(const study::StudyResults& results, const study::Accommodation& one,
+                        const study::Exclusion& exclusion, bool is_only) {
   const std::string& name = results.plan.products[static_cast<std::size_t>(one.product)].name;
   if (one.inside.n == 0) return name + ": no grasp was run.";
   std::string words = capitalised(name) + " is held by " + std::to_string(one.inside.count) +
                       " of " + counted(one.inside.n, "hand");
-  if (is_drawn_by_chance(results.plan)) {
+  if (study::is_drawn_by_chance(results.plan)) {
     words += " (" + short_number(100.0 * one.inside.share) + " %, 95 % interval " +
              short_number(100.0 * one.inside.interval.low, 2) + " to " +
              short_number(100.0 * one.inside.interval.high, 2) + " %)";
   }
   std::string causes;
-  for (const OutsideCause& cause : one.causes) {
+  for (const study::OutsideCause& cause : one.causes) {
     causes +=
         (causes.empty() ? "" : ", ") + std::to_string(cause.hands) + " " + cause_words(cause.cause);
   }
@@ -72,9 +72,9 @@ std::string share_words(const StudyResults& results, const Accommodation& one,
     if (people.count == 0) continue;
     const std::string hands =
         std::to_string(people.count) + " of " + std::to_string(exclusion.excluded.n) + " hands";
-    if (cause == ExclusionCause::kRange || cause == ExclusionCause::kStrength) {
+    if (cause == study::ExclusionCause::kRange || cause == study::ExclusionCause::kStrength) {
       words += " It asks for more " + words_of(cause) + " than " + hands + " have.";
-    } else if (cause == ExclusionCause::kNails) {
+    } else if (cause == study::ExclusionCause::kNails) {
       words += " Nails are in the way of " + hands + ".";
     }
   }
@@ -82,11 +82,11 @@ std::string share_words(const StudyResults& results, const Accommodation& one,
 }
 
 /// "4 of 6 (67 %: 3 by grip strength, 1 by nails)", "nobody".
-std::string excluded_words(const Exclusion& one) {
+std::string excluded_words(const study::Exclusion& one) {
   if (one.excluded.count == 0) return "nobody";
   std::string causes;
   for (const auto& [cause, people] : one.causes) {
-    if (cause == ExclusionCause::kNone || people.count == 0) continue;
+    if (cause == study::ExclusionCause::kNone || people.count == 0) continue;
     causes +=
         (causes.empty() ? "" : ", ") + std::to_string(people.count) + " by " + words_of(cause);
   }
@@ -96,18 +96,21 @@ std::string excluded_words(const Exclusion& one) {
 }
 
 /// Whether a difference that the first condition has is that of another one, too.
-std::string standing_words(const StudyResults& results, const ProductPair& first,
-                           const ProductPair& other) {
-  const auto sign = [](const ProductPair& pair) { return pair.mean_second < pair.mean_first; };
-  const auto is_shown = [&](const ProductPair& pair) {
-    return is_drawn_by_chance(results.plan) ? pair.verdict == DifferenceVerdict::kShown
-                                            : pair.verdict != DifferenceVerdict::kTooFewPairs &&
-                                                  pair.verdict != DifferenceVerdict::kNone;
+std::string standing_words(const study::StudyResults& results, const study::ProductPair& first,
+                           const study::ProductPair& other) {
+  const auto sign = [](const study::ProductPair& pair) {
+    return pair.mean_second < pair.mean_first;
+  };
+  const auto is_shown = [&](const study::ProductPair& pair) {
+    return study::is_drawn_by_chance(results.plan)
+               ? pair.verdict == study::DifferenceVerdict::kShown
+               : pair.verdict != study::DifferenceVerdict::kTooFewPairs &&
+                     pair.verdict != study::DifferenceVerdict::kNone;
   };
   const std::string names = results.plan.products[static_cast<std::size_t>(first.first)].name +
                             " and " +
                             results.plan.products[static_cast<std::size_t>(first.second)].name;
-  if (other.verdict == DifferenceVerdict::kTooFewPairs) return names + " can't be compared";
+  if (other.verdict == study::DifferenceVerdict::kTooFewPairs) return names + " can't be compared";
   const std::string means =
       " (" + short_number(other.mean_first) + " and " + short_number(other.mean_second) + ")";
   if (is_shown(first) && is_shown(other)) {
@@ -121,12 +124,12 @@ std::string standing_words(const StudyResults& results, const ProductPair& first
 
 /// A sentence of another condition: whom its products exclude, how many they suit, and whether the
 /// first condition's differences stand.
-std::string other_words(const StudyResults& results, const ConditionAnalysis& first,
-                        const ConditionAnalysis& other) {
+std::string other_words(const study::StudyResults& results, const study::ConditionAnalysis& first,
+                        const study::ConditionAnalysis& other) {
   std::string suits, excludes;
   for (std::size_t p = 0; p < other.exclusion.size(); ++p) {
     const std::string& name = results.plan.products[p].name;
-    const Proportion& inside = other.accommodation[p].inside;
+    const statistics::Proportion& inside = other.accommodation[p].inside;
     suits += (suits.empty() ? "" : "; ") + name + " is held by " + std::to_string(inside.count) +
              " of " + std::to_string(inside.n);
     excludes += (excludes.empty() ? "" : "; ") + name + " asks too much of " +
@@ -135,15 +138,15 @@ std::string other_words(const StudyResults& results, const ConditionAnalysis& fi
   std::string words =
       capitalised(condition_words(results.plan, other.condition)) + ": " + suits + "; " + excludes;
   const std::string key = "peak_pressure_cells_mpa";
-  const QuantityComparison* before = comparison_of(first, key);
-  const QuantityComparison* now = comparison_of(other, key);
+  const study::QuantityComparison* before = study::comparison_of(first, key);
+  const study::QuantityComparison* now = study::comparison_of(other, key);
   const int lowest = lowest_of(first, key);
   if (before == nullptr || now == nullptr || lowest < 0) return words + ".";
   for (std::size_t k = 0; k < before->pairs.size() && k < now->pairs.size(); ++k) {
-    const ProductPair& pair = before->pairs[k];
+    const study::ProductPair& pair = before->pairs[k];
     if (pair.first != lowest && pair.second != lowest) continue;
     words += "; " + standing_words(results, pair, now->pairs[k]);
-    const auto forces = grip_forces(results, other.condition, pair.first, pair.second);
+    const auto forces = study::grip_forces(results, other.condition, pair.first, pair.second);
     if (forces && forces->are_unequal()) {
       words += "; at different grip forces (" + short_number(forces->first) + " and " +
                short_number(forces->second) + " N)";
@@ -153,16 +156,17 @@ std::string other_words(const StudyResults& results, const ConditionAnalysis& fi
 }
 
 /// Grasps of a condition that are held though forces are left over.
-void describe_unbalanced(const StudyResults& results, const StudyCondition& condition,
+void describe_unbalanced(const study::StudyResults& results, const study::StudyCondition& condition,
                          std::vector<std::string>& sentences) {
-  const StudyPlan& plan = results.plan;
+  const study::StudyPlan& plan = results.plan;
   if (!plan.settings[static_cast<std::size_t>(condition.setting)].is_balanced) return;
   for (std::size_t p = 0; p < plan.products.size(); ++p) {
     if (!plan.products[p].posture_of.empty()) continue;
     int held = 0, unbalanced = 0;
-    for (const int hand : hands_of(plan, condition)) {
-      const StudyRecord* record = record_of(results, condition, static_cast<int>(p), hand);
-      if (record == nullptr || !is_in_hand(*record)) continue;
+    for (const int hand : study::hands_of(plan, condition)) {
+      const study::StudyRecord* record =
+          study::record_of(results, condition, static_cast<int>(p), hand);
+      if (record == nullptr || !study::is_in_hand(*record)) continue;
       ++held;
       unbalanced += record->is_balanced ? 0 : 1;
     }
@@ -177,8 +181,9 @@ constexpr int kMostOthers = 12;  // conditions; the rest stand below only
 
 }  // namespace
 
-std::vector<std::string> study_verdict(const StudyResults& results, const StudyAnalysis& all) {
-  const ConditionAnalysis& analysis = all.conditions.front();
+std::vector<std::string> study_verdict(const study::StudyResults& results,
+                                       const study::StudyAnalysis& all) {
+  const study::ConditionAnalysis& analysis = all.conditions.front();
   const bool is_only = all.conditions.size() == 1;
   std::vector<std::string> sentences;
   if (!is_only) {
@@ -189,7 +194,7 @@ std::vector<std::string> study_verdict(const StudyResults& results, const StudyA
   describe_pairs(results, analysis, "peak_pressure_cells_mpa", sentences);
   if (results.plan.products.size() == 1) {
     for (const char* key : {"peak_pressure_cells_mpa", "contact_area_mm2"}) {
-      const QuantitySummary* one = summary_of(analysis.products.front(), key);
+      const study::QuantitySummary* one = study::summary_of(analysis.products.front(), key);
       if (one == nullptr) continue;
       sentences.push_back(capitalised(one->quantity.name) + ": " + short_number(one->summary.mean) +
                           " " + one->quantity.unit + " on average" +
@@ -203,18 +208,18 @@ std::vector<std::string> study_verdict(const StudyResults& results, const StudyA
     sentences.push_back(
         share_words(results, analysis.accommodation[p], analysis.exclusion[p], is_only));
   }
-  for (const ProductSizes& family : analysis.sizes) {
+  for (const study::ProductSizes& family : analysis.sizes) {
     std::string words = "Sizes of " + family.family + ": ";
     int served = -1;
     for (std::size_t k = 0; k < family.choices.size(); ++k) {
-      const SizeChoice& choice = family.choices[k];
+      const study::SizeChoice& choice = family.choices[k];
       if (choice.served.count == served) {
         words += "; one more serves nobody else";
         break;
       }
       served = choice.served.count;
       std::string names;
-      for (const ServedBySize& size : choice.sizes) {
+      for (const study::ServedBySize& size : choice.sizes) {
         names += (names.empty() ? "" : " + ") +
                  results.plan.products[static_cast<std::size_t>(size.product)].name;
       }
@@ -237,4 +242,4 @@ std::vector<std::string> study_verdict(const StudyResults& results, const StudyA
   return sentences;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::string script_escaped(std::string_view text) {
   return out;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace palmar {
+namespace palmar::report {
 
 /// Text made safe inside HTML, XML and SVG elements and attributes: & < > " ' escaped, control
 /// characters that XML doesn't allow and broken UTF-8 replaced by U+FFFD.
@@ -15,4 +15,4 @@ std::string html_escaped(std::string_view text);
 /// "\u003c!--", which mean the same in strings of JSON and of JavaScript.
 std::string script_escaped(std::string_view text);
 
-}  // namespace palmar
+}  // namespace palmar::report

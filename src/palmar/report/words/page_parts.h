@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace palmar {
+namespace palmar::report {
 
 // Made from apps/workbench when the program is built (embed.cmake).
 
@@ -16,4 +16,4 @@ std::string_view viewer_licence();  ///< of three.js, which goes with it
 std::string_view english_texts();   ///< sentences of reports by key, JSON
 std::string_view german_texts();    ///< the same in German
 
-}  // namespace palmar
+}  // namespace palmar::report

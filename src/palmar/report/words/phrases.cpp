@@ -9,7 +9,7 @@
 #include "palmar/report/words/page_parts.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr int kDeepest = 8;  // places within places
@@ -220,4 +220,4 @@ std::optional<std::string> Phrases::cut(const std::string& english, int depth) c
   return std::nullopt;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -10,7 +10,7 @@
 
 #include "palmar/core/language.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// What lower layers and files say in English ("held by five fingers; the thumb's tip does not
 /// touch"), in the language of a report. The sentences stand in the texts of both languages under
@@ -44,4 +44,4 @@ class Phrases {
   std::vector<Template> templates_;                        ///< most letters first
 };
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -6,7 +6,7 @@
 
 #include "palmar/report/page/page_json.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 const Phrases& german() {
@@ -138,4 +138,4 @@ TEST(Phrases, JsonIsPutIntoTheLanguageButNotItsKeysAndNames) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -9,21 +9,21 @@
 #include <cmath>
 #include <cstdio>
 
-namespace palmar {
+namespace palmar::report {
 
 namespace {
 
-std::string finger_words(Finger finger) {
+std::string finger_words(hand::Finger finger) {
   switch (finger) {
-    case Finger::kThumb:
+    case hand::Finger::kThumb:
       return "thumb";
-    case Finger::kIndex:
+    case hand::Finger::kIndex:
       return "index finger";
-    case Finger::kMiddle:
+    case hand::Finger::kMiddle:
       return "middle finger";
-    case Finger::kRing:
+    case hand::Finger::kRing:
       return "ring finger";
-    case Finger::kLittle:
+    case hand::Finger::kLittle:
       return "little finger";
   }
   return "finger";
@@ -38,67 +38,67 @@ std::string spaced(std::string_view name) {
 
 }  // namespace
 
-std::string plain_words(Segment segment) {
-  const auto finger = finger_of(segment);
+std::string plain_words(hand::Segment segment) {
+  const auto finger = hand::finger_of(segment);
   if (!finger) return "palm";
-  const auto segments = segments_of(*finger);
+  const auto segments = hand::segments_of(*finger);
   if (segments[0] == segment) return finger_words(*finger) + ", base";
-  const bool is_tip = *finger == Finger::kThumb || segments[2] == segment;
+  const bool is_tip = *finger == hand::Finger::kThumb || segments[2] == segment;
   return finger_words(*finger) + (is_tip ? ", tip" : ", middle");
 }
 
-std::string plain_words(Region region) {
+std::string plain_words(hand::Region region) {
   switch (region) {
-    case Region::kDorsum:
+    case hand::Region::kDorsum:
       return "back and sides of hand and fingers";
-    case Region::kThenar:
+    case hand::Region::kThenar:
       return "ball of the thumb (thenar)";
-    case Region::kHypothenar:
+    case hand::Region::kHypothenar:
       return "heel of the hand (hypothenar)";
-    case Region::kCentralPalm:
+    case hand::Region::kCentralPalm:
       return "middle of the palm";
-    case Region::kRadialPalm:
+    case hand::Region::kRadialPalm:
       return "pad below index and middle finger";
-    case Region::kUlnarPalm:
+    case hand::Region::kUlnarPalm:
       return "pad below ring and little finger";
     default:
       break;
   }
-  const auto segment = segment_of(region);
+  const auto segment = hand::segment_of(region);
   return segment ? plain_words(*segment) : spaced(name_of(region));
 }
 
-std::string plain_words(StopReason reason) {
+std::string plain_words(grasp::StopReason reason) {
   switch (reason) {
-    case StopReason::kLimitDepth:
+    case grasp::StopReason::kLimitDepth:
       return "pressed in to the limit depth";
-    case StopReason::kRangeOfMotion:
+    case grasp::StopReason::kRangeOfMotion:
       return "its joint can't bend further";
-    case StopReason::kProximalStop:
+    case grasp::StopReason::kProximalStop:
       return "held back by a joint nearer to the palm";
-    case StopReason::kDistalStop:
+    case grasp::StopReason::kDistalStop:
       return "held back by a segment nearer to the tip";
-    case StopReason::kOtherFinger:
+    case grasp::StopReason::kOtherFinger:
       return "another finger is in the way";
-    case StopReason::kNotReached:
+    case grasp::StopReason::kNotReached:
       return "closed fully without touching the product";
-    case StopReason::kGiven:
+    case grasp::StopReason::kGiven:
       return "where the given posture has it";
   }
   return spaced(name_of(reason));
 }
 
-std::string plain_words(GraspStatus status) {
+std::string plain_words(grasp::GraspStatus status) {
   switch (status) {
-    case GraspStatus::kHeld:
+    case grasp::GraspStatus::kHeld:
       return "Held";
-    case GraspStatus::kPartlyHeld:
+    case grasp::GraspStatus::kPartlyHeld:
       return "Partly held";
-    case GraspStatus::kTooLarge:
+    case grasp::GraspStatus::kTooLarge:
       return "Too large for this hand";
-    case GraspStatus::kTooSmall:
+    case grasp::GraspStatus::kTooSmall:
       return "Too small for this hand";
-    case GraspStatus::kNotGraspable:
+    case grasp::GraspStatus::kNotGraspable:
       return "No place for a power grip";
   }
   return spaced(name_of(status));
@@ -111,7 +111,7 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-std::string plain_words(Dof dof) {
+std::string plain_words(hand::Dof dof) {
   std::string words = spaced(name_of(dof));
   for (const std::string joint : {" mcp ", " pip ", " dip ", " cmc ", " mp ", " ip "}) {
     const auto at = words.find(joint);
@@ -142,4 +142,4 @@ std::string short_number(double value, int significant) {
   return text.data();
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -8,20 +8,20 @@
 #include "palmar/grasp/grasp.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// "index finger, tip", "ball of the thumb (thenar)": a region or segment as a designer calls it.
-std::string plain_words(Region region);
-std::string plain_words(Segment segment);
+std::string plain_words(hand::Region region);
+std::string plain_words(hand::Segment segment);
 
 /// Why a segment stopped, as a clause: "pressed in to the limit depth".
-std::string plain_words(StopReason reason);
+std::string plain_words(grasp::StopReason reason);
 
 /// "Held", "Partly held", "Too large for this hand", ...
-std::string plain_words(GraspStatus status);
+std::string plain_words(grasp::GraspStatus status);
 
 /// "index PIP flexion"
-std::string plain_words(Dof dof);
+std::string plain_words(hand::Dof dof);
 
 /// The text with a capital at the beginning.
 std::string capitalised(std::string text);
@@ -33,4 +33,4 @@ std::string exact_number(double value);
 /// "1230" never: digits before the point are kept, so "1235".
 std::string short_number(double value, int significant = 3);
 
-}  // namespace palmar
+}  // namespace palmar::report

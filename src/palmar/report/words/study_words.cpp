@@ -9,38 +9,38 @@
 #include "palmar/report/words/plain_words.h"
 #include "palmar/study/statistics/study_statistics.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
-std::string with_unit(const std::string& number, const StudyQuantity& quantity) {
+std::string with_unit(const std::string& number, const study::StudyQuantity& quantity) {
   return quantity.unit.empty() ? number : number + " " + quantity.unit;
 }
 
 }  // namespace
 
-std::string plain_words(StudyOutcome outcome) {
+std::string plain_words(study::StudyOutcome outcome) {
   switch (outcome) {
-    case StudyOutcome::kHeld:
+    case study::StudyOutcome::kHeld:
       return "held";
-    case StudyOutcome::kPartlyHeld:
+    case study::StudyOutcome::kPartlyHeld:
       return "partly held";
-    case StudyOutcome::kSlipsOut:
+    case study::StudyOutcome::kSlipsOut:
       return "slips out";
-    case StudyOutcome::kTooLarge:
+    case study::StudyOutcome::kTooLarge:
       return "too large for the hand";
-    case StudyOutcome::kTooSmall:
+    case study::StudyOutcome::kTooSmall:
       return "too small for the hand";
-    case StudyOutcome::kNotGraspable:
+    case study::StudyOutcome::kNotGraspable:
       return "not graspable";
-    case StudyOutcome::kFailed:
+    case study::StudyOutcome::kFailed:
       break;
   }
   return "no answer";
 }
 
 std::string cause_words(const std::string& cause) {
-  for (int k = 0; k < kStudyOutcomes; ++k) {
-    const auto outcome = static_cast<StudyOutcome>(k);
+  for (int k = 0; k < study::kStudyOutcomes; ++k) {
+    const auto outcome = static_cast<study::StudyOutcome>(k);
     if (name_of(outcome) == cause) return plain_words(outcome);
   }
   if (cause == "not_run") return "not run";
@@ -48,12 +48,12 @@ std::string cause_words(const std::string& cause) {
   const std::size_t space = cause.find(' ');
   if (space == std::string::npos) return cause;
   const std::string key = cause.substr(0, space);
-  for (const StudyQuantity& one : hand_quantities()) {
+  for (const study::StudyQuantity& one : study::hand_quantities()) {
     if (one.key != key) continue;
     const bool has_edge = cause.find(" has no value") == std::string::npos;
     return one.name + cause.substr(space) + (has_edge && !one.unit.empty() ? " " + one.unit : "");
   }
-  for (const GraspIndex& one : index_catalogue()) {
+  for (const grasp::GraspIndex& one : study::index_catalogue()) {
     if (one.key == key) return one.name + cause.substr(space);
   }
   return cause;
@@ -63,11 +63,11 @@ std::string counted(int number, const std::string& one) {
   return std::to_string(number) + " " + one + (number == 1 ? "" : "s");
 }
 
-std::string condition_words(const StudyPlan& plan, const StudyCondition& condition) {
-  if (conditions_of(plan).size() < 2) return "";
+std::string condition_words(const study::StudyPlan& plan, const study::StudyCondition& condition) {
+  if (study::conditions_of(plan).size() < 2) return "";
   const std::string title = title_of(plan, condition);
   if (plan.populations.size() > 1) return title;
-  StudyPlan unnamed;  // the population is the same for all: its name takes the room
+  study::StudyPlan unnamed;  // the population is the same for all: its name takes the room
   unnamed.populations.resize(1);
   unnamed.populations.front().population.name = "-";
   unnamed.profiles = plan.profiles;
@@ -77,11 +77,13 @@ std::string condition_words(const StudyPlan& plan, const StudyCondition& conditi
   return words.size() > 3 ? words.substr(3) : title;
 }
 
-std::string grip_force_words(const StudyResults& results, const StudyCondition& condition,
-                             int first, int second) {
-  const std::optional<GripForces> forces = grip_forces(results, condition, first, second);
+std::string grip_force_words(const study::StudyResults& results,
+                             const study::StudyCondition& condition, int first, int second) {
+  const std::optional<study::GripForces> forces =
+      study::grip_forces(results, condition, first, second);
   if (!forces || !forces->are_unequal()) return "";
-  const StudySetting& setting = results.plan.settings[static_cast<std::size_t>(condition.setting)];
+  const study::StudySetting& setting =
+      results.plan.settings[static_cast<std::size_t>(condition.setting)];
   return "They are held at different grip forces (" + short_number(forces->first) + " and " +
          short_number(forces->second) + " N)" +
          (setting.grip_force || setting.strength_share
@@ -89,7 +91,7 @@ std::string grip_force_words(const StudyResults& results, const StudyCondition& 
               : ": compare them in a study at one grip force (grip_force_n).");
 }
 
-std::string grip_force_words(const StudySetting& setting) {
+std::string grip_force_words(const study::StudySetting& setting) {
   if (!setting.is_balanced) return "";
   if (setting.grip_force) return "grip force " + short_number(*setting.grip_force) + " N";
   if (!setting.strength_share) return "as firm as closing to the limit depths";
@@ -97,14 +99,14 @@ std::string grip_force_words(const StudySetting& setting) {
     return "grip force " + short_number(100.0 * *setting.strength_share) +
            " % of the person’s own strength";
   }
-  const ShareOfStrength share = share_of_strength(setting, 0.0);
-  return "grip force " + short_number(share.force(Grip::kMediumWrap)) +
-         " N: " + share.words(Grip::kMediumWrap) + "; a pinch as much of what it reaches";
+  const grasp::ShareOfStrength share = study::share_of_strength(setting, 0.0);
+  return "grip force " + short_number(share.force(grasp::Grip::kMediumWrap)) +
+         " N: " + share.words(grasp::Grip::kMediumWrap) + "; a pinch as much of what it reaches";
 }
 
-std::string grasp_words(const StudyRecord& record) {
+std::string grasp_words(const study::StudyRecord& record) {
   std::string words = capitalised(plain_words(record.outcome));
-  if (is_in_hand(record)) {
+  if (study::is_in_hand(record)) {
     words += "; peak " + short_number(record.peak_pressure_cells) + " MPa on sensor cells, " +
              short_number(record.area) + " mm², " + short_number(record.force) + " N";
   }
@@ -112,8 +114,9 @@ std::string grasp_words(const StudyRecord& record) {
   return words;
 }
 
-std::string hand_words(const StudyPlan& plan, const StudyCondition& condition, int hand) {
-  const StudyHand& one = plan.hands[static_cast<std::size_t>(hand)];
+std::string hand_words(const study::StudyPlan& plan, const study::StudyCondition& condition,
+                       int hand) {
+  const study::StudyHand& one = plan.hands[static_cast<std::size_t>(hand)];
   std::string words = "Hand " + std::to_string(hand + 1);
   const std::string& label = one.sample.label;
   if (!label.empty() && label != std::to_string(hand) && label != std::to_string(hand + 1)) {
@@ -122,14 +125,14 @@ std::string hand_words(const StudyPlan& plan, const StudyCondition& condition, i
   if (plan.populations.size() > 1) {
     words += ", " + plan.populations[static_cast<std::size_t>(one.population)].population.name;
   }
-  const auto length = size_of(plan, condition, hand, kHandLength);
-  const auto round = size_of(plan, condition, hand, kHandCircumference);
+  const auto length = study::size_of(plan, condition, hand, study::kHandLength);
+  const auto round = study::size_of(plan, condition, hand, study::kHandCircumference);
   if (length) words += ": " + short_number(*length) + " mm long";
   if (round) words += std::string(length ? ", " : ": ") + short_number(*round) + " mm round";
   return words;
 }
 
-bool has_percentiles(const QuantitySummary& one) { return one.summary.n >= 5; }
+bool has_percentiles(const study::QuantitySummary& one) { return one.summary.n >= 5; }
 
 std::string p_words(double p) {
   if (p < 0.001) return "p < 0.001";
@@ -138,11 +141,11 @@ std::string p_words(double p) {
   return text;
 }
 
-std::string left_out_words(const StudyPlan& plan, const ProductPair& pair) {
+std::string left_out_words(const study::StudyPlan& plan, const study::ProductPair& pair) {
   std::string words;
   for (const int product : {pair.first, pair.second}) {
     std::string causes;
-    for (const LeftOutHands& one : pair.left_out) {
+    for (const study::LeftOutHands& one : pair.left_out) {
       if (one.product != product) continue;
       causes +=
           (causes.empty() ? "" : ", ") + std::to_string(one.hands) + " " + cause_words(one.cause);
@@ -154,8 +157,8 @@ std::string left_out_words(const StudyPlan& plan, const ProductPair& pair) {
   return words;
 }
 
-std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
-                       const ProductPair& pair) {
+std::string pair_words(const study::StudyPlan& plan, const study::StudyQuantity& quantity,
+                       const study::ProductPair& pair) {
   const bool is_second_lower = pair.mean_second < pair.mean_first;
   const int low_product = is_second_lower ? pair.second : pair.first;
   const int high_product = is_second_lower ? pair.first : pair.second;
@@ -165,10 +168,10 @@ std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
   const double high_mean = is_second_lower ? pair.mean_first : pair.mean_second;
   const std::string hands =
       std::to_string(pair.pairs) + " of " + std::to_string(pair.hands) + " hands hold both";
-  if (pair.verdict == DifferenceVerdict::kTooFewPairs) {
+  if (pair.verdict == study::DifferenceVerdict::kTooFewPairs) {
     return low + " and " + high + " can't be compared: " + hands + ".";
   }
-  if (pair.verdict == DifferenceVerdict::kNone) {
+  if (pair.verdict == study::DifferenceVerdict::kNone) {
     return low + " and " + high + " don't differ in " + quantity.name + " in any hand (" + hands +
            ").";
   }
@@ -180,7 +183,7 @@ std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
   }
   const std::string values =
       short_number(low_mean) + " against " + with_unit(short_number(high_mean), quantity);
-  if (!is_drawn_by_chance(plan)) {
+  if (!study::is_drawn_by_chance(plan)) {
     return low + " has a lower mean of " + quantity.name + " than " + high + ": " + values + share +
            " (" + hands + "; these hands were chosen, not drawn by chance: a test means nothing).";
   }
@@ -193,7 +196,7 @@ std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
   constexpr int kFewest = 6;
   const std::string few =
       pair.pairs < kFewest ? " So few hands prove nothing; 6 or more are needed." : "";
-  if (pair.verdict == DifferenceVerdict::kNotShown) {
+  if (pair.verdict == study::DifferenceVerdict::kNotShown) {
     return "No difference in " + quantity.name + " is shown between " + low + " and " + high +
            ": " + values + " (" + test + ")." + few;
   }
@@ -201,4 +204,4 @@ std::string pair_words(const StudyPlan& plan, const StudyQuantity& quantity,
          test + ")." + few;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

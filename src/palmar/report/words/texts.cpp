@@ -10,7 +10,7 @@
 #include "palmar/report/words/page_parts.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 
 Texts::Texts(Language language) : language_(language) {
   const std::string_view text = language == Language::kGerman ? german_texts() : english_texts();
@@ -60,4 +60,4 @@ std::string Texts::listed(const std::vector<std::string>& words) const {
   return text;
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -9,7 +9,7 @@
 
 #include "palmar/core/language.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// Values for the places of a sentence: {"force", "60"} for "{force}".
 using TextValues = std::map<std::string, std::string>;
@@ -37,4 +37,4 @@ class Texts {
   std::map<std::string, std::string, std::less<>> sentences_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::report

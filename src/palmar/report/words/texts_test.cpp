@@ -15,7 +15,7 @@
 #include "palmar/report/words/page_parts.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using nlohmann::json;
@@ -39,8 +39,8 @@ TEST(Texts, BothLanguagesSayTheSameThings) {
 
 TEST(Texts, RegionsHaveTheirWordsInBoth) {
   const Texts english(Language::kEnglish), german(Language::kGerman);
-  for (int r = 0; r < kRegionCount; ++r) {
-    const auto region = static_cast<Region>(r);
+  for (int r = 0; r < hand::kRegionCount; ++r) {
+    const auto region = static_cast<hand::Region>(r);
     const std::string name(name_of(region));
     EXPECT_EQ(english("region." + name), plain_words(region));
     EXPECT_TRUE(german.has("region_at." + name)) << name;
@@ -80,4 +80,4 @@ TEST(Language, IsNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -12,23 +12,23 @@
 #include "palmar/report/words/plain_words.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 constexpr double kNoBlood = 0.01;    // of the touched skin; less isn't spoken of: our choice
 constexpr double kSafeForce = 0.95;  // of what the weaker hold reaches: a force that it keeps
 constexpr int kHandsToAsk = 12;      // enough for a sign: 6 pairs are the fewest that show anything
 
-std::string at_words(Region region, const Texts& texts) {
+std::string at_words(hand::Region region, const Texts& texts) {
   return texts("region_at." + std::string(name_of(region)));
 }
 
 std::string with_capital(std::string text) { return capitalised(std::move(text)); }
 
 /// Why a product isn't held firmly, as a clause.
-std::string why_not_held(const Assessment& assessment, const Texts& texts) {
+std::string why_not_held(const study::Assessment& assessment, const Texts& texts) {
   std::vector<std::string> clauses;
-  for (const HoldDoubt& doubt : doubts_of(assessment)) {
+  for (const study::HoldDoubt& doubt : study::doubts_of(assessment)) {
     clauses.push_back(
         texts("doubt." + doubt.key, {{"words", Phrases(texts.language())(doubt.words)}}));
   }
@@ -38,13 +38,14 @@ std::string why_not_held(const Assessment& assessment, const Texts& texts) {
   return texts.listed(clauses);
 }
 
-std::string hardest_words(const AssessedProduct& product, const HardestPlace& place,
+std::string hardest_words(const study::AssessedProduct& product, const study::HardestPlace& place,
                           const Texts& texts) {
   std::string words = texts("hardest.sentence", {{"at", at_words(place.region, texts)},
                                                  {"pressure", texts.number(place.pressure, 2)}});
   if (place.face && product.product.faces != nullptr) {
-    const ProductFace& face = product.product.faces->face[*place.face];
-    words += " " + texts("hardest.face", {{"face", Phrases(texts.language())(title_of(face))}});
+    const product::ProductFace& face = product.product.faces->face[*place.face];
+    words +=
+        " " + texts("hardest.face", {{"face", Phrases(texts.language())(product::title_of(face))}});
   } else if (place.on_product) {
     const Vec3& p = *place.on_product;
     words += " " + texts("hardest.place", {{"x", texts.number(std::round(p.x()), 1)},
@@ -55,24 +56,25 @@ std::string hardest_words(const AssessedProduct& product, const HardestPlace& pl
 }
 
 /// Whether the place that presses hardest is on edges that the skin's mesh doesn't resolve.
-bool is_hardest_unresolved(const AssessedProduct& product, const ProductVerdict& verdict) {
-  if (!verdict.hardest || is_resolved(product.assessment.contact)) return false;
-  for (const RegionContact& region : product.assessment.contact.regions) {
+bool is_hardest_unresolved(const study::AssessedProduct& product,
+                           const study::ProductVerdict& verdict) {
+  if (!verdict.hardest || contact::is_resolved(product.assessment.contact)) return false;
+  for (const contact::RegionContact& region : product.assessment.contact.regions) {
     if (region.region == verdict.hardest->region) {
-      return region.unresolved_force > kToldShare * region.force;
+      return region.unresolved_force > contact::kToldShare * region.force;
     }
   }
   return false;
 }
 
-std::string strength_words(const ProductVerdict& verdict, const Texts& texts) {
+std::string strength_words(const study::ProductVerdict& verdict, const Texts& texts) {
   std::string words;
   if (verdict.strength) {
-    const StrengthUse& use = *verdict.strength;
+    const study::StrengthUse& use = *verdict.strength;
     std::string whose = use.whose;
     if (whose.empty()) whose = texts("strength.nobody", {{"strength", texts.number(use.reached)}});
-    if (whose == usual_people()) {
-      whose = texts("strength.usual", {{"age", texts.number(kUsualAge, 2)}});
+    if (whose == grasp::usual_people()) {
+      whose = texts("strength.usual", {{"age", texts.number(grasp::kUsualAge, 2)}});
     } else {
       whose = Phrases(texts.language())(whose);
     }
@@ -91,7 +93,7 @@ std::string strength_words(const ProductVerdict& verdict, const Texts& texts) {
                     {"whose", whose}});
   }
   if (verdict.asked && verdict.grip_force > 0.0 &&
-      !are_equally_firm(verdict.grip_force, *verdict.asked)) {
+      !study::are_equally_firm(verdict.grip_force, *verdict.asked)) {
     words += (words.empty() ? "" : " ") +
              texts("strength.not_reached", {{"force", texts.number(verdict.grip_force, 2)},
                                             {"asked", texts.number(*verdict.asked, 2)}});
@@ -99,16 +101,16 @@ std::string strength_words(const ProductVerdict& verdict, const Texts& texts) {
   return words;
 }
 
-ProductWords product_words(const AssessedProduct& product, const ProductVerdict& verdict,
-                           const Texts& texts) {
-  ProductWords words;
+records::ProductWords product_words(const study::AssessedProduct& product,
+                                    const study::ProductVerdict& verdict, const Texts& texts) {
+  records::ProductWords words;
   words.comfort = with_capital(comfort_words(verdict.comfort, texts));
   words.strength = strength_words(verdict, texts);
   if (verdict.hardest) words.hardest = hardest_words(product, *verdict.hardest, texts);
   const std::string& name = product.product.name;
   switch (verdict.held) {
-    case HeldVerdict::kHeld:
-      if (product.assessment.grasp.grip == Grip::kFixedHook) {
+    case study::HeldVerdict::kHeld:
+      if (product.assessment.grasp.grip == grasp::Grip::kFixedHook) {
         words.held = texts("verdict.one.carried",
                            {{"product", name}, {"comfort", comfort_words(verdict.comfort, texts)}});
         break;
@@ -117,11 +119,11 @@ ProductWords product_words(const AssessedProduct& product, const ProductVerdict&
                                               {"force", texts.number(verdict.grip_force, 2)},
                                               {"comfort", comfort_words(verdict.comfort, texts)}});
       break;
-    case HeldVerdict::kDoubtful:
+    case study::HeldVerdict::kDoubtful:
       words.held = texts("verdict.one.doubtful",
                          {{"product", name}, {"why", why_not_held(product.assessment, texts)}});
       break;
-    case HeldVerdict::kNotHeld:
+    case study::HeldVerdict::kNotHeld:
       words.held = texts("verdict.one.not_held",
                          {{"product", name}, {"why", why_not_held(product.assessment, texts)}});
       break;
@@ -167,10 +169,10 @@ std::string task_options(const std::string& command_line) {
 
 class SetSpeaker {
  public:
-  SetSpeaker(const AssessmentSet& set, const SetVerdict& verdict, const Texts& texts)
+  SetSpeaker(const study::AssessmentSet& set, const study::SetVerdict& verdict, const Texts& texts)
       : set_(set), verdict_(verdict), texts_(texts) {}
 
-  VerdictWords speak() {
+  records::VerdictWords speak() {
     for (std::size_t i = 0; i < set_.assessments.size(); ++i) {
       words_.products.push_back(product_words(set_.assessments[i], verdict_.products[i], texts_));
     }
@@ -196,9 +198,9 @@ class SetSpeaker {
     words_.command = command;
   }
 
-  std::vector<const Product*> all_products() const {
-    std::vector<const Product*> products;
-    for (const AssessedProduct& one : set_.assessments) products.push_back(&one.product);
+  std::vector<const product::Product*> all_products() const {
+    std::vector<const product::Product*> products;
+    for (const study::AssessedProduct& one : set_.assessments) products.push_back(&one.product);
     return products;
   }
 
@@ -210,7 +212,7 @@ class SetSpeaker {
   }
 
   void try_other_hold(int i) {
-    const AssessedProduct& one = set_.assessments[i];
+    const study::AssessedProduct& one = set_.assessments[i];
     const std::string product = product_arguments({&one.product});
     if (product.empty() || one.ways == nullptr) return;
     const auto rank = static_cast<std::size_t>(one.ways->taken);
@@ -219,7 +221,7 @@ class SetSpeaker {
   }
 
   /// What a measurement is laid beside the simulation for.
-  void add_measured(const PressureComparison& beside) {
+  void add_measured(const study::PressureComparison& beside) {
     constexpr double kKiloPascal = 1000.0;  // of an MPa
     words_.reasons.push_back(texts_(
         "reason.measured", {{"source", beside.source},
@@ -232,9 +234,9 @@ class SetSpeaker {
   }
 
   void speak_of_one() {
-    const AssessedProduct& one = set_.assessments.front();
-    const ProductVerdict& verdict = verdict_.products.front();
-    const ProductWords& words = words_.products.front();
+    const study::AssessedProduct& one = set_.assessments.front();
+    const study::ProductVerdict& verdict = verdict_.products.front();
+    const records::ProductWords& words = words_.products.front();
     words_.sentence = words.held;
     if (one.assessment.measured) add_measured(*one.assessment.measured);
     if (one.ways && !one.ways->why_taken.empty()) {
@@ -243,16 +245,18 @@ class SetSpeaker {
     }
     if (!words.hardest.empty()) words_.reasons.push_back(words.hardest);
     if (!words.strength.empty()) words_.reasons.push_back(words.strength);
-    if (verdict.held != HeldVerdict::kHeld) {
+    if (verdict.held != study::HeldVerdict::kHeld) {
       try_other_hold(0);
       return;
     }
     const bool is_uncomfortable =
-        verdict.comfort.discomfort && level_of(*verdict.comfort.discomfort) == OnsetLevel::kAbove;
+        verdict.comfort.discomfort &&
+        grasp::level_of(*verdict.comfort.discomfort) == grasp::OnsetLevel::kAbove;
     const std::string product = product_arguments({&one.product});
     if (!is_uncomfortable || product.empty()) {
       ask_other_hands("study_one");
-    } else if (one.product.unit_source == UnitSource::kFile && one.product.faces != nullptr) {
+    } else if (one.product.unit_source == product::UnitSource::kFile &&
+               one.product.faces != nullptr) {
       next("fillet", "palmar redesign fillet " + product + " --hands " +
                          std::to_string(kHandsToAsk) + " --out fillet");
     } else {
@@ -261,39 +265,40 @@ class SetSpeaker {
     }
   }
 
-  std::string pair_sentence(const ProductComparison& pair) const {
+  std::string pair_sentence(const study::ProductComparison& pair) const {
     const TextValues names = {{"better", name(pair.better)}, {"worse", name(pair.worse)}};
     TextValues values = names;
     values["force"] = force(pair.better);
     values["percent"] = texts_.percent(pair.peak_change);
     switch (pair.verdict) {
-      case PairVerdict::kLower:
+      case study::PairVerdict::kLower:
         values["area"] = area_words(pair.area_change, texts_);
         return texts_("verdict.lower", values);
-      case PairVerdict::kSame:
-        values["limit"] = texts_.percent(kToldApart);
+      case study::PairVerdict::kSame:
+        values["limit"] = texts_.percent(grasp::kToldApart);
         return texts_("verdict.same", values);
-      case PairVerdict::kDependsOnSkin:
+      case study::PairVerdict::kDependsOnSkin:
         return texts_("verdict.depends_on_skin", values);
-      case PairVerdict::kUnequalForce:
+      case study::PairVerdict::kUnequalForce:
         values["better_force"] = force(pair.better);
         values["worse_force"] = force(pair.worse);
         return texts_("verdict.unequal_force", values);
-      case PairVerdict::kOnlyOneHeld:
-      case PairVerdict::kNoneHeld:
+      case study::PairVerdict::kOnlyOneHeld:
+      case study::PairVerdict::kNoneHeld:
         break;
     }
     values["why"] = why_not_held(set_.assessments[pair.worse].assessment, texts_);
     values["worse_name"] = name(pair.worse);
-    return texts_(
-        pair.verdict == PairVerdict::kOnlyOneHeld ? "verdict.only_one_held" : "verdict.none_held",
-        values);
+    return texts_(pair.verdict == study::PairVerdict::kOnlyOneHeld ? "verdict.only_one_held"
+                                                                   : "verdict.none_held",
+                  values);
   }
 
   /// The comparison that decides: of several the one that stands in the way of an answer.
-  const ProductComparison& deciding() const {
-    for (const ProductComparison& one : verdict_.comparisons) {
-      if (one.verdict != PairVerdict::kLower && one.verdict != PairVerdict::kOnlyOneHeld) {
+  const study::ProductComparison& deciding() const {
+    for (const study::ProductComparison& one : verdict_.comparisons) {
+      if (one.verdict != study::PairVerdict::kLower &&
+          one.verdict != study::PairVerdict::kOnlyOneHeld) {
         return one;
       }
     }
@@ -301,13 +306,13 @@ class SetSpeaker {
   }
 
   void speak_of_several() {
-    const ProductComparison& pair = deciding();
+    const study::ProductComparison& pair = deciding();
     if (verdict_.comparisons.size() == 1) {
       words_.sentence = pair_sentence(pair);
     } else if (verdict_.best) {
       std::vector<std::string> list;
-      for (const ProductComparison& one : verdict_.comparisons) {
-        const bool is_held = one.verdict == PairVerdict::kLower;
+      for (const study::ProductComparison& one : verdict_.comparisons) {
+        const bool is_held = one.verdict == study::PairVerdict::kLower;
         TextValues values = {{"worse", name(one.worse)}};
         if (is_held) values["percent"] = texts_.percent(one.peak_change);
         list.push_back(
@@ -321,7 +326,7 @@ class SetSpeaker {
     } else {
       words_.sentence = texts_("verdict.no_best", {{"first", pair_sentence(pair)}});
     }
-    if (pair.verdict == PairVerdict::kLower) {
+    if (pair.verdict == study::PairVerdict::kLower) {
       if (pair.peak_change_soft && pair.peak_change_stiff) {
         const auto signed_percent = [&](double change) {
           return std::string(change < 0.0 ? "−" : "+") + texts_.percent(change);
@@ -334,32 +339,34 @@ class SetSpeaker {
       }
       add_unresolved(pair);
     }
-    const ProductWords& better = words_.products[pair.better];
-    if (!better.comfort.empty() && verdict_.products[pair.better].held != HeldVerdict::kNotHeld) {
-      const ComfortResult& comfort = verdict_.products[pair.better].comfort;
+    const records::ProductWords& better = words_.products[pair.better];
+    if (!better.comfort.empty() &&
+        verdict_.products[pair.better].held != study::HeldVerdict::kNotHeld) {
+      const grasp::ComfortResult& comfort = verdict_.products[pair.better].comfort;
       words_.reasons.push_back(name(pair.better) + ": " + comfort_words(comfort, texts_));
     }
     for (const int i : {pair.worse, pair.better}) {
-      const ProductVerdict& one = verdict_.products[i];
-      if (one.asked && one.grip_force > 0.0 && !are_equally_firm(one.grip_force, *one.asked)) {
+      const study::ProductVerdict& one = verdict_.products[i];
+      if (one.asked && one.grip_force > 0.0 &&
+          !study::are_equally_firm(one.grip_force, *one.asked)) {
         words_.reasons.push_back(
             name(i) + ": " +
             texts_("strength.not_reached", {{"force", texts_.number(one.grip_force, 2)},
                                             {"asked", texts_.number(*one.asked, 2)}}));
       }
     }
-    if (pair.verdict == PairVerdict::kUnequalForce) {
+    if (pair.verdict == study::PairVerdict::kUnequalForce) {
       compare_at_equal_force();
-    } else if (pair.verdict == PairVerdict::kOnlyOneHeld ||
-               pair.verdict == PairVerdict::kNoneHeld) {
+    } else if (pair.verdict == study::PairVerdict::kOnlyOneHeld ||
+               pair.verdict == study::PairVerdict::kNoneHeld) {
       try_other_hold(pair.worse);
     } else {
-      ask_other_hands(pair.verdict == PairVerdict::kLower ? "study" : "more_hands");
+      ask_other_hands(pair.verdict == study::PairVerdict::kLower ? "study" : "more_hands");
     }
   }
 
   /// Whose highest pressure hangs on edges sharper than the mesh.
-  void add_unresolved(const ProductComparison& pair) {
+  void add_unresolved(const study::ProductComparison& pair) {
     std::vector<std::string> names;
     for (const int i : {pair.worse, pair.better}) {
       if (is_hardest_unresolved(set_.assessments[i], verdict_.products[i])) {
@@ -372,11 +379,11 @@ class SetSpeaker {
 
   void compare_at_equal_force() {
     double least = 0.0;
-    for (const ProductVerdict& one : verdict_.products) {
-      if (one.held != HeldVerdict::kHeld) continue;
+    for (const study::ProductVerdict& one : verdict_.products) {
+      if (one.held != study::HeldVerdict::kHeld) continue;
       // Hooked fingers carry: no force can be asked of them.
       const auto number = static_cast<std::size_t>(&one - verdict_.products.data());
-      if (set_.assessments[number].assessment.grasp.grip == Grip::kFixedHook) return;
+      if (set_.assessments[number].assessment.grasp.grip == grasp::Grip::kFixedHook) return;
       least = least > 0.0 ? std::min(least, one.grip_force) : one.grip_force;
     }
     const double force = std::floor(kSafeForce * least);
@@ -393,26 +400,28 @@ class SetSpeaker {
                                         added));
   }
 
-  const AssessmentSet& set_;
-  const SetVerdict& verdict_;
+  const study::AssessmentSet& set_;
+  const study::SetVerdict& verdict_;
   const Texts& texts_;
-  VerdictWords words_;
+  records::VerdictWords words_;
 };
 
 }  // namespace
 
 std::string area_words(double change, const Texts& texts) {
-  if (std::abs(change) < kToldApart) return texts("verdict.area.same");
+  if (std::abs(change) < grasp::kToldApart) return texts("verdict.area.same");
   return texts(change > 0.0 ? "verdict.area.more" : "verdict.area.less",
                {{"percent", texts.percent(change)}});
 }
 
-std::string comfort_words(const ComfortResult& comfort, const Texts& texts) {
+std::string comfort_words(const grasp::ComfortResult& comfort, const Texts& texts) {
   if (!comfort.pain || !comfort.discomfort) return texts("comfort.none");
-  const auto level = [](const WorstRegion& worst) { return std::string(name_of(level_of(worst))); };
+  const auto level = [](const grasp::WorstRegion& worst) {
+    return std::string(name_of(grasp::level_of(worst)));
+  };
   const std::string count = std::to_string(comfort.regions.size());
-  const WorstRegion& pain = *comfort.pain;
-  const WorstRegion& discomfort = *comfort.discomfort;
+  const grasp::WorstRegion& pain = *comfort.pain;
+  const grasp::WorstRegion& discomfort = *comfort.discomfort;
   const std::string where =
       texts(discomfort.above == 1 ? "comfort.repeated.one" : "comfort.repeated.many",
             {{"above", std::to_string(discomfort.above)}, {"count", count}});
@@ -443,20 +452,21 @@ std::string changed_command(const std::string& command_line,
   return added.empty() ? line : line + " " + added;
 }
 
-std::string product_arguments(const std::vector<const Product*>& products,
+std::string product_arguments(const std::vector<const product::Product*>& products,
                               const std::string& option) {
   std::string line, unit;
-  for (const Product* product : products) {
-    if (product->unit_source == UnitSource::kMade || product->source.empty()) return "";
+  for (const product::Product* product : products) {
+    if (product->unit_source == product::UnitSource::kMade || product->source.empty()) return "";
     line += (line.empty() ? "" : " ") + option + shell_word(product->source);
-    if (product->unit_source != UnitSource::kFile) unit = name_of(product->unit);
+    if (product->unit_source != product::UnitSource::kFile) unit = name_of(product->unit);
   }
   return unit.empty() ? line : line + " --unit " + unit;
 }
 
-VerdictWords verdict_words(const AssessmentSet& set, const SetVerdict& verdict, Language language) {
+records::VerdictWords verdict_words(const study::AssessmentSet& set,
+                                    const study::SetVerdict& verdict, Language language) {
   const Texts texts(language);
   return SetSpeaker(set, verdict, texts).speak();
 }
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -9,16 +9,17 @@
 #include "palmar/report/words/texts.h"
 #include "palmar/study/assessment/verdict.h"
 
-namespace palmar {
+namespace palmar::report {
 
 /// An assessment in words: the answer first ("B presses 27 % less than A at its hardest place, in
 /// the same grip of 60 N"), why, and one thing to do next with the command for it. The same words
 /// stand in the report, in assessment.json and on standard output.
-VerdictWords verdict_words(const AssessmentSet& set, const SetVerdict& verdict, Language language);
+records::VerdictWords verdict_words(const study::AssessmentSet& set,
+                                    const study::SetVerdict& verdict, Language language);
 
 /// "a moment of this grip doesn't hurt; repeated, it becomes uncomfortable in 9 of 18 regions, ...;
 /// held for minutes ...": the three questions of comfort in one sentence.
-std::string comfort_words(const ComfortResult& comfort, const Texts& texts);
+std::string comfort_words(const grasp::ComfortResult& comfort, const Texts& texts);
 
 /// A command line with options taken out ("--grip-force-n" with its value) and others put at the
 /// end.
@@ -27,10 +28,10 @@ std::string changed_command(const std::string& command_line,
 
 /// "a.stl b.stl --unit mm": products as commands take them; empty if one of them is no file.
 /// `option` stands before each ("--product ").
-std::string product_arguments(const std::vector<const Product*>& products,
+std::string product_arguments(const std::vector<const product::Product*>& products,
                               const std::string& option = "");
 
 /// "27 % larger", "about the same": how an area differs.
 std::string area_words(double change, const Texts& texts);
 
-}  // namespace palmar
+}  // namespace palmar::report

@@ -5,18 +5,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace palmar {
+namespace palmar::report {
 namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-ComfortResult comfort_with(double peak, double share_without_blood) {
-  ComfortResult comfort;
+grasp::ComfortResult comfort_with(double peak, double share_without_blood) {
+  grasp::ComfortResult comfort;
   comfort.regions.resize(2);
-  comfort.pain = WorstRegion{Region::kRingDistal, peak, 0.496, peak > 0.496 ? 1 : 0};
-  comfort.discomfort = WorstRegion{Region::kRingDistal, peak, 0.188, peak > 0.188 ? 1 : 0};
+  comfort.pain = grasp::WorstRegion{hand::Region::kRingDistal, peak, 0.496, peak > 0.496 ? 1 : 0};
+  comfort.discomfort =
+      grasp::WorstRegion{hand::Region::kRingDistal, peak, 0.188, peak > 0.188 ? 1 : 0};
   comfort.sustained_share = share_without_blood;
   return comfort;
 }
@@ -41,17 +42,18 @@ TEST(ComfortWords, SpeakGerman) {
   EXPECT_THAT(words, Not(HasSubstr("grip")));
 }
 
-AssessedProduct held(const std::string& name, double grip_force, double peak) {
-  AssessedProduct one;
+study::AssessedProduct held(const std::string& name, double grip_force, double peak) {
+  study::AssessedProduct one;
   one.product.name = name;
   one.product.source = name + ".stl";
-  one.product.unit_source = UnitSource::kUser;
-  Assessment& assessment = one.assessment;
-  assessment.grasp.status = GraspStatus::kHeld;
-  assessment.balance.status = BalanceStatus::kBalanced;
+  one.product.unit_source = product::UnitSource::kUser;
+  study::Assessment& assessment = one.assessment;
+  assessment.grasp.status = grasp::GraspStatus::kHeld;
+  assessment.balance.status = grasp::BalanceStatus::kBalanced;
   assessment.balance.grip_force = grip_force;
-  for (const Region region : {Region::kThumbDistal, Region::kIndexDistal, Region::kMiddleDistal}) {
-    RegionContact contact;
+  for (const hand::Region region :
+       {hand::Region::kThumbDistal, hand::Region::kIndexDistal, hand::Region::kMiddleDistal}) {
+    contact::RegionContact contact;
     contact.region = region;
     contact.peak_pressure_cells = peak;
     assessment.contact.regions.push_back(contact);
@@ -61,14 +63,16 @@ AssessedProduct held(const std::string& name, double grip_force, double peak) {
   return one;
 }
 
-VerdictWords words_of(std::vector<AssessedProduct> products, const std::string& line = "") {
-  const AssessmentSet set{
-      .hand = std::make_shared<Hand>(), .assessments = std::move(products), .command_line = line};
-  return verdict_words(set, verdict_of(set), Language::kEnglish);
+records::VerdictWords words_of(std::vector<study::AssessedProduct> products,
+                               const std::string& line = "") {
+  const study::AssessmentSet set{.hand = std::make_shared<hand::Hand>(),
+                                 .assessments = std::move(products),
+                                 .command_line = line};
+  return verdict_words(set, study::verdict_of(set), Language::kEnglish);
 }
 
 TEST(VerdictWords, TheAnswerNamesProductsAmountAndForce) {
-  const VerdictWords words = words_of({held("A", 60, 0.40), held("B", 60, 0.292)});
+  const records::VerdictWords words = words_of({held("A", 60, 0.40), held("B", 60, 0.292)});
   EXPECT_EQ(words.sentence,
             "B presses 27 % less than A at its hardest place, in the same grip of 60 N; its "
             "contact area is about the same.");
@@ -78,7 +82,7 @@ TEST(VerdictWords, TheAnswerNamesProductsAmountAndForce) {
 }
 
 TEST(VerdictWords, TheNextCommandAsksForTheSameTask) {
-  const VerdictWords words =
+  const records::VerdictWords words =
       words_of({held("A", 60, 0.40), held("B", 60, 0.292)},
                "palmar assess A.stl B.stl --unit mm --grip-force-n 60 --left --mass-kg=0.4");
   EXPECT_EQ(words.command,
@@ -87,15 +91,15 @@ TEST(VerdictWords, TheNextCommandAsksForTheSameTask) {
 }
 
 TEST(VerdictWords, AHardestPlaceOnAnUnresolvedEdgeIsTold) {
-  std::vector<AssessedProduct> products = {held("A", 60, 0.40), held("B", 60, 0.292)};
-  for (RegionContact& region : products[0].assessment.contact.regions) {
+  std::vector<study::AssessedProduct> products = {held("A", 60, 0.40), held("B", 60, 0.292)};
+  for (contact::RegionContact& region : products[0].assessment.contact.regions) {
     region.force = 10.0;
     region.unresolved_force = 5.0;
   }
   EXPECT_THAT(words_of(products).reasons,
               Contains("The hardest place of A is on edges sharper than the mesh of the skin: its "
                        "pressure may be off by 40 %, and so may this difference."));
-  for (RegionContact& region : products[0].assessment.contact.regions) {
+  for (contact::RegionContact& region : products[0].assessment.contact.regions) {
     region.unresolved_force = 1.0;
   }
   EXPECT_THAT(words_of(products).reasons, Not(Contains(HasSubstr("edges sharper"))));
@@ -104,7 +108,7 @@ TEST(VerdictWords, AHardestPlaceOnAnUnresolvedEdgeIsTold) {
 TEST(VerdictWords, NoDifferenceSaysWhy) {
   EXPECT_THAT(words_of({held("A", 60, 0.40), held("B", 60, 0.39)}).sentence,
               HasSubstr("No difference that matters: in the same grip of 60 N"));
-  const VerdictWords unequal =
+  const records::VerdictWords unequal =
       words_of({held("A", 107, 0.40), held("B", 86.2, 0.3)},
                "palmar assess A.stl B.stl --unit mm --strength-share 0.3 --person male,30 --out x");
   EXPECT_EQ(unequal.sentence,
@@ -114,8 +118,8 @@ TEST(VerdictWords, NoDifferenceSaysWhy) {
 }
 
 TEST(VerdictWords, WhatIsNotHeldSaysWhy) {
-  std::vector<AssessedProduct> two = {held("A", 60, 0.40), held("B", 60, 0.2)};
-  two[1].assessment.balance.status = BalanceStatus::kSlipsOut;
+  std::vector<study::AssessedProduct> two = {held("A", 60, 0.40), held("B", 60, 0.2)};
+  two[1].assessment.balance.status = grasp::BalanceStatus::kSlipsOut;
   EXPECT_EQ(words_of(two).sentence, "A is held firmly; B is not: it slips out of the hand.");
 }
 
@@ -127,7 +131,7 @@ TEST(VerdictWords, OfThreeTheBestIsNamedOrNone) {
 }
 
 TEST(VerdictWords, OneProductIsJudgedByItself) {
-  const VerdictWords words = words_of({held("A", 60, 0.3)});
+  const records::VerdictWords words = words_of({held("A", 60, 0.3)});
   EXPECT_THAT(words.sentence, HasSubstr("A is held with 60 N: a moment of this grip comes near"));
   EXPECT_EQ(words.command, "palmar redesign press A.stl --unit mm --hands 12 --out pressed");
   EXPECT_EQ(words_of({held("A", 60, 0.01)}).command,
@@ -143,4 +147,4 @@ TEST(ChangedCommand, KeepsWhatIsQuoted) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::report

@@ -11,7 +11,7 @@
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/study/assessment/held_torque.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 class Stopwatch {
@@ -25,10 +25,10 @@ class Stopwatch {
 };
 
 /// A clause about what would hold a product that the precision grip asked for doesn't.
-std::string other_grip_words(const PreparedHand& hand, const Product& product,
+std::string other_grip_words(const contact::PreparedHand& hand, const product::Product& product,
                              const AssessOptions& options, const Progress& progress) {
   progress.update(0.55, "looking for a grip that would do");
-  const std::optional<Grip> other = other_grip_that_holds(
+  const std::optional<grasp::Grip> other = grasp::other_grip_that_holds(
       hand, product, options.grasp, options.balance, options.contact, progress);
   return other ? "; " + std::string(name_of(*other)) + " would hold it"
                : "; no other grip holds it either";
@@ -38,11 +38,12 @@ std::string other_grip_words(const PreparedHand& hand, const Product& product,
 
 double grip_force_of(const AssessedProduct& one) {
   if (one.product.distance == nullptr) return one.assessment.balance.grip_force;
-  return grip_force(one.assessment.contact, *one.product.distance).force;
+  return grasp::grip_force(one.assessment.contact, *one.product.distance).force;
 }
 
-Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
-                    const AssessOptions& options, const Progress& progress, Balance balance) {
+Assessment evaluate(const contact::PreparedHand& hand, const product::Product& product,
+                    const grasp::Grasp& grasp, const AssessOptions& options,
+                    const Progress& progress, grasp::Balance balance) {
   options.contact.check();
   options.friction.check();
 
@@ -54,16 +55,17 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
 
   progress.update(0.6, "solving the contact");
   const Stopwatch contact_watch;
-  result.posed_skin = pose_skin(hand.hand(), result.grasp.posture);
-  result.contact = solve_hand_contact(hand, result.posed_skin, result.grasp.product_from_hand,
-                                      *product.distance, options.contact);
+  result.posed_skin = hand::pose_skin(hand.hand(), result.grasp.posture);
+  result.contact = contact::solve_hand_contact(
+      hand, result.posed_skin, result.grasp.product_from_hand, *product.distance, options.contact);
   result.times.contact = contact_watch.seconds();
 
   if (options.friction.is_on()) {
     progress.update(0.8, "balancing the load by friction");
     const Stopwatch friction_watch;
-    result.friction = solve_friction(hand, result.contact, *product.distance,
-                                     centre_of_volume(product.mesh), options.friction);
+    result.friction =
+        contact::solve_friction(hand, result.contact, *product.distance,
+                                geometry::centre_of_volume(product.mesh), options.friction);
     result.times.friction = friction_watch.seconds();
   }
 
@@ -75,13 +77,14 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
   // One coefficient in one run.
   indices.stability.reduction.friction =
       options.friction.is_on() ? options.friction.coefficient : options.balance.friction;
-  const ProductLoad& load = options.friction.is_on() ? options.friction.load : options.balance.load;
+  const contact::ProductLoad& load =
+      options.friction.is_on() ? options.friction.load : options.balance.load;
   if (load.weight > 0.0 || !load.force.isZero(0.0) || !load.torque.isZero(0.0)) {
     indices.stability.load = load;
   }
   result.indices = grasp_indices(
       hand.hand(), product, {result.grasp, result.balance, result.contact, result.posed_skin},
-      load.mass_centre.value_or(centre_of_volume(product.mesh)), indices);
+      load.mass_centre.value_or(geometry::centre_of_volume(product.mesh)), indices);
   if (indices.is_on && indices.torque && result.contact.total.force > 0.0) {
     result.indices.push_back(held_torque_index(held_torque(
         hand, result.contact, *product.distance, {.axis = grasp.grip_axis, .at = grasp.grip_point},
@@ -90,12 +93,12 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
   result.times.indices = index_watch.seconds();
 
   // Where pressure is told place by place, of the refined skin, if it was refined.
-  const RefinedContact* refined = result.contact.refined.get();
-  const Hand& skin_of = refined != nullptr ? *refined->hand : hand.hand();
-  const ContactResult& contact = refined != nullptr ? refined->contact : result.contact;
+  const contact::RefinedContact* refined = result.contact.refined.get();
+  const hand::Hand& skin_of = refined != nullptr ? *refined->hand : hand.hand();
+  const contact::ContactResult& contact = refined != nullptr ? refined->contact : result.contact;
   if (options.footprint) {
     progress.update(0.9, "mapping the pressure to the product");
-    result.footprint = map_to_product(skin_of, contact, product.mesh);
+    result.footprint = contact::map_to_product(skin_of, contact, product.mesh);
     result.faces = face_contacts(result.footprint, product);
   }
   if (options.sensors && contact.total.force > 0.0) {
@@ -106,8 +109,9 @@ Assessment evaluate(const PreparedHand& hand, const Product& product, const Gras
   return result;
 }
 
-Assessment assess(const PreparedHand& hand, const Product& product, const AssessOptions& options,
-                  const Progress& progress, const std::function<Grasp(const Progress&)>& hold) {
+Assessment assess(const contact::PreparedHand& hand, const product::Product& product,
+                  const AssessOptions& options, const Progress& progress,
+                  const std::function<grasp::Grasp(const Progress&)>& hold) {
   options.grasp.check();
   options.balance.check();
   options.contact.check();
@@ -115,28 +119,30 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
 
   progress.update(0.0, "closing the hand");
   const Stopwatch watch;
-  Grasp grasp = hold ? hold(progress) : find_grasp(hand.hand(), product, options.grasp, progress);
+  grasp::Grasp grasp =
+      hold ? hold(progress) : grasp::find_grasp(hand.hand(), product, options.grasp, progress);
   const double seconds = watch.seconds();
   progress.update(0.5, "letting the grasp come to rest");
   const Stopwatch balance_watch;
   const bool is_held =
-      grasp.status == GraspStatus::kHeld || grasp.status == GraspStatus::kPartlyHeld;
-  Balance balance;
+      grasp.status == grasp::GraspStatus::kHeld || grasp.status == grasp::GraspStatus::kPartlyHeld;
+  grasp::Balance balance;
   Progress stoppable = progress;
   stoppable.report = nullptr;  // its share is not that of the whole
   if (is_held) {
-    balance = balance_grasp(hand, product, grasp, options.balance, options.contact, stoppable);
+    balance =
+        grasp::balance_grasp(hand, product, grasp, options.balance, options.contact, stoppable);
   }
   const double balance_seconds = balance_watch.seconds();
-  if (balance.status == BalanceStatus::kSlipsOut) {
-    grasp.status = GraspStatus::kPartlyHeld;
+  if (balance.status == grasp::BalanceStatus::kSlipsOut) {
+    grasp.status = grasp::GraspStatus::kPartlyHeld;
     grasp.message += "; but it " + balance.message;
   }
-  const bool is_at_rest = balance.status == BalanceStatus::kBalanced ||
-                          balance.status == BalanceStatus::kOff ||
-                          balance.status == BalanceStatus::kSupported;
-  if (options.grasp.grip && !is_power(*options.grasp.grip) &&
-      (grasp.status != GraspStatus::kHeld || !is_at_rest)) {
+  const bool is_at_rest = balance.status == grasp::BalanceStatus::kBalanced ||
+                          balance.status == grasp::BalanceStatus::kOff ||
+                          balance.status == grasp::BalanceStatus::kSupported;
+  if (options.grasp.grip && !grasp::is_power(*options.grasp.grip) &&
+      (grasp.status != grasp::GraspStatus::kHeld || !is_at_rest)) {
     grasp.message += other_grip_words(hand, product, options, stoppable);
   }
   Assessment result = evaluate(hand, product, grasp, options, progress, std::move(balance));
@@ -145,4 +151,4 @@ Assessment assess(const PreparedHand& hand, const Product& product, const Assess
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -21,14 +21,14 @@
 #include "palmar/study/assessment/grasp_indices.h"
 #include "palmar/study/sensors/measured_pressure.h"
 
-namespace palmar {
+namespace palmar::study {
 
 struct AssessOptions {
-  GraspOptions grasp;
-  BalanceOptions balance;  ///< on unless switched off
-  ContactOptions contact;
+  grasp::GraspOptions grasp;
+  grasp::BalanceOptions balance;  ///< on unless switched off
+  contact::ContactOptions contact;
   IndexOptions indices;
-  FrictionOptions friction;             ///< off unless it has a coefficient
+  contact::FrictionOptions friction;    ///< off unless it has a coefficient
   std::optional<SensorLayout> sensors;  ///< laid between hand and product
   bool footprint = true;                ///< map the pressure to the product
   std::uint64_t seed =
@@ -47,16 +47,16 @@ struct AssessTimes {
 /// One hand holding one product: grasp, contact, footprint.
 struct Assessment {
   std::string hand_name;
-  Grasp grasp;                   ///< posture and placement at rest; stops as the hand was closed
-  Balance balance;               ///< how it came to rest
+  grasp::Grasp grasp;            ///< posture and placement at rest; stops as the hand was closed
+  grasp::Balance balance;        ///< how it came to rest
   std::vector<Vec3> posed_skin;  ///< hand frame, mm
-  ContactResult contact;
-  FrictionResult friction;
-  ProductFootprint footprint;
+  contact::ContactResult contact;
+  contact::FrictionResult friction;
+  contact::ProductFootprint footprint;
   std::vector<FaceContact> faces;  ///< touched; empty without footprint or faces of the product
   std::optional<SensorReading> sensors;        ///< of a product that is touched, if asked for
   std::optional<PressureComparison> measured;  ///< beside `sensors`
-  GraspIndices indices;                        ///< empty if switched off
+  grasp::GraspIndices indices;                 ///< empty if switched off
   AssessOptions options;
   AssessTimes times;
 };
@@ -65,12 +65,12 @@ struct ErrorBudget;
 
 /// A product with what came of it.
 struct AssessedProduct {
-  Product product;
+  product::Product product;
   Assessment assessment;
   /// Ways to hold the product, of which one was taken, and the hand that they were ranked with;
   /// null where nothing was ranked.
-  std::shared_ptr<const RankedHolds> ways = nullptr;
-  std::shared_ptr<const Hand> ways_hand = nullptr;
+  std::shared_ptr<const grasp::RankedHolds> ways = nullptr;
+  std::shared_ptr<const hand::Hand> ways_hand = nullptr;
   std::shared_ptr<const ErrorBudget> errors = nullptr;  ///< if it was asked for
 };
 
@@ -79,7 +79,7 @@ double grip_force_of(const AssessedProduct& one);
 
 /// What one `palmar assess` found: one hand, one or more products.
 struct AssessmentSet {
-  std::shared_ptr<const Hand> hand;
+  std::shared_ptr<const hand::Hand> hand;
   std::vector<AssessedProduct> assessments;
   std::string command_line;  ///< for provenance
 };
@@ -88,16 +88,16 @@ struct AssessmentSet {
 /// placement are taken as they are, from find_grasp() or from a measurement; `balance` says how
 /// they came to rest, if they did. Throws UsageError,
 /// Cancelled.
-Assessment evaluate(const PreparedHand& hand, const Product& product, const Grasp& grasp,
-                    const AssessOptions& options = {}, const Progress& progress = {},
-                    Balance balance = {});
+Assessment evaluate(const contact::PreparedHand& hand, const product::Product& product,
+                    const grasp::Grasp& grasp, const AssessOptions& options = {},
+                    const Progress& progress = {}, grasp::Balance balance = {});
 
 /// Grasps the product, lets it come to rest and evaluates that. A product that can't be held gives
 /// an assessment whose grasp says why; one that slips out is partly held and shown as the hand was
 /// closed. `hold` finds the grasp; unset: find_grasp() with the options. Throws UsageError,
 /// Cancelled.
-Assessment assess(const PreparedHand& hand, const Product& product,
+Assessment assess(const contact::PreparedHand& hand, const product::Product& product,
                   const AssessOptions& options = {}, const Progress& progress = {},
-                  const std::function<Grasp(const Progress&)>& hold = {});
+                  const std::function<grasp::Grasp(const Progress&)>& hold = {});
 
-}  // namespace palmar
+}  // namespace palmar::study

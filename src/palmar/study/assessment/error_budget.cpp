@@ -15,19 +15,19 @@
 #include "palmar/grasp/rest/grip_force.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
-ErrorCase figures_of(ErrorSource source, std::string changed, const ContactResult& contact,
-                     const Product& product) {
+ErrorCase figures_of(ErrorSource source, std::string changed, const contact::ContactResult& contact,
+                     const product::Product& product) {
   ErrorCase one{.source = source, .changed = std::move(changed), .failure = {}};
-  if (contact.status == ContactStatus::kNotConverged) {
+  if (contact.status == contact::ContactStatus::kNotConverged) {
     one.failure = contact.message;
   } else if (!(contact.total.force > 0.0)) {
     one.failure = "nothing is touched";
   }
   if (!one.failure.empty()) return one;
-  one.grip_force = grip_force(contact, *product.distance).force;
+  one.grip_force = grasp::grip_force(contact, *product.distance).force;
   one.force = contact.total.force;
   one.area = contact.total.area;
   one.peak_pressure = contact.total.peak_pressure;
@@ -45,27 +45,27 @@ void scale_by(const ErrorCase& nominal, const ErrorCase& usual, ErrorCase& one) 
   }
 }
 
-std::shared_ptr<const Hand> with_tissue(const Hand& hand, TissueLevel level) {
-  auto other = std::make_shared<Hand>(hand);
-  for (RegionTissue& tissue : other->tissue.region) {
-    tissue.half_space.nominal = law_at(tissue.half_space, level);
-    tissue.layered.nominal = law_at(tissue.layered, level);
-    tissue.on_bone.nominal = law_at(tissue.on_bone, level);
+std::shared_ptr<const hand::Hand> with_tissue(const hand::Hand& hand, hand::TissueLevel level) {
+  auto other = std::make_shared<hand::Hand>(hand);
+  for (hand::RegionTissue& tissue : other->tissue.region) {
+    tissue.half_space.nominal = hand::law_at(tissue.half_space, level);
+    tissue.layered.nominal = hand::law_at(tissue.layered, level);
+    tissue.on_bone.nominal = hand::law_at(tissue.on_bone, level);
   }
   return other;
 }
 
 /// MCP flexion of the fingers by `angle` more and PIP flexion by as much less, within their range.
-Posture bent(const Skeleton& skeleton, Posture posture, double angle) {
-  constexpr std::array kMcp = {Dof::kIndexMcpFlexion, Dof::kMiddleMcpFlexion, Dof::kRingMcpFlexion,
-                               Dof::kLittleMcpFlexion};
-  constexpr std::array kPip = {Dof::kIndexPipFlexion, Dof::kMiddlePipFlexion, Dof::kRingPipFlexion,
-                               Dof::kLittlePipFlexion};
+hand::Posture bent(const hand::Skeleton& skeleton, hand::Posture posture, double angle) {
+  constexpr std::array kMcp = {hand::Dof::kIndexMcpFlexion, hand::Dof::kMiddleMcpFlexion,
+                               hand::Dof::kRingMcpFlexion, hand::Dof::kLittleMcpFlexion};
+  constexpr std::array kPip = {hand::Dof::kIndexPipFlexion, hand::Dof::kMiddlePipFlexion,
+                               hand::Dof::kRingPipFlexion, hand::Dof::kLittlePipFlexion};
   for (std::size_t f = 0; f < kMcp.size(); ++f) {
     posture[kMcp[f]] += angle;
     posture[kPip[f]] -= angle;
   }
-  return clamp_to_range(skeleton, posture).posture;
+  return hand::clamp_to_range(skeleton, posture).posture;
 }
 
 }  // namespace
@@ -76,8 +76,8 @@ std::string_view name_of(ErrorSource source) {
   return kNames[index_of(source)];
 }
 
-Hand split_skin(const Hand& hand, std::vector<Vec3>& points) {
-  Hand fine;
+hand::Hand split_skin(const hand::Hand& hand, std::vector<Vec3>& points) {
+  hand::Hand fine;
   fine.name = hand.name;
   fine.side = hand.side;
   fine.region = hand.region;
@@ -109,8 +109,9 @@ Hand split_skin(const Hand& hand, std::vector<Vec3>& points) {
   return fine;
 }
 
-ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const PreparedHand& prepared,
-                         const Product& product, const Grasp& closed, const Assessment& nominal,
+ErrorBudget error_budget(const std::shared_ptr<const hand::Hand>& hand,
+                         const contact::PreparedHand& prepared, const product::Product& product,
+                         const grasp::Grasp& closed, const Assessment& nominal,
                          const ErrorBudgetOptions& options, const Progress& progress) {
   ErrorBudget budget;
   budget.nominal = figures_of({}, "", nominal.contact, product);
@@ -123,30 +124,33 @@ ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const Prepared
   };
   Progress quiet = progress;
   quiet.report = nullptr;
-  const auto hold_again = [&](ErrorSource source, std::string changed, const PreparedHand& with,
-                              const Grasp& grasp, const AssessOptions& how) {
-    Grasp at_rest = grasp;
-    const Balance balance = balance_grasp(with, product, at_rest, how.balance, how.contact, quiet);
-    if (balance.status == BalanceStatus::kSlipsOut || balance.status == BalanceStatus::kFailed) {
+  const auto hold_again = [&](ErrorSource source, std::string changed,
+                              const contact::PreparedHand& with, const grasp::Grasp& grasp,
+                              const AssessOptions& how) {
+    grasp::Grasp at_rest = grasp;
+    const grasp::Balance balance =
+        grasp::balance_grasp(with, product, at_rest, how.balance, how.contact, quiet);
+    if (balance.status == grasp::BalanceStatus::kSlipsOut ||
+        balance.status == grasp::BalanceStatus::kFailed) {
       budget.cases.push_back(
           {.source = source, .changed = std::move(changed), .failure = balance.message});
       return;
     }
-    const ContactResult contact =
-        solve_hand_contact(with, pose_skin(with.hand(), at_rest.posture), at_rest.product_from_hand,
-                           *product.distance, how.contact);
+    const contact::ContactResult contact =
+        contact::solve_hand_contact(with, hand::pose_skin(with.hand(), at_rest.posture),
+                                    at_rest.product_from_hand, *product.distance, how.contact);
     budget.cases.push_back(figures_of(source, std::move(changed), contact, product));
   };
 
   int done = 0;
-  const ContactModel& model = prepared.model();
-  const auto compliance = [&]() -> std::shared_ptr<const SkinCompliance> {
+  const contact::ContactModel& model = prepared.model();
+  const auto compliance = [&]() -> std::shared_ptr<const contact::SkinCompliance> {
     return options.compliance ? options.compliance(*hand) : nullptr;
   };
-  const std::shared_ptr<const SkinCompliance> own =
-      model.tissue == TissueModel::kBone ? compliance() : nullptr;
-  for (const auto& [level, name] :
-       {std::pair{TissueLevel::kLow, "soft tissue"}, {TissueLevel::kHigh, "stiff tissue"}}) {
+  const std::shared_ptr<const contact::SkinCompliance> own =
+      model.tissue == contact::TissueModel::kBone ? compliance() : nullptr;
+  for (const auto& [level, name] : {std::pair{hand::TissueLevel::kLow, "soft tissue"},
+                                    {hand::TissueLevel::kHigh, "stiff tissue"}}) {
     step(done++, name);
     if (usual.contact.shear_modulus) {
       budget.cases.push_back({.source = ErrorSource::kTissue,
@@ -154,18 +158,19 @@ ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const Prepared
                               .failure = "one shear modulus was given"});
       continue;
     }
-    hold_again(ErrorSource::kTissue, name, PreparedHand(with_tissue(*hand, level), model, own),
-               closed, usual);
+    hold_again(ErrorSource::kTissue, name,
+               contact::PreparedHand(with_tissue(*hand, level), model, own), closed, usual);
   }
 
-  const bool is_on_bone = model.tissue == TissueModel::kBone;
-  ContactModel other;
-  other.tissue = is_on_bone ? TissueModel::kHalfSpace : TissueModel::kBone;
+  const bool is_on_bone = model.tissue == contact::TissueModel::kBone;
+  contact::ContactModel other;
+  other.tissue = is_on_bone ? contact::TissueModel::kHalfSpace : contact::TissueModel::kBone;
   const std::string under = is_on_bone ? "endless tissue" : "tissue on the hand's own bones";
   step(done++, under);
   try {
     hold_again(ErrorSource::kBone, under,
-               PreparedHand(hand, other, is_on_bone ? nullptr : compliance()), closed, usual);
+               contact::PreparedHand(hand, other, is_on_bone ? nullptr : compliance()), closed,
+               usual);
   } catch (const UsageError& error) {
     budget.cases.push_back(
         {.source = ErrorSource::kBone, .changed = under, .failure = error.what()});
@@ -176,17 +181,17 @@ ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const Prepared
   step(done++, split);
   try {
     std::vector<Vec3> posed = nominal.posed_skin;
-    const auto fine = std::make_shared<const Hand>(split_skin(*hand, posed));
-    ContactModel solved = model;
-    if (is_on_bone) solved.tissue = TissueModel::kHalfSpace;
-    ContactOptions as_it_is = usual.contact;  // the skin's own mesh is asked about
+    const auto fine = std::make_shared<const hand::Hand>(split_skin(*hand, posed));
+    contact::ContactModel solved = model;
+    if (is_on_bone) solved.tissue = contact::TissueModel::kHalfSpace;
+    contact::ContactOptions as_it_is = usual.contact;  // the skin's own mesh is asked about
     as_it_is.refine = false;
-    const auto figures = [&](const std::shared_ptr<const Hand>& with,
+    const auto figures = [&](const std::shared_ptr<const hand::Hand>& with,
                              const std::vector<Vec3>& skin) {
       return figures_of(
           ErrorSource::kMesh, split,
-          solve_hand_contact(PreparedHand(with, solved), skin, nominal.grasp.product_from_hand,
-                             *product.distance, as_it_is),
+          contact::solve_hand_contact(contact::PreparedHand(with, solved), skin,
+                                      nominal.grasp.product_from_hand, *product.distance, as_it_is),
           product);
     };
     ErrorCase one = figures(fine, posed);
@@ -216,7 +221,7 @@ ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const Prepared
     const std::string name =
         angle > 0.0 ? "knuckles bent more, fingers less" : "knuckles bent less, fingers more";
     step(done++, name);
-    Grasp grasp = closed;
+    grasp::Grasp grasp = closed;
     grasp.posture = bent(hand->skeleton, closed.posture, angle);
     hold_again(ErrorSource::kPosture, name, prepared, grasp, usual);
   }
@@ -224,4 +229,4 @@ ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const Prepared
   return budget;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -13,7 +13,7 @@
 #include "palmar/product/product.h"
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// What an assessment's figures depend on without anybody knowing it exactly.
 enum class ErrorSource {
@@ -47,7 +47,7 @@ struct ErrorBudgetOptions {
   double friction_change = 0.2;  ///< up and down; skin on products: 0.3 to 1.2 (friction.md)
   double bend = 0.0873;  ///< rad (5 degrees, our choice): MCP more and PIP less, and reverse
   /// The hand for TissueModel::kBone, asked for once; unset: made here (13 s).
-  std::function<std::shared_ptr<const SkinCompliance>(const Hand&)> compliance;
+  std::function<std::shared_ptr<const contact::SkinCompliance>(const hand::Hand&)> compliance;
 };
 
 /// How much the figures of an assessment change with one source of error at a time. Tissue, bone,
@@ -59,13 +59,14 @@ struct ErrorBudgetOptions {
 ///
 /// `closed`: the grasp before it came to rest. Cost: about eight contacts and six settlings.
 /// Cases without figures say why. Throws UsageError, Cancelled.
-ErrorBudget error_budget(const std::shared_ptr<const Hand>& hand, const PreparedHand& prepared,
-                         const Product& product, const Grasp& closed, const Assessment& nominal,
+ErrorBudget error_budget(const std::shared_ptr<const hand::Hand>& hand,
+                         const contact::PreparedHand& prepared, const product::Product& product,
+                         const grasp::Grasp& closed, const Assessment& nominal,
                          const ErrorBudgetOptions& options = {}, const Progress& progress = {});
 
 /// Every triangle of a skin split into four at the middles of its edges; a middle belongs to the
 /// region and segment of its edge's first corner. `points`, one per vertex of the skin, gets the
 /// middles of the posed skin.
-Hand split_skin(const Hand& hand, std::vector<Vec3>& points);
+hand::Hand split_skin(const hand::Hand& hand, std::vector<Vec3>& points);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -8,9 +8,9 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::study {
 
-FaceAreas::FaceAreas(const TriangleMesh& map, const std::vector<int>& face_of_triangle)
+FaceAreas::FaceAreas(const geometry::TriangleMesh& map, const std::vector<int>& face_of_triangle)
     : start_(map.vertices.size() + 1, 0), triangle_(map.triangles), face_(face_of_triangle) {
   if (face_.size() != triangle_.size()) {
     throw UsageError("faces: " + std::to_string(face_.size()) +
@@ -109,7 +109,8 @@ std::vector<FaceContact> FaceAreas::contacts(const std::vector<double>& pressure
   return touched;
 }
 
-std::vector<FaceContact> face_contacts(const ProductFootprint& footprint, const Product& product) {
+std::vector<FaceContact> face_contacts(const contact::ProductFootprint& footprint,
+                                       const product::Product& product) {
   if (product.faces == nullptr || footprint.surface.triangles.empty()) return {};
   std::vector<int> face_of_triangle;
   face_of_triangle.reserve(footprint.parent.size());
@@ -119,4 +120,4 @@ std::vector<FaceContact> face_contacts(const ProductFootprint& footprint, const 
   return FaceAreas(footprint.surface, face_of_triangle).contacts(footprint.pressure);
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -9,7 +9,7 @@
 #include "palmar/contact/footprint/footprint.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// What a hand does to one face of the product. Pressures count per area of the product (see
 /// map_to_product()), so they are those that the surface feels.
@@ -30,7 +30,7 @@ struct FaceContact {
 class FaceAreas {
  public:
   /// `face_of_triangle` per triangle of the map. Throws UsageError if it doesn't fit.
-  FaceAreas(const TriangleMesh& map, const std::vector<int>& face_of_triangle);
+  FaceAreas(const geometry::TriangleMesh& map, const std::vector<int>& face_of_triangle);
   /// Faces under pressure, ascending; their forces sum up to that of the map, their areas to its
   /// area under pressure. `pressure` in MPa, per vertex of the map; throws UsageError if it isn't.
   std::vector<FaceContact> contacts(const std::vector<double>& pressure) const;
@@ -55,6 +55,7 @@ class FaceAreas {
 };
 
 /// Of one grasp's footprint; empty if the product has no faces.
-std::vector<FaceContact> face_contacts(const ProductFootprint& footprint, const Product& product);
+std::vector<FaceContact> face_contacts(const contact::ProductFootprint& footprint,
+                                       const product::Product& product);
 
-}  // namespace palmar
+}  // namespace palmar::study

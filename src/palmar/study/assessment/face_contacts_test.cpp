@@ -15,15 +15,15 @@
 #include "palmar/study/study_record.h"
 #include "palmar/study/study_task.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 using testing::held;
 using testing::not_held;
 using testing::study_of;
 
-Product prism() {
-  return make_prism_product(
+product::Product prism() {
+  return product::make_prism_product(
       {.width = 40, .depth = 30, .length = 150, .fillet_radius = 3, .fineness = {}});
 }
 
@@ -61,7 +61,7 @@ Totals totals_of(const ProductMap& map, const std::vector<double>& field) {
 }
 
 TEST(FaceContacts, SumUpToTheMap) {
-  const Product product = prism();
+  const product::Product product = prism();
   const ProductMap map = product_map(product);
   const FaceAreas areas(map.mesh, map.face_of_triangle);
   const std::vector<double> field = field_on(map, [](const Vec3& x) {
@@ -86,7 +86,7 @@ TEST(FaceContacts, SumUpToTheMap) {
 }
 
 TEST(FaceContacts, ABallInTheMiddleOfAFacePressesOnThatFaceAlone) {
-  const Product product = prism();
+  const product::Product product = prism();
   const ProductMap map = product_map(product, 1.0);
   // On "back", y = 15; force pi r^2 peak / 2 = 75.4 N mm^2/mm^2 of a paraboloid.
   const double radius = 8.0, peak = 0.75;
@@ -103,7 +103,7 @@ TEST(FaceContacts, ABallInTheMiddleOfAFacePressesOnThatFaceAlone) {
 }
 
 TEST(FaceContacts, SymmetricPressureIsThatOfSymmetricFaces) {
-  const Product product = prism();
+  const product::Product product = prism();
   const ProductMap map = product_map(product);
   const std::vector<FaceContact> found =
       FaceAreas(map.mesh, map.face_of_triangle).contacts(field_on(map, [](const Vec3& x) {
@@ -130,7 +130,7 @@ TEST(FaceContacts, SymmetricPressureIsThatOfSymmetricFaces) {
 
 TEST(FaceContacts, ThePeakOnARimIsOfTheFaceThatBearsMore) {
   // Two triangles on either side of an edge; the pressure goes on to the left.
-  TriangleMesh map;
+  geometry::TriangleMesh map;
   map.vertices = {{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
   map.triangles = {{0, 1, 2}, {1, 0, 3}};
   const FaceAreas areas(map, {0, 1});
@@ -147,7 +147,7 @@ TEST(FaceContacts, ThePeakOnARimIsOfTheFaceThatBearsMore) {
 TEST(FaceContacts, RefuseWhatDoesNotFit) {
   using ::testing::HasSubstr;
   using ::testing::ThrowsMessage;
-  const Product product = prism();
+  const product::Product product = prism();
   EXPECT_THAT([&] { FaceAreas(product.mesh, {0}); },
               ThrowsMessage<UsageError>(HasSubstr("faces: 1 triangles have a face; the map has ")));
   const FaceAreas areas(product.mesh, product.faces->face_of_triangle);
@@ -158,7 +158,7 @@ TEST(FaceContacts, RefuseWhatDoesNotFit) {
 /// Records of a study with one prism: hands press where `places` says.
 struct FaceStudy {
   StudyResults results;
-  std::vector<Product> products;
+  std::vector<product::Product> products;
   std::vector<StudyRecord> records;
   FaceStudy(const std::vector<std::pair<Vec3, double>>& places, double glove = 0.0)
       : results(study_of(static_cast<int>(places.size()) + 1, {"handle"})) {
@@ -181,7 +181,7 @@ struct FaceStudy {
   }
 };
 
-const FaceSummary* of_face(const Product& product, const FaceStatistics& statistics,
+const FaceSummary* of_face(const product::Product& product, const FaceStatistics& statistics,
                            const std::string& name) {
   for (const FaceSummary& one : statistics.faces) {
     if (product.faces->face[one.face].name == name) return &one;
@@ -234,4 +234,4 @@ TEST(FaceStatistics, AreNothingForProductsWithoutFaces) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

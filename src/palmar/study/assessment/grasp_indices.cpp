@@ -7,12 +7,12 @@
 #include "palmar/grasp/indices/fitness.h"
 #include "palmar/study/assessment/held_torque.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
-GraspIndex grip_row(const char* key, const char* name, const char* unit,
-                    std::optional<double> value) {
-  GraspIndex row;
+grasp::GraspIndex grip_row(const char* key, const char* name, const char* unit,
+                           std::optional<double> value) {
+  grasp::GraspIndex row;
   row.key = key;
   row.name = name;
   row.group = "grip";
@@ -22,48 +22,49 @@ GraspIndex grip_row(const char* key, const char* name, const char* unit,
   return row;
 }
 
-GraspIndices grip_indices(const Balance& balance) {
+grasp::GraspIndices grip_indices(const grasp::Balance& balance) {
   // A grasp that slips out is shown as it was closed: its last state on the way out says nothing.
-  const bool slips = balance.status == BalanceStatus::kSlipsOut;
+  const bool slips = balance.status == grasp::BalanceStatus::kSlipsOut;
   const bool is_known = balance.grip_force > 0.0 && !slips;
   const auto known = [&](double value) { return is_known ? std::optional(value) : std::nullopt; };
-  GraspIndices rows;
+  grasp::GraspIndices rows;
 
-  GraspIndex force = grip_row("grip_force_n", "grip force", "N", known(balance.grip_force));
+  grasp::GraspIndex force = grip_row("grip_force_n", "grip force", "N", known(balance.grip_force));
   force.definition =
       "half the sum of |normal force . e| for the direction e that makes it largest: what a "
       "dynamometer between the product's halves would read";
   force.source = "docs/method/balance.md";
   rows.push_back(force);
 
-  GraspIndex ratio = grip_row("normal_over_grip_force", "sum of normal forces over grip force", "",
-                              known(balance.sum_of_normals / balance.grip_force));
+  grasp::GraspIndex ratio =
+      grip_row("normal_over_grip_force", "sum of normal forces over grip force", "",
+               known(balance.sum_of_normals / balance.grip_force));
   ratio.lowest = 2.0;
   ratio.definition =
       "2: two opposed contacts; pi: even pressure round a cylinder; people on a 51 mm handle: 2.5";
   ratio.source = "docs/method/validation.md, case G4";
   rows.push_back(ratio);
 
-  GraspIndex rest = grip_row("unbalanced_over_grip_force", "forces left out of balance", "",
-                             known(balance.residual_share));
-  rest.better = Better::kDown;
+  grasp::GraspIndex rest = grip_row("unbalanced_over_grip_force", "forces left out of balance", "",
+                                    known(balance.residual_share));
+  rest.better = grasp::Better::kDown;
   rest.definition =
       "sum of all forces on the product (or their moment over its arm) over the grip force; below "
       "0.01 counts as at rest";
   rest.source = "docs/method/balance.md";
   rows.push_back(rest);
 
-  GraspIndex friction =
+  grasp::GraspIndex friction =
       grip_row("friction_in_use", "friction in use at rest", "", known(balance.friction_use));
   friction.highest = 1.0;
-  friction.better = Better::kDown;
+  friction.better = grasp::Better::kDown;
   friction.definition = "sum of tangential forces over the most that friction allows";
   friction.source = "Mindlin 1949; docs/method/balance.md";
   rows.push_back(friction);
 
-  GraspIndex strength = grip_row("flexion_strength_in_use", "share of the muscles' strength", "",
-                                 slips ? std::nullopt : balance.strength_use);
-  strength.better = Better::kDown;
+  grasp::GraspIndex strength = grip_row("flexion_strength_in_use", "share of the muscles' strength",
+                                        "", slips ? std::nullopt : balance.strength_use);
+  strength.better = grasp::Better::kDown;
   strength.highest = 1.0;
   strength.definition =
       "least share of the person's strength with which the muscles of fingers, thumb and wrist "
@@ -74,7 +75,7 @@ GraspIndices grip_indices(const Balance& balance) {
   if (!balance.strength_use) strength.remark = "only for power grips that came to rest";
   rows.push_back(strength);
   if (!is_known) {
-    for (GraspIndex& row : rows) {
+    for (grasp::GraspIndex& row : rows) {
       row.remark = slips ? "the product slips out; all other rows are of the hand as it was closed"
                          : "coming to rest was switched off";
     }
@@ -82,7 +83,7 @@ GraspIndices grip_indices(const Balance& balance) {
   return rows;
 }
 
-void append(GraspIndices& rows, GraspIndices more) {
+void append(grasp::GraspIndices& rows, grasp::GraspIndices more) {
   rows.insert(rows.end(), std::make_move_iterator(more.begin()),
               std::make_move_iterator(more.end()));
 }
@@ -94,48 +95,50 @@ void IndexOptions::check() const {
   effort.check();
 }
 
-GraspIndices grasp_indices(const Hand& hand, const Product& product, const HeldProductState& held,
-                           const Vec3& mass_centre, const IndexOptions& options) {
-  GraspIndices rows;
+grasp::GraspIndices grasp_indices(const hand::Hand& hand, const product::Product& product,
+                                  const HeldProductState& held, const Vec3& mass_centre,
+                                  const IndexOptions& options) {
+  grasp::GraspIndices rows;
   if (!options.is_on) return rows;
   options.check();
   append(rows, grip_indices(held.balance));
-  append(rows, to_indices(assess_stability(hand, held.contact, mass_centre, options.stability)));
-  append(rows,
-         to_indices(assess_ease(
-             hand.skeleton, held.grasp.posture,
-             options.coordination ? *options.coordination : built_in_coordination(hand.skeleton))));
-  append(rows, to_indices(assess_fitness(hand, held.posed_skin, held.grasp.product_from_hand,
-                                         *product.distance)));
-  append(rows, to_indices(assess_comfort(hand, held.contact)));
-  FrictionResult friction;
-  const HandLoad* at_rest = nullptr;
-  if (held.balance.status != BalanceStatus::kSlipsOut) {
+  append(rows, grasp::to_indices(
+                   grasp::assess_stability(hand, held.contact, mass_centre, options.stability)));
+  append(rows, grasp::to_indices(grasp::assess_ease(
+                   hand.skeleton, held.grasp.posture,
+                   options.coordination ? *options.coordination
+                                        : grasp::built_in_coordination(hand.skeleton))));
+  append(rows, grasp::to_indices(grasp::assess_fitness(
+                   hand, held.posed_skin, held.grasp.product_from_hand, *product.distance)));
+  append(rows, grasp::to_indices(grasp::assess_comfort(hand, held.contact)));
+  contact::FrictionResult friction;
+  const hand::HandLoad* at_rest = nullptr;
+  if (held.balance.status != grasp::BalanceStatus::kSlipsOut) {
     friction.force = held.balance.friction_force;
     if (held.balance.joint_load) at_rest = &*held.balance.joint_load;
   }
-  append(rows, effort_indices(
-                   assess_effort(hand, held.grasp.posture, held.contact,
-                                 held.grasp.product_from_hand, *product.distance, options.effort,
-                                 friction.force.empty() ? nullptr : &friction, at_rest)));
+  append(rows, effort::effort_indices(effort::assess_effort(
+                   hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
+                   *product.distance, options.effort, friction.force.empty() ? nullptr : &friction,
+                   at_rest)));
   return rows;
 }
 
-const GraspIndices& index_catalogue() {
-  static const GraspIndices catalogue = [] {
-    GraspIndices rows;
+const grasp::GraspIndices& index_catalogue() {
+  static const grasp::GraspIndices catalogue = [] {
+    grasp::GraspIndices rows;
     append(rows, grip_indices({}));
-    StabilityResult stability;  // with everything that is optional
-    stability.linf.norm = WrenchNorm::kLinf;
+    grasp::StabilityResult stability;  // with everything that is optional
+    stability.linf.norm = grasp::WrenchNorm::kLinf;
     stability.volume.emplace();
     stability.grip.emplace();
-    append(rows, to_indices(stability));
+    append(rows, grasp::to_indices(stability));
     rows.push_back(held_torque_index(0.0));
-    append(rows, to_indices(EaseResult{}));
-    append(rows, to_indices(FitnessResult{}));
-    append(rows, to_indices(ComfortResult{}));
-    append(rows, effort_indices(EffortResult{}));
-    for (GraspIndex& row : rows) {
+    append(rows, grasp::to_indices(grasp::EaseResult{}));
+    append(rows, grasp::to_indices(grasp::FitnessResult{}));
+    append(rows, grasp::to_indices(grasp::ComfortResult{}));
+    append(rows, effort::effort_indices(effort::EffortResult{}));
+    for (grasp::GraspIndex& row : rows) {
       row.value.reset();
       row.remark.clear();
     }
@@ -144,4 +147,4 @@ const GraspIndices& index_catalogue() {
   return catalogue;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -10,13 +10,13 @@
 #include "palmar/grasp/indices/stability.h"
 #include "palmar/grasp/rest/balance.h"
 
-namespace palmar {
+namespace palmar::study {
 
 struct IndexOptions {
   bool is_on = true;
-  StabilityOptions stability;
-  std::optional<CoordinationBasis> coordination;  ///< unset: built_in_coordination()
-  EffortOptions effort;
+  grasp::StabilityOptions stability;
+  std::optional<grasp::CoordinationBasis> coordination;  ///< unset: built_in_coordination()
+  effort::EffortOptions effort;
   /// Whether evaluate() adds the largest torque about the grip axis (held_torque.h).
   bool torque = false;
   void check() const;  ///< throws UsageError: field, value, allowed range
@@ -24,20 +24,21 @@ struct IndexOptions {
 
 /// One held product, for its indices.
 struct HeldProductState {
-  const Grasp& grasp;
-  const Balance& balance;
-  const ContactResult& contact;
+  const grasp::Grasp& grasp;
+  const grasp::Balance& balance;
+  const contact::ContactResult& contact;
   const std::vector<Vec3>& posed_skin;  ///< hand frame, mm
 };
 
 /// Everything that is said of a grasp beside force, area and pressure: group "grip" (how firm, how
 /// even, in balance), then stability, ease, fitness, comfort and effort. A grasp without contact
 /// has rows without values. Friction of the grasp at rest counts in the effort.
-GraspIndices grasp_indices(const Hand& hand, const Product& product, const HeldProductState& held,
-                           const Vec3& mass_centre, const IndexOptions& options = {});
+grasp::GraspIndices grasp_indices(const hand::Hand& hand, const product::Product& product,
+                                  const HeldProductState& held, const Vec3& mass_centre,
+                                  const IndexOptions& options = {});
 
 /// The rows that grasp_indices() can have, without values: what a key means, its unit, which way is
 /// better. Bounds that depend on the grasp are not in it.
-const GraspIndices& index_catalogue();
+const grasp::GraspIndices& index_catalogue();
 
-}  // namespace palmar
+}  // namespace palmar::study

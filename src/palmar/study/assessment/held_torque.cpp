@@ -7,32 +7,34 @@
 
 #include "palmar/contact/friction/friction.h"
 
-namespace palmar {
+namespace palmar::study {
 
-double held_torque(const PreparedHand& prepared, const ContactResult& contact,
-                   const DistanceField& product, const TorqueAxis& about, double coefficient) {
+double held_torque(const contact::PreparedHand& prepared, const contact::ContactResult& contact,
+                   const geometry::DistanceField& product, const TorqueAxis& about,
+                   double coefficient) {
   constexpr double kUnit = 1000.0;  // N mm; factors of about one
   if (coefficient <= 0.0) return 0.0;
   double least = std::numeric_limits<double>::infinity();
   for (const double sense : {1.0, -1.0}) {
-    FrictionOptions friction;
+    contact::FrictionOptions friction;
     friction.coefficient = coefficient;
     friction.load.torque = sense * kUnit * about.axis.normalized();
-    const FrictionResult solved = solve_friction(prepared, contact, product, about.at, friction);
+    const contact::FrictionResult solved =
+        contact::solve_friction(prepared, contact, product, about.at, friction);
     least = std::min(least, kUnit * solved.load_factor.value_or(0.0));
   }
   return least;
 }
 
-GraspIndex held_torque_index(double torque) {
-  GraspIndex row;
+grasp::GraspIndex held_torque_index(double torque) {
+  grasp::GraspIndex row;
   row.key = kHeldTorqueKey;
   row.name = "largest torque about the grip axis that friction holds";
   row.group = "stability";
   row.unit = "N mm";
   row.value = torque;
   row.lowest = 0.0;
-  row.better = Better::kUp;
+  row.better = grasp::Better::kUp;
   row.definition =
       "limit load of Coulomb friction at the pressures found: the largest torque about the axis of "
       "the grip, in the weaker of both senses, that tangential forces within the friction of every "
@@ -41,4 +43,4 @@ GraspIndex held_torque_index(double torque) {
   return row;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

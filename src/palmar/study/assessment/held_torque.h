@@ -6,7 +6,7 @@
 #include "palmar/geometry/distance/distance_field.h"
 #include "palmar/grasp/indices/grasp_index.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// About what a product is turned in the hand; product frame.
 struct TorqueAxis {
@@ -18,11 +18,12 @@ struct TorqueAxis {
 /// `coefficient` holds at the pressures of a solved contact: the limit load of solve_friction(). It
 /// says what a person can apply with a tool at that grip force, as far as the grip limits it; the
 /// wrist's strength is none of it. 0 without friction or contact.
-double held_torque(const PreparedHand& prepared, const ContactResult& contact,
-                   const DistanceField& product, const TorqueAxis& about, double coefficient);
+double held_torque(const contact::PreparedHand& prepared, const contact::ContactResult& contact,
+                   const geometry::DistanceField& product, const TorqueAxis& about,
+                   double coefficient);
 
 inline constexpr const char* kHeldTorqueKey = "held_torque_n_mm";
 /// As a row of the indices, group "stability".
-GraspIndex held_torque_index(double torque);
+grasp::GraspIndex held_torque_index(double torque);
 
-}  // namespace palmar
+}  // namespace palmar::study

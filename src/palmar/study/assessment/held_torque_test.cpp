@@ -10,20 +10,20 @@
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/study/assessment/grasp_indices.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
-using contact_test::ball_hand;
-using contact_test::HalfSpace;
+using contact::contact_test::ball_hand;
+using contact::contact_test::HalfSpace;
 
 /// A ball of skin of 10 mm, pressed 1 mm into a plane across z: Hertz' contact.
 struct PressedBall {
   static constexpr double kRadius = 10.0, kDepth = 1.0;  // mm
-  PreparedHand prepared{ball_hand(kRadius, 4)};
+  contact::PreparedHand prepared{ball_hand(kRadius, 4)};
   HalfSpace plane{-kRadius + kDepth};
-  ContactResult contact =
-      solve_hand_contact(prepared, prepared.hand().skin.vertices, Rigid3{}, plane, [] {
-        ContactOptions options;
+  contact::ContactResult contact = contact::solve_hand_contact(
+      prepared, prepared.hand().skin.vertices, geometry::Rigid3{}, plane, [] {
+        contact::ContactOptions options;
         options.swelling = false;
         return options;
       }());
@@ -36,7 +36,7 @@ struct PressedBall {
 TEST(HeldTorque, OfAHertzContactAboutItsNormalIsLubkins) {
   // 3 pi / 16 mu P a (Lubkin 1951), a = sqrt(R d); through contact and mesh: 5 %.
   const PressedBall ball;
-  ASSERT_EQ(ball.contact.status, ContactStatus::kSolved);
+  ASSERT_EQ(ball.contact.status, contact::ContactStatus::kSolved);
   const double a = std::sqrt(PressedBall::kRadius * PressedBall::kDepth);
   const double expected = 3.0 * std::numbers::pi / 16.0 * 0.5 * ball.contact.total.force * a;
   EXPECT_NEAR(ball.torque(0.5) / expected, 1.0, 0.05);
@@ -53,14 +53,14 @@ TEST(HeldTorque, GrowsWithFrictionAndNeedsNoLengthOfTheAxis) {
 
 TEST(HeldTorque, IsAmongTheIndicesThatAStudyMayAskFor) {
   int found = 0;
-  for (const GraspIndex& row : index_catalogue()) {
+  for (const grasp::GraspIndex& row : index_catalogue()) {
     if (row.key != kHeldTorqueKey) continue;
     ++found;
     EXPECT_FALSE(row.value.has_value());
-    EXPECT_EQ(row.better, Better::kUp);
+    EXPECT_EQ(row.better, grasp::Better::kUp);
   }
   EXPECT_EQ(found, 1);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

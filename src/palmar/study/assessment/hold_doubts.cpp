@@ -4,27 +4,28 @@
 
 #include "palmar/grasp/grip_needs.h"
 
-namespace palmar {
+namespace palmar::study {
 
 std::vector<HoldDoubt> doubts_of(const Assessment& assessment) {
-  const GraspStatus held = assessment.grasp.status;
-  if (held != GraspStatus::kHeld && held != GraspStatus::kPartlyHeld) return {};
+  const grasp::GraspStatus held = assessment.grasp.status;
+  if (held != grasp::GraspStatus::kHeld && held != grasp::GraspStatus::kPartlyHeld) return {};
   std::vector<HoldDoubt> doubts;
-  const BalanceStatus rest = assessment.balance.status;
-  if (rest == BalanceStatus::kSlipsOut) {
+  const grasp::BalanceStatus rest = assessment.balance.status;
+  if (rest == grasp::BalanceStatus::kSlipsOut) {
     doubts.push_back({"slips_out", assessment.balance.message});
-  } else if (rest != BalanceStatus::kOff && rest != BalanceStatus::kBalanced &&
-             rest != BalanceStatus::kSupported) {
+  } else if (rest != grasp::BalanceStatus::kOff && rest != grasp::BalanceStatus::kBalanced &&
+             rest != grasp::BalanceStatus::kSupported) {
     doubts.push_back({"not_at_rest", assessment.balance.message});
   }
   if (assessment.balance.is_overloaded) {
     doubts.push_back({"overloaded", "the muscles can't hold it so: " + assessment.balance.message});
   }
-  std::vector<Region> touching;
-  for (const RegionContact& region : assessment.contact.regions) touching.push_back(region.region);
-  const std::string lacking = lacking_contact(assessment.grasp.grip, touching);
+  std::vector<hand::Region> touching;
+  for (const contact::RegionContact& region : assessment.contact.regions)
+    touching.push_back(region.region);
+  const std::string lacking = grasp::lacking_contact(assessment.grasp.grip, touching);
   if (!lacking.empty()) doubts.push_back({"few_contacts", lacking});
   return doubts;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -7,7 +7,7 @@
 
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// Why a hold is to be doubted although the product is in the hand.
 struct HoldDoubt {
@@ -20,4 +20,4 @@ struct HoldDoubt {
 /// or nothing is held.
 std::vector<HoldDoubt> doubts_of(const Assessment& assessment);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -4,16 +4,16 @@
 
 #include <gtest/gtest.h>
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
-Assessment wrap_with(const std::vector<Region>& touching) {
+Assessment wrap_with(const std::vector<hand::Region>& touching) {
   Assessment assessment;
-  assessment.grasp.grip = Grip::kMediumWrap;
-  assessment.grasp.status = GraspStatus::kHeld;
-  assessment.balance.status = BalanceStatus::kBalanced;
-  for (const Region region : touching) {
-    RegionContact contact;
+  assessment.grasp.grip = grasp::Grip::kMediumWrap;
+  assessment.grasp.status = grasp::GraspStatus::kHeld;
+  assessment.balance.status = grasp::BalanceStatus::kBalanced;
+  for (const hand::Region region : touching) {
+    contact::RegionContact contact;
     contact.region = region;
     assessment.contact.regions.push_back(contact);
   }
@@ -26,10 +26,10 @@ std::string keys_of(const std::vector<HoldDoubt>& doubts) {
   return keys;
 }
 
-const std::vector<Region> kWhole = {Region::kThumbDistal, Region::kIndexDistal,
-                                    Region::kMiddleDistal, Region::kCentralPalm};
-const std::vector<Region> kThumbless = {Region::kIndexDistal, Region::kMiddleDistal,
-                                        Region::kCentralPalm};
+const std::vector<hand::Region> kWhole = {hand::Region::kThumbDistal, hand::Region::kIndexDistal,
+                                          hand::Region::kMiddleDistal, hand::Region::kCentralPalm};
+const std::vector<hand::Region> kThumbless = {
+    hand::Region::kIndexDistal, hand::Region::kMiddleDistal, hand::Region::kCentralPalm};
 
 TEST(HoldDoubts, AWholeHoldAtRestHasNone) { EXPECT_TRUE(doubts_of(wrap_with(kWhole)).empty()); }
 
@@ -41,22 +41,22 @@ TEST(HoldDoubts, AWrapWithoutThumbIsDoubtful) {
 
 TEST(HoldDoubts, WhatSlipsOrDoesntComeToRestIsDoubtful) {
   Assessment assessment = wrap_with(kWhole);
-  assessment.balance.status = BalanceStatus::kSlipsOut;
+  assessment.balance.status = grasp::BalanceStatus::kSlipsOut;
   EXPECT_EQ(keys_of(doubts_of(assessment)), "slips_out");
-  assessment.balance.status = BalanceStatus::kNotConverged;
+  assessment.balance.status = grasp::BalanceStatus::kNotConverged;
   EXPECT_EQ(keys_of(doubts_of(assessment)), "not_at_rest");
-  assessment.balance.status = BalanceStatus::kOff;  // nobody asked for it
+  assessment.balance.status = grasp::BalanceStatus::kOff;  // nobody asked for it
   EXPECT_EQ(keys_of(doubts_of(assessment)), "");
   assessment = wrap_with(kThumbless);
-  assessment.balance.status = BalanceStatus::kSlipsOut;
+  assessment.balance.status = grasp::BalanceStatus::kSlipsOut;
   EXPECT_EQ(keys_of(doubts_of(assessment)), "slips_out few_contacts");
 }
 
 TEST(HoldDoubts, WhatIsNotHeldNeedsNoDoubt) {
   Assessment assessment = wrap_with({});
-  assessment.grasp.status = GraspStatus::kTooLarge;
+  assessment.grasp.status = grasp::GraspStatus::kTooLarge;
   EXPECT_TRUE(doubts_of(assessment).empty());
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

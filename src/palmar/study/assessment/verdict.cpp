@@ -9,7 +9,7 @@
 #include "palmar/grasp/task_force.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 double peak_of(const AssessedProduct& one) {
@@ -18,33 +18,36 @@ double peak_of(const AssessedProduct& one) {
 
 std::optional<StrengthUse> strength_of(const AssessedProduct& one, double grip_force) {
   const Assessment& assessment = one.assessment;
-  const Grip grip = assessment.grasp.grip;
-  if (assessment.balance.status != BalanceStatus::kBalanced || !(grip_force > 0.0)) return {};
-  if (grip == Grip::kFixedHook) return {};  // carries; nobody squeezes
+  const grasp::Grip grip = assessment.grasp.grip;
+  if (assessment.balance.status != grasp::BalanceStatus::kBalanced || !(grip_force > 0.0))
+    return {};
+  if (grip == grasp::Grip::kFixedHook) return {};  // carries; nobody squeezes
   StrengthUse use;
   use.grip_force = grip_force;
   use.share = assessment.balance.strength_use;
-  use.is_judged = is_power(grip);
+  use.is_judged = grasp::is_power(grip);
   use.is_by_wrist = assessment.balance.is_by_wrist;
-  use.is_pinch = strength_share(grip) < 1.0;
+  use.is_pinch = grasp::strength_share(grip) < 1.0;
   const auto& asked = assessment.options.balance.share_of_strength;
-  use.reached = asked ? asked->reached(grip) : usual_grip_strength() * strength_share(grip);
-  use.whose = asked ? asked->whose : usual_people();
+  use.reached =
+      asked ? asked->reached(grip) : grasp::usual_grip_strength() * grasp::strength_share(grip);
+  use.whose = asked ? asked->whose : grasp::usual_people();
   return use;
 }
 
 std::optional<HardestPlace> hardest_of(const AssessedProduct& one) {
-  const ContactResult& contact = one.assessment.contact;
+  const contact::ContactResult& contact = one.assessment.contact;
   if (contact.regions.empty()) return {};
-  const auto worst = std::max_element(contact.regions.begin(), contact.regions.end(),
-                                      [](const RegionContact& a, const RegionContact& b) {
-                                        return a.peak_pressure_cells < b.peak_pressure_cells;
-                                      });
+  const auto worst =
+      std::max_element(contact.regions.begin(), contact.regions.end(),
+                       [](const contact::RegionContact& a, const contact::RegionContact& b) {
+                         return a.peak_pressure_cells < b.peak_pressure_cells;
+                       });
   HardestPlace place{.region = worst->region,
                      .pressure = worst->peak_pressure_cells,
                      .on_product = {},
                      .face = {}};
-  const ProductFootprint& footprint = one.assessment.footprint;
+  const contact::ProductFootprint& footprint = one.assessment.footprint;
   const auto peak = std::max_element(footprint.pressure.begin(), footprint.pressure.end());
   if (peak != footprint.pressure.end() && *peak > 0.0) {
     place.on_product = footprint.surface.vertices[peak - footprint.pressure.begin()];
@@ -55,18 +58,18 @@ std::optional<HardestPlace> hardest_of(const AssessedProduct& one) {
   return place;
 }
 
-ProductVerdict judge(const AssessedProduct& one, const Hand* hand) {
+ProductVerdict judge(const AssessedProduct& one, const hand::Hand* hand) {
   ProductVerdict verdict;
   if (!presses_on_skin(one.assessment)) return verdict;
   verdict.held =
-      doubts_of(one.assessment).empty() && one.assessment.grasp.status == GraspStatus::kHeld
+      doubts_of(one.assessment).empty() && one.assessment.grasp.status == grasp::GraspStatus::kHeld
           ? HeldVerdict::kHeld
           : HeldVerdict::kDoubtful;
   verdict.grip_force = grip_force_of(one);
   if (one.assessment.options.balance.is_on) {
     verdict.asked = one.assessment.options.balance.asked_grip_force(one.assessment.grasp.grip);
   }
-  if (hand != nullptr) verdict.comfort = assess_comfort(*hand, one.assessment.contact);
+  if (hand != nullptr) verdict.comfort = grasp::assess_comfort(*hand, one.assessment.contact);
   verdict.strength = strength_of(one, verdict.grip_force);
   verdict.hardest = hardest_of(one);
   return verdict;
@@ -110,9 +113,9 @@ ProductComparison compare(const AssessmentSet& set, const std::vector<ProductVer
       depends = depends || *pair.peak_change_stiff > 0.0;
     }
   }
-  pair.verdict = std::abs(pair.peak_change) < kToldApart ? PairVerdict::kSame
-                 : depends                               ? PairVerdict::kDependsOnSkin
-                                                         : PairVerdict::kLower;
+  pair.verdict = std::abs(pair.peak_change) < grasp::kToldApart ? PairVerdict::kSame
+                 : depends                                      ? PairVerdict::kDependsOnSkin
+                                                                : PairVerdict::kLower;
   return pair;
 }
 
@@ -161,12 +164,12 @@ std::string_view name_of(PairVerdict verdict) {
 }
 
 bool are_equally_firm(double first, double second) {
-  return std::abs(first - second) <= kToldApart * std::max(first, second);
+  return std::abs(first - second) <= grasp::kToldApart * std::max(first, second);
 }
 
 bool presses_on_skin(const Assessment& assessment) {
-  const GraspStatus status = assessment.grasp.status;
-  return (status == GraspStatus::kHeld || status == GraspStatus::kPartlyHeld) &&
+  const grasp::GraspStatus status = assessment.grasp.status;
+  return (status == grasp::GraspStatus::kHeld || status == grasp::GraspStatus::kPartlyHeld) &&
          !assessment.contact.regions.empty();
 }
 
@@ -188,4 +191,4 @@ SetVerdict verdict_of(const AssessmentSet& set) {
   return verdict;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -10,7 +10,7 @@
 #include "palmar/grasp/indices/comfort.h"
 #include "palmar/study/assessment/assessment.h"
 
-namespace palmar {
+namespace palmar::study {
 
 // What an assessment comes to, in figures; report/words says it.
 
@@ -32,7 +32,7 @@ struct StrengthUse {
 
 /// Where the skin presses hardest, and on what.
 struct HardestPlace {
-  Region region{};
+  hand::Region region{};
   double pressure = 0.0;           ///< MPa, on a sensor cell
   std::optional<Vec3> on_product;  ///< mm, product frame: the footprint's peak
   std::optional<int> face;         ///< index into Product::faces of the face with that peak
@@ -47,9 +47,9 @@ std::string_view name_of(HeldVerdict verdict);  ///< "held", "doubtful", "not_he
 
 struct ProductVerdict {
   HeldVerdict held = HeldVerdict::kNotHeld;
-  double grip_force = 0.0;      ///< N
-  std::optional<double> asked;  ///< N, that was asked for
-  ComfortResult comfort;        ///< empty if it isn't in the hand
+  double grip_force = 0.0;       ///< N
+  std::optional<double> asked;   ///< N, that was asked for
+  grasp::ComfortResult comfort;  ///< empty if it isn't in the hand
   std::optional<StrengthUse> strength;
   std::optional<HardestPlace> hardest;
 };
@@ -91,4 +91,4 @@ bool presses_on_skin(const Assessment& assessment);
 
 SetVerdict verdict_of(const AssessmentSet& set);
 
-}  // namespace palmar
+}  // namespace palmar::study

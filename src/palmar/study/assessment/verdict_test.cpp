@@ -6,7 +6,7 @@
 
 #include "palmar/grasp/task_force.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 /// A wrap at rest with that grip force and peak on sensor cells at the thenar.
@@ -14,15 +14,16 @@ AssessedProduct held(const std::string& name, double grip_force, double peak) {
   AssessedProduct one;
   one.product.name = name;
   Assessment& assessment = one.assessment;
-  assessment.grasp.status = GraspStatus::kHeld;
-  assessment.grasp.grip = Grip::kMediumWrap;
-  assessment.balance.status = BalanceStatus::kBalanced;
+  assessment.grasp.status = grasp::GraspStatus::kHeld;
+  assessment.grasp.grip = grasp::Grip::kMediumWrap;
+  assessment.balance.status = grasp::BalanceStatus::kBalanced;
   assessment.balance.grip_force = grip_force;
-  for (const Region region : {Region::kThumbDistal, Region::kIndexDistal, Region::kMiddleDistal,
-                              Region::kCentralPalm, Region::kThenar}) {
-    RegionContact contact;
+  for (const hand::Region region :
+       {hand::Region::kThumbDistal, hand::Region::kIndexDistal, hand::Region::kMiddleDistal,
+        hand::Region::kCentralPalm, hand::Region::kThenar}) {
+    contact::RegionContact contact;
     contact.region = region;
-    contact.peak_pressure_cells = region == Region::kThenar ? peak : 0.5 * peak;
+    contact.peak_pressure_cells = region == hand::Region::kThenar ? peak : 0.5 * peak;
     assessment.contact.regions.push_back(contact);
   }
   assessment.contact.total.peak_pressure_cells = peak;
@@ -31,7 +32,7 @@ AssessedProduct held(const std::string& name, double grip_force, double peak) {
 }
 
 void add_band(AssessedProduct& one, double soft, double stiff) {
-  ContactBand band;
+  contact::ContactBand band;
   band.total.peak_pressure_cells_low = soft;
   band.total.peak_pressure_cells_high = stiff;
   one.assessment.contact.band = band;
@@ -51,7 +52,7 @@ TEST(SetVerdict, OfTwoTheOneThatPressesLessIsBest) {
   EXPECT_EQ(verdict.comparisons[0].worse, 0);
   EXPECT_NEAR(verdict.comparisons[0].peak_change, -0.275, 1e-12);
   EXPECT_NEAR(verdict.comparisons[0].area_change, 0.12, 1e-12);
-  EXPECT_EQ(verdict.products[1].hardest->region, Region::kThenar);
+  EXPECT_EQ(verdict.products[1].hardest->region, hand::Region::kThenar);
 }
 
 TEST(SetVerdict, WhatCantBeToldApartIsNoDifference) {
@@ -79,7 +80,7 @@ TEST(SetVerdict, PressuresOfUnequalGripsAreNotCompared) {
 
 TEST(SetVerdict, WhatSlipsOutIsNotBetter) {
   std::vector<AssessedProduct> two = {held("a", 60, 0.40), held("b", 60, 0.10)};
-  two[1].assessment.balance.status = BalanceStatus::kSlipsOut;
+  two[1].assessment.balance.status = grasp::BalanceStatus::kSlipsOut;
   const SetVerdict verdict = verdict_on(two);
   EXPECT_EQ(verdict.products[1].held, HeldVerdict::kDoubtful);
   EXPECT_EQ(verdict.comparisons[0].verdict, PairVerdict::kOnlyOneHeld);
@@ -101,22 +102,22 @@ TEST(SetVerdict, StrengthIsThatOfTheMusclesADynamometersStandsBeside) {
   const SetVerdict usual = verdict_on({one});
   ASSERT_TRUE(usual.products[0].strength);
   EXPECT_EQ(usual.products[0].strength->share, 0.63);
-  EXPECT_NEAR(usual.products[0].strength->compared(), 106.75 / usual_grip_strength(), 1e-12);
+  EXPECT_NEAR(usual.products[0].strength->compared(), 106.75 / grasp::usual_grip_strength(), 1e-12);
   one.assessment.options.balance.share_of_strength =
-      ShareOfStrength{.share = 0.5, .strength = 213.5, .whose = "her", .why_least = ""};
+      grasp::ShareOfStrength{.share = 0.5, .strength = 213.5, .whose = "her", .why_least = ""};
   EXPECT_NEAR(verdict_on({one}).products[0].strength->compared(), 0.5, 1e-12);
   EXPECT_EQ(verdict_on({one}).products[0].strength->share, 0.63);
   // Of a person's strength a pinch reaches a fifth (Mathiowetz et al. 1985); muscles don't judge
   // it.
-  one.assessment.grasp.grip = Grip::kPalmarPinch;
+  one.assessment.grasp.grip = grasp::Grip::kPalmarPinch;
   one.assessment.balance.strength_use.reset();
   const auto pinch = verdict_on({one}).products[0].strength;
   EXPECT_NEAR(pinch->reached, 213.5 * 109.9 / 541.8, 1e-9);
   EXPECT_FALSE(pinch->is_judged);
   EXPECT_FALSE(pinch->share);
-  one.assessment.balance.status = BalanceStatus::kOff;
+  one.assessment.balance.status = grasp::BalanceStatus::kOff;
   EXPECT_FALSE(verdict_on({one}).products[0].strength);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

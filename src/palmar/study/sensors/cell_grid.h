@@ -10,7 +10,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// Square cells in rows and columns that gather forces.
 class CellGrid {
@@ -21,7 +21,7 @@ class CellGrid {
   /// Spreads a force over a square of `area` [mm^2] about (along, across), mm from the corner of
   /// row 1 and column 1. `girth` > 0: across comes round after so many mm. Returns the part of the
   /// force that falls beside the cells.
-  double spread(double along, double across, double area, double force, Region region,
+  double spread(double along, double across, double area, double force, hand::Region region,
                 double girth = 0.0) {
     const double half = 0.5 * std::sqrt(area);
     double beside = force;
@@ -46,7 +46,7 @@ class CellGrid {
   }
 
   /// Force on a cell (from 0) by the region that presses it, N.
-  const std::array<double, kRegionCount>& share(int row, int column) const {
+  const std::array<double, hand::kRegionCount>& share(int row, int column) const {
     return share_[row * columns_ + column];
   }
   int rows() const { return rows_; }
@@ -64,7 +64,7 @@ class CellGrid {
 
   int rows_, columns_;
   double pitch_;
-  std::vector<std::array<double, kRegionCount>> share_;
+  std::vector<std::array<double, hand::kRegionCount>> share_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::study

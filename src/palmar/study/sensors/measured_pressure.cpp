@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 using Key = std::tuple<std::string, int, int>;
@@ -101,8 +101,8 @@ PressureComparison compare_pressure(const SensorReading& reading,
   }
   result.rms = std::sqrt(squares / result.compared);
   result.mean_difference /= result.compared;
-  result.pearson = pearson(theirs, ours);
-  result.spearman = spearman(theirs, ours);
+  result.pearson = statistics::pearson(theirs, ours);
+  result.spearman = statistics::spearman(theirs, ours);
   std::stable_sort(result.parts.begin(), result.parts.end(),
                    [](const SensorPart& a, const SensorPart& b) {
                      return std::max(a.measured, a.simulated) > std::max(b.measured, b.simulated);
@@ -112,4 +112,4 @@ PressureComparison compare_pressure(const SensorReading& reading,
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

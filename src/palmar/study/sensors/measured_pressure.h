@@ -8,7 +8,7 @@
 #include "palmar/statistics/correlation.h"
 #include "palmar/study/sensors/sensor_reading.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// One cell as a real sensor read it.
 struct MeasuredCell {
@@ -41,10 +41,10 @@ struct PressureComparison {
   std::vector<double> measured;                        ///< force per cell of the reading, N
   double force_measured = 0.0, force_simulated = 0.0;  ///< of all cells, N
   double peak_measured = 0.0, peak_simulated = 0.0;    ///< MPa
-  int compared = 0;               ///< cells with a load in either; the rest says nothing
-  Correlation pearson, spearman;  ///< of the mean pressures of those
-  double rms = 0.0;               ///< of the differences of pressure over those, MPa
-  double mean_difference = 0.0;   ///< simulated less measured, over those, MPa
+  int compared = 0;  ///< cells with a load in either; the rest says nothing
+  statistics::Correlation pearson, spearman;  ///< of the mean pressures of those
+  double rms = 0.0;                           ///< of the differences of pressure over those, MPa
+  double mean_difference = 0.0;               ///< simulated less measured, over those, MPa
   std::vector<SensorPart> parts;
 };
 
@@ -53,4 +53,4 @@ struct PressureComparison {
 /// cell isn't the layout's, and naming the file if fewer than 3 cells are loaded.
 PressureComparison compare_pressure(const SensorReading& reading, const MeasuredPressure& measured);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -9,7 +9,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 using testing::AllOf;
@@ -31,7 +31,7 @@ SensorReading small_mat() {
     cell.area = 25.0;
     cell.force = force[i];
     cell.mean_pressure = force[i] / 25.0;
-    if (force[i] > 0.0) cell.region = i < 3 ? Region::kIndexDistal : Region::kThenar;
+    if (force[i] > 0.0) cell.region = i < 3 ? hand::Region::kIndexDistal : hand::Region::kThenar;
     reading.cells.push_back(cell);
   }
   return reading;
@@ -117,4 +117,4 @@ TEST(ComparePressure, NamesFileLineAndCellOfWhatDoesntFit) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

@@ -8,7 +8,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 SensorLayout mat_layout() {
@@ -27,15 +27,15 @@ SensorLayout glove_layout() {
   layout.kind = SensorKind::kGlove;
   layout.pitch = 5.0;
   layout.source = "our choice";
-  for (int s = 0; s < kSegmentCount; ++s) {
-    const std::optional<Region> region = region_of(static_cast<Segment>(s));
+  for (int s = 0; s < hand::kSegmentCount; ++s) {
+    const std::optional<hand::Region> region = hand::region_of(static_cast<hand::Segment>(s));
     if (region) layout.patches.push_back({*region, 4, 3});
   }
-  layout.patches.push_back({Region::kThenar, 8, 6});
-  layout.patches.push_back({Region::kHypothenar, 10, 6});
-  layout.patches.push_back({Region::kCentralPalm, 6, 5});
-  layout.patches.push_back({Region::kRadialPalm, 4, 8});
-  layout.patches.push_back({Region::kUlnarPalm, 4, 8});
+  layout.patches.push_back({hand::Region::kThenar, 8, 6});
+  layout.patches.push_back({hand::Region::kHypothenar, 10, 6});
+  layout.patches.push_back({hand::Region::kCentralPalm, 6, 5});
+  layout.patches.push_back({hand::Region::kRadialPalm, 4, 8});
+  layout.patches.push_back({hand::Region::kUlnarPalm, 4, 8});
   return layout;
 }
 
@@ -93,10 +93,10 @@ void SensorLayout::check() const {
     return;
   }
   if (patches.empty()) throw UsageError(where + ": a glove without patches; one is required");
-  std::set<Region> taken;
+  std::set<hand::Region> taken;
   for (const SensorPatch& patch : patches) {
     const std::string region(name_of(patch.region));
-    if (patch.region == Region::kDorsum) {
+    if (patch.region == hand::Region::kDorsum) {
       throw UsageError(where + ": a patch on the dorsum; palmar regions are allowed");
     }
     if (!taken.insert(patch.region).second) {
@@ -119,4 +119,4 @@ std::optional<SensorLayout> sensor_layout_named(std::string_view name) {
   return std::nullopt;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -10,7 +10,7 @@
 #include "palmar/geometry/types.h"
 #include "palmar/hand/anatomy.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// What carries a sensor's cells.
 enum class SensorKind {
@@ -22,7 +22,7 @@ std::string_view name_of(SensorKind kind);  ///< "mat", "glove", "free"
 
 /// Cells on the skin of one region, about its middle.
 struct SensorPatch {
-  Region region{};
+  hand::Region region{};
   int rows = 0;     ///< along the finger or the hand; row 1 is the nearest to the wrist
   int columns = 0;  ///< across; column 1 is on the little finger's side
 };
@@ -76,4 +76,4 @@ const std::vector<SensorLayout>& sensor_layouts();
 /// A built-in layout; nothing for another name.
 std::optional<SensorLayout> sensor_layout_named(std::string_view name);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -14,7 +14,7 @@
 #include "palmar/geometry/mesh/section.h"
 #include "palmar/study/sensors/cell_grid.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -28,7 +28,7 @@ struct MatFrame {
   Vec2 across(const Vec3& x) const { return {(x - origin).dot(first), (x - origin).dot(second)}; }
 };
 
-MatFrame mat_frame(const SensorLayout& layout, const Grasp& grasp) {
+MatFrame mat_frame(const SensorLayout& layout, const grasp::Grasp& grasp) {
   MatFrame frame;
   frame.origin = layout.origin.value_or(grasp.grip_point);
   frame.axis = layout.axis.value_or(grasp.grip_axis).normalized();
@@ -108,16 +108,16 @@ class Wrap {
 
 /// The outline round the axis at a height along it: of the section's closed curves the one whose
 /// outline holds the axis, else the nearest.
-Wrap wrap_at(const Product& product, const MatFrame& frame, double height) {
-  const std::vector<SectionCurve> curves =
-      plane_section(product.mesh, frame.origin + height * frame.axis, frame.axis);
+Wrap wrap_at(const product::Product& product, const MatFrame& frame, double height) {
+  const std::vector<geometry::SectionCurve> curves =
+      geometry::plane_section(product.mesh, frame.origin + height * frame.axis, frame.axis);
   Wrap best;
   double nearest = 1e300;
-  for (const SectionCurve& curve : curves) {
+  for (const geometry::SectionCurve& curve : curves) {
     if (!curve.is_closed) continue;
     std::vector<Vec2> points;
     for (const Vec3& p : curve.point) points.push_back(frame.across(p));
-    const std::vector<Vec2> hull = convex_hull(std::move(points));
+    const std::vector<Vec2> hull = geometry::convex_hull(std::move(points));
     if (hull.size() < 3) continue;
     double away = -1e300;  // of the axis from the hull; negative inside
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -136,14 +136,14 @@ Wrap wrap_at(const Product& product, const MatFrame& frame, double height) {
 }
 
 /// The cell with the forces of the regions that press it.
-void add_cell(SensorCell cell, const std::array<double, kRegionCount>& share,
+void add_cell(SensorCell cell, const std::array<double, hand::kRegionCount>& share,
               SensorReading& reading) {
   double most = 0.0;
-  for (int r = 0; r < kRegionCount; ++r) {
+  for (int r = 0; r < hand::kRegionCount; ++r) {
     cell.force += share[r];
     if (share[r] <= most) continue;
     most = share[r];
-    cell.region = static_cast<Region>(r);
+    cell.region = static_cast<hand::Region>(r);
   }
   if (cell.area > 0.0) cell.mean_pressure = cell.force / cell.area;
   reading.force += cell.force;
@@ -169,8 +169,8 @@ void add_cells(const CellGrid& grid, const std::string& patch, SensorReading& re
   }
 }
 
-void read_mat(const Hand& hand, const Product& product, const Grasp& grasp,
-              const ContactResult& contact, SensorReading& reading) {
+void read_mat(const hand::Hand& hand, const product::Product& product, const grasp::Grasp& grasp,
+              const contact::ContactResult& contact, SensorReading& reading) {
   const SensorLayout& layout = reading.layout;
   const MatFrame frame = mat_frame(layout, grasp);
   const double pitch = layout.pitch;
@@ -226,7 +226,7 @@ void read_mat(const Hand& hand, const Product& product, const Grasp& grasp,
 /// Where a patch's cells lie on the skin of its region, in the open hand.
 class PatchFrame {
  public:
-  PatchFrame(const Hand& hand, const SkinGeometry& skin, Region region) {
+  PatchFrame(const hand::Hand& hand, const contact::SkinGeometry& skin, hand::Region region) {
     Vec3 normal = Vec3::Zero();
     Vec3 middle = Vec3::Zero();
     double area = 0.0;
@@ -243,12 +243,12 @@ class PatchFrame {
                        ", where the glove has a patch");
     }
     middle_ = middle / area;
-    const Segment segment = segment_of(region).value_or(Segment::kPalm);
+    const hand::Segment segment = hand::segment_of(region).value_or(hand::Segment::kPalm);
     along_ = along_of(hand, segment);
     normal_ = (normal - normal.dot(along_) * along_).normalized();
-    across_ = along_.cross(normal_) * (hand.side == Side::kRight ? 1.0 : -1.0);
-    if (segment != Segment::kPalm) {
-      bone_ = hand.skeleton.joint(joint_of(segment)).centre;
+    across_ = along_.cross(normal_) * (hand.side == hand::Side::kRight ? 1.0 : -1.0);
+    if (segment != hand::Segment::kPalm) {
+      bone_ = hand.skeleton.joint(hand::joint_of(segment)).centre;
       for (const int v : own) radius_ += skin.area[v] * away_from_bone(skin.position[v]);
       radius_ /= area;
     }
@@ -269,15 +269,15 @@ class PatchFrame {
   Vec2 at(const Vec3& x) const { return place(x) - zero_; }
 
  private:
-  static Vec3 along_of(const Hand& hand, Segment segment) {
-    if (segment == Segment::kPalm) return Vec3::UnitY();  // hand frame: distal
-    const Vec3 proximal = hand.skeleton.joint(joint_of(segment)).centre;
-    const Finger finger = *finger_of(segment);
-    const auto segments = segments_of(finger);
+  static Vec3 along_of(const hand::Hand& hand, hand::Segment segment) {
+    if (segment == hand::Segment::kPalm) return Vec3::UnitY();  // hand frame: distal
+    const Vec3 proximal = hand.skeleton.joint(hand::joint_of(segment)).centre;
+    const hand::Finger finger = *hand::finger_of(segment);
+    const auto segments = hand::segments_of(finger);
     Vec3 distal = hand.skeleton.fingertips[index_of(finger)];
     for (std::size_t k = 0; k + 1 < segments.size(); ++k) {
       if (segments[k] == segment && segments[k + 1]) {
-        distal = hand.skeleton.joint(joint_of(*segments[k + 1])).centre;
+        distal = hand.skeleton.joint(hand::joint_of(*segments[k + 1])).centre;
       }
     }
     return (distal - proximal).normalized();
@@ -300,10 +300,11 @@ class PatchFrame {
   Vec2 zero_ = Vec2::Zero();
 };
 
-void read_glove(const Hand& hand, const ContactResult& contact, SensorReading& reading) {
+void read_glove(const hand::Hand& hand, const contact::ContactResult& contact,
+                SensorReading& reading) {
   const SensorLayout& layout = reading.layout;
-  const SkinGeometry skin = skin_geometry(hand.skin);
-  std::array<bool, kRegionCount> is_covered{};
+  const contact::SkinGeometry skin = contact::skin_geometry(hand.skin);
+  std::array<bool, hand::kRegionCount> is_covered{};
   for (const SensorPatch& patch : layout.patches) {
     is_covered[index_of(patch.region)] = true;
     const PatchFrame frame(hand, skin, patch.region);
@@ -322,13 +323,13 @@ void read_glove(const Hand& hand, const ContactResult& contact, SensorReading& r
   }
 }
 
-void read_free(const Hand& hand, const Product& product, const ContactResult& contact,
-               SensorReading& reading) {
+void read_free(const hand::Hand& hand, const product::Product& product,
+               const contact::ContactResult& contact, SensorReading& reading) {
   std::vector<double> left = contact.force;
   for (const FreeSensor& one : reading.layout.sensors) {
     const double radius = std::sqrt(one.area / std::numbers::pi);
     const Vec3 normal = product.distance->at(one.at).normal;
-    std::array<double, kRegionCount> share{};
+    std::array<double, hand::kRegionCount> share{};
     for (std::size_t v = 0; v < left.size(); ++v) {
       if (!(contact.force[v] > 0.0 && contact.pressure[v] > 0.0)) continue;
       const double area = contact.force[v] / contact.pressure[v];
@@ -337,7 +338,8 @@ void read_free(const Hand& hand, const Product& product, const ContactResult& co
       if (away >= radius + own) continue;
       // Not what presses a thin wall's other side.
       if (product.distance->at(contact.deformed[v]).normal.dot(normal) < 0.0) continue;
-      const double part = std::min(left[v], contact.pressure[v] * disc_overlap(away, radius, own));
+      const double part =
+          std::min(left[v], contact.pressure[v] * contact::disc_overlap(away, radius, own));
       left[v] -= part;
       share[index_of(hand.region[v])] += part;
     }
@@ -351,8 +353,9 @@ void read_free(const Hand& hand, const Product& product, const ContactResult& co
 
 }  // namespace
 
-SensorReading sensor_reading(const Hand& hand, const Product& product, const Grasp& grasp,
-                             const ContactResult& contact, const SensorLayout& layout) {
+SensorReading sensor_reading(const hand::Hand& hand, const product::Product& product,
+                             const grasp::Grasp& grasp, const contact::ContactResult& contact,
+                             const SensorLayout& layout) {
   layout.check();
   if (contact.force.size() != hand.region.size()) {
     throw UsageError("sensor: contact of " + std::to_string(contact.force.size()) +
@@ -374,4 +377,4 @@ SensorReading sensor_reading(const Hand& hand, const Product& product, const Gra
   return reading;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -11,16 +11,16 @@
 #include "palmar/product/product.h"
 #include "palmar/study/sensors/sensor_layout.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// One cell of a sensor.
 struct SensorCell {
-  std::string patch;             ///< "mat", the region of a glove's patch, a free sensor's name
-  int row = 1, column = 1;       ///< from 1
-  double area = 0.0;             ///< mm^2
-  double force = 0.0;            ///< N
-  double mean_pressure = 0.0;    ///< force over the cell's area, MPa
-  std::optional<Region> region;  ///< of the hand that presses it most; unset where none does
+  std::string patch;           ///< "mat", the region of a glove's patch, a free sensor's name
+  int row = 1, column = 1;     ///< from 1
+  double area = 0.0;           ///< mm^2
+  double force = 0.0;          ///< N
+  double mean_pressure = 0.0;  ///< force over the cell's area, MPa
+  std::optional<hand::Region> region;  ///< of the hand that presses it most; unset where none does
 };
 
 /// What a sensor between hand and product would show.
@@ -47,7 +47,8 @@ struct SensorReading {
 /// and distances go straight.
 ///
 /// Throws UsageError as SensorLayout::check(), or if the hand's skin isn't that of the contact.
-SensorReading sensor_reading(const Hand& hand, const Product& product, const Grasp& grasp,
-                             const ContactResult& contact, const SensorLayout& layout);
+SensorReading sensor_reading(const hand::Hand& hand, const product::Product& product,
+                             const grasp::Grasp& grasp, const contact::ContactResult& contact,
+                             const SensorLayout& layout);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -11,7 +11,7 @@
 #include "palmar/core/error.h"
 #include "palmar/product/primitives.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 using testing::HasSubstr;
@@ -20,19 +20,19 @@ using testing::ThrowsMessage;
 constexpr double kRadius = 20.0;  // mm, of the handle
 constexpr double kSpot = 4.0;     // mm^2, that a point of skin presses on
 
-Product handle() {
-  CylinderProductOptions options;
+product::Product handle() {
+  product::CylinderProductOptions options;
   options.diameter = 2.0 * kRadius;
   options.length = 150.0;
-  return make_cylinder_product(options);
+  return product::make_cylinder_product(options);
 }
 
 /// Points of skin that press a product.
 struct Presser {
-  Hand hand;
-  ContactResult contact;
+  hand::Hand hand;
+  contact::ContactResult contact;
 
-  void add(const Vec3& at, double force, Region region) {
+  void add(const Vec3& at, double force, hand::Region region) {
     hand.region.push_back(region);
     contact.deformed.push_back(at);
     contact.force.push_back(force);
@@ -44,7 +44,7 @@ struct Presser {
 struct Axis {
   Vec3 middle, along;
 };
-Axis axis_of(const Product& product) {
+Axis axis_of(const product::Product& product) {
   Box3 box;
   for (const Vec3& v : product.mesh.vertices) box.extend(v);
   Axis axis{box.center(), Vec3::Zero()};
@@ -70,16 +70,16 @@ const SensorCell& cell_at(const SensorReading& reading, int row, int column) {
 }
 
 TEST(SensorReading, ACellStandsWhereTheArcSaysAndNamesItsRegion) {
-  const Product product = handle();
+  const product::Product product = handle();
   const Axis axis = axis_of(product);
   const Vec3 seam = axis.along.unitOrthogonal();
   const Vec3 side = axis.along.cross(seam);
   Presser presser;
   // A quarter round, 31.4 mm from the seam: column 7 of 5 mm. 12.5 mm above the middle of 32 rows:
   // row 19.
-  presser.add(axis.middle + kRadius * side + 12.5 * axis.along, 2.0, Region::kIndexDistal);
+  presser.add(axis.middle + kRadius * side + 12.5 * axis.along, 2.0, hand::Region::kIndexDistal);
   // Half round, 62.8 mm: column 13; 2.5 mm below the middle: row 16.
-  presser.add(axis.middle - kRadius * seam - 2.5 * axis.along, 3.0, Region::kThenar);
+  presser.add(axis.middle - kRadius * seam - 2.5 * axis.along, 3.0, hand::Region::kThenar);
   const SensorReading reading =
       sensor_reading(presser.hand, product, {}, presser.contact, mat(axis, seam));
   EXPECT_EQ(reading.rows, 32);
@@ -87,9 +87,9 @@ TEST(SensorReading, ACellStandsWhereTheArcSaysAndNamesItsRegion) {
   const SensorCell& quarter = cell_at(reading, 19, 7);
   EXPECT_NEAR(quarter.force, 2.0, 1e-9);
   EXPECT_NEAR(quarter.mean_pressure, 2.0 / 25.0, 1e-9);
-  EXPECT_EQ(quarter.region, Region::kIndexDistal);
+  EXPECT_EQ(quarter.region, hand::Region::kIndexDistal);
   EXPECT_NEAR(cell_at(reading, 16, 13).force, 3.0, 1e-9);
-  EXPECT_EQ(cell_at(reading, 16, 13).region, Region::kThenar);
+  EXPECT_EQ(cell_at(reading, 16, 13).region, hand::Region::kThenar);
   EXPECT_FALSE(cell_at(reading, 1, 1).region);
   EXPECT_NEAR(reading.force, 5.0, 1e-12);
   EXPECT_NEAR(reading.force_beside, 0.0, 1e-12);
@@ -99,7 +99,7 @@ TEST(SensorReading, ACellStandsWhereTheArcSaysAndNamesItsRegion) {
 }
 
 TEST(SensorReading, CellsAndWhatPressesBesideThemAddUpToTheForce) {
-  const Product product = handle();
+  const product::Product product = handle();
   const Axis axis = axis_of(product);
   const Vec3 seam = axis.along.unitOrthogonal();
   const Vec3 side = axis.along.cross(seam);
@@ -110,11 +110,11 @@ TEST(SensorReading, CellsAndWhatPressesBesideThemAddUpToTheForce) {
     const double force = 0.1 + 0.001 * k;
     presser.add(axis.middle + kRadius * (std::cos(angle) * seam + std::sin(angle) * side) +
                     (0.35 * k - 70.0) * axis.along,
-                force, Region::kRadialPalm);
+                force, hand::Region::kRadialPalm);
     all += force;
   }
   // On the end: a mat isn't there.
-  presser.add(axis.middle + 75.0 * axis.along + 3.0 * seam, 7.0, Region::kHypothenar);
+  presser.add(axis.middle + 75.0 * axis.along + 3.0 * seam, 7.0, hand::Region::kHypothenar);
   all += 7.0;
   for (const int rows : {32, 8}) {
     SensorLayout layout = mat(axis, seam);
@@ -134,11 +134,11 @@ TEST(SensorReading, CellsAndWhatPressesBesideThemAddUpToTheForce) {
 }
 
 TEST(SensorReading, AForceOnTheSeamIsSharedByTheFirstAndTheLastColumn) {
-  const Product product = handle();
+  const product::Product product = handle();
   const Axis axis = axis_of(product);
   const Vec3 seam = axis.along.unitOrthogonal();
   Presser presser;
-  presser.add(axis.middle + kRadius * seam + 2.5 * axis.along, 1.0, Region::kThenar);
+  presser.add(axis.middle + kRadius * seam + 2.5 * axis.along, 1.0, hand::Region::kThenar);
   const SensorReading reading =
       sensor_reading(presser.hand, product, {}, presser.contact, mat(axis, seam));
   const double first = cell_at(reading, 17, 1).force;
@@ -147,12 +147,12 @@ TEST(SensorReading, AForceOnTheSeamIsSharedByTheFirstAndTheLastColumn) {
 }
 
 TEST(SensorReading, FreeSensorsTakeWhatLiesOverThem) {
-  const Product product = handle();
+  const product::Product product = handle();
   const Axis axis = axis_of(product);
   const Vec3 seam = axis.along.unitOrthogonal();
   Presser presser;
-  presser.add(axis.middle + kRadius * seam, 1.5, Region::kThumbDistal);
-  presser.add(axis.middle - kRadius * seam, 2.5, Region::kIndexDistal);
+  presser.add(axis.middle + kRadius * seam, 1.5, hand::Region::kThumbDistal);
+  presser.add(axis.middle - kRadius * seam, 2.5, hand::Region::kIndexDistal);
   SensorLayout layout;
   layout.name = "pads";
   layout.kind = SensorKind::kFree;
@@ -162,17 +162,17 @@ TEST(SensorReading, FreeSensorsTakeWhatLiesOverThem) {
   ASSERT_EQ(reading.cells.size(), 2U);
   EXPECT_EQ(reading.cells[0].patch, "thumb");
   EXPECT_NEAR(reading.cells[0].force, 1.5, 1e-9);
-  EXPECT_EQ(reading.cells[0].region, Region::kThumbDistal);
+  EXPECT_EQ(reading.cells[0].region, hand::Region::kThumbDistal);
   EXPECT_EQ(reading.cells[1].force, 0.0);
   EXPECT_NEAR(reading.force_beside, 2.5, 1e-9);
 }
 
 TEST(SensorReading, RefusesLayoutsThatDontFit) {
-  const Product product = handle();
+  const product::Product product = handle();
   const Axis axis = axis_of(product);
   const Vec3 seam = axis.along.unitOrthogonal();
   Presser presser;
-  presser.add(axis.middle + kRadius * seam, 1.0, Region::kThenar);
+  presser.add(axis.middle + kRadius * seam, 1.0, hand::Region::kThenar);
   const auto read = [&](const SensorLayout& layout) {
     return [&presser, &product, layout] {
       sensor_reading(presser.hand, product, {}, presser.contact, layout);
@@ -194,4 +194,4 @@ TEST(SensorReading, RefusesLayoutsThatDontFit) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

@@ -9,7 +9,7 @@
 
 #include "palmar/study/statistics/study_statistics.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 bool is_within(double value, const StudyLimit& limit) {
@@ -87,10 +87,10 @@ Accommodation accommodation_of(const StudyResults& results, const StudyCondition
       }
     }
   }
-  found.in_hand = wilson_proportion(held, run, level);
-  found.inside = wilson_proportion(inside, run, level);
+  found.in_hand = statistics::wilson_proportion(held, run, level);
+  found.inside = statistics::wilson_proportion(inside, run, level);
   for (const int count : inside_limit) {
-    found.inside_limit.push_back(wilson_proportion(count, run, level));
+    found.inside_limit.push_back(statistics::wilson_proportion(count, run, level));
   }
   for (const auto& [cause, hands] : causes) found.causes.push_back({cause, hands});
   std::stable_sort(found.causes.begin(), found.causes.end(),
@@ -121,4 +121,4 @@ std::string words_of(const StudyResults& results, const StudyLimit& limit) {
   return quantity.unit.empty() ? words : words + " " + quantity.unit;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -9,7 +9,7 @@
 #include "palmar/statistics/proportion.h"
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// Whether a grasp is inside all limits: in the hand, and every limited quantity has a value within
 /// its edges (the edges count as inside).
@@ -26,11 +26,11 @@ struct OutsideCause {
 struct Accommodation {
   StudyCondition condition;
   int product = 0;
-  int not_run = 0;                       ///< hands
-  Proportion in_hand;                    ///< held at least partly, of those that were run
-  Proportion inside;                     ///< of those that were run
-  std::vector<Proportion> inside_limit;  ///< of StudyPlan::limits one by one
-  std::vector<OutsideCause> causes;      ///< most frequent first
+  int not_run = 0;                 ///< hands
+  statistics::Proportion in_hand;  ///< held at least partly, of those that were run
+  statistics::Proportion inside;   ///< of those that were run
+  std::vector<statistics::Proportion> inside_limit;         ///< of StudyPlan::limits one by one
+  std::vector<OutsideCause> causes;                         ///< most frequent first
   std::optional<double> shortest_outside, longest_outside;  ///< hand length, mm
   std::optional<double> shortest_inside, longest_inside;    ///< hand length, mm
 };
@@ -42,4 +42,4 @@ Accommodation accommodation_of(const StudyResults& results, const StudyCondition
 /// "peak pressure on sensor cells at most 0.3 MPa", "contact area 2000 to 4000 mm²".
 std::string words_of(const StudyResults& results, const StudyLimit& limit);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -7,7 +7,7 @@
 
 #include "palmar/core/enum_index.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 // What a share of a range loses by rounding when the range is reduced and a joint stops at its end.
@@ -39,12 +39,14 @@ ExclusionCause cause_of(StudyOutcome outcome) {
 }
 
 // Profiles that leave the hand's size and its cover the same find ways of holding for each other.
-bool are_akin(const HandProfile& a, const HandProfile& b) {
+bool are_akin(const population::HandProfile& a, const population::HandProfile& b) {
   return a.size_factor == b.size_factor && a.glove_thickness == b.glove_thickness &&
          (a.glove_thickness == 0.0 || a.glove_shear_modulus == b.glove_shear_modulus);
 }
 
-const HandProfile& profile_at(const StudyPlan& plan, int profile) { return plan.profiles[profile]; }
+const population::HandProfile& profile_at(const StudyPlan& plan, int profile) {
+  return plan.profiles[profile];
+}
 
 }  // namespace
 
@@ -62,7 +64,8 @@ std::string words_of(ExclusionCause cause) {
   return kWords[index_of(cause)];
 }
 
-Capability capability_of(const HandProfile& profile, const HandSample& person) {
+Capability capability_of(const population::HandProfile& profile,
+                         const population::HandSample& person) {
   return {.range_share = profile.range_share,
           .grip_strength = profile.strength_share * person.grip_strength,
           .nail_length = profile.nail_length};
@@ -94,7 +97,7 @@ ExclusionCause exclusion_of(std::span<const StudyRecord* const> records, const S
 Exclusion exclusion_of(const StudyResults& results, const StudyCondition& condition, int product,
                        double level) {
   const StudyPlan& plan = results.plan;
-  const HandProfile& profile = profile_at(plan, condition.profile);
+  const population::HandProfile& profile = profile_at(plan, condition.profile);
   Exclusion exclusion;
   exclusion.condition = condition;
   exclusion.product = product;
@@ -108,7 +111,7 @@ Exclusion exclusion_of(const StudyResults& results, const StudyCondition& condit
       const StudyRecord* record = record_of(results, other, product, hand);
       if (record != nullptr) ways.push_back(record);
     }
-    const HandSample& person = plan.hands[hand].sample;
+    const population::HandSample& person = plan.hands[hand].sample;
     const ExclusionCause cause = exclusion_of(ways, record_of(results, condition, product, hand),
                                               capability_of(profile, person));
     ++count[index_of(cause)];
@@ -121,12 +124,12 @@ Exclusion exclusion_of(const StudyResults& results, const StudyCondition& condit
   exclusion.unknown = count[index_of(ExclusionCause::kUnknown)];
   people -= exclusion.unknown;
   const int included = count[index_of(ExclusionCause::kNone)];
-  exclusion.excluded = wilson_proportion(people - included, people, level);
+  exclusion.excluded = statistics::wilson_proportion(people - included, people, level);
   for (int c = 1; c < static_cast<int>(ExclusionCause::kUnknown); ++c) {
     const int n = count[c];
     if (n == 0) continue;
     exclusion.causes.emplace_back(static_cast<ExclusionCause>(c),
-                                  wilson_proportion(n, people, level));
+                                  statistics::wilson_proportion(n, people, level));
   }
   return exclusion;
 }
@@ -141,4 +144,4 @@ std::vector<Exclusion> exclusions(const StudyResults& results, double level) {
   return list;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -10,7 +10,7 @@
 #include "palmar/statistics/proportion.h"
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// Why a person can't use a product.
 enum class ExclusionCause {
@@ -34,7 +34,8 @@ struct Capability {
   double grip_strength = 0.0;  ///< N, the profile's share of the person's own; 0: not known
   double nail_length = 0.0;    ///< mm
 };
-Capability capability_of(const HandProfile& profile, const HandSample& person);
+Capability capability_of(const population::HandProfile& profile,
+                         const population::HandSample& person);
 
 /// Whether a person is excluded. `records` are all ways that were found for one hand to hold one
 /// product in one grip, whatever range, strength and nails they were found with; `own` is the one
@@ -54,9 +55,10 @@ ExclusionCause exclusion_of(std::span<const StudyRecord* const> records, const S
 struct Exclusion {
   StudyCondition condition;
   int product = 0;
-  int unknown = 0;      ///< people without an answer; not among the others
-  Proportion excluded;  ///< of those with one
-  std::vector<std::pair<ExclusionCause, Proportion>> causes;  ///< those that occur; they add up
+  int unknown = 0;                  ///< people without an answer; not among the others
+  statistics::Proportion excluded;  ///< of those with one
+  std::vector<std::pair<ExclusionCause, statistics::Proportion>> causes;  ///< those that occur;
+                                                                          ///< they add up
   int without_strength = 0;  ///< people whose strength isn't known, judged without it
 };
 Exclusion exclusion_of(const StudyResults& results, const StudyCondition& condition, int product,
@@ -64,4 +66,4 @@ Exclusion exclusion_of(const StudyResults& results, const StudyCondition& condit
 /// Of every condition and product, conditions first. Intervals after Wilson.
 std::vector<Exclusion> exclusions(const StudyResults& results, double level = 0.95);
 
-}  // namespace palmar
+}  // namespace palmar::study

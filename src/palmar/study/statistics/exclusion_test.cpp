@@ -8,7 +8,7 @@
 #include "palmar/core/random.h"
 #include "palmar/population/built_in_populations.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 StudyRecord held(double range, double strength, double nails) {
@@ -105,9 +105,9 @@ StudyResults ten_people() {
   StudyResults results;
   StudyPlan& plan = results.plan;
   plan.name = "ten";
-  plan.populations = {{population_named("ansur2_women"), {}}};
-  plan.profiles = {profile_named("none"), profile_named("reduced_range"),
-                   profile_named("thick_gloves")};
+  plan.populations = {{population::population_named("ansur2_women"), {}}};
+  plan.profiles = {population::profile_named("none"), population::profile_named("reduced_range"),
+                   population::profile_named("thick_gloves")};
   plan.products.resize(1);
   plan.products[0].name = plan.products[0].family = "handle";
   plan.grips = {std::nullopt};
@@ -176,4 +176,4 @@ TEST(Exclusions, GraspsWithoutAnAnswerAreNobodysFault) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

@@ -12,27 +12,27 @@
 #include "palmar/study/assessment/face_contacts.h"
 #include "palmar/study/study_task.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 /// The maps of all products that have faces, bare and inside each glove.
 class FaceMaps {
  public:
-  FaceMaps(const StudyPlan& plan, const std::vector<Product>& products) {
+  FaceMaps(const StudyPlan& plan, const std::vector<product::Product>& products) {
     for (std::size_t p = 0; p < products.size(); ++p) {
       if (products[p].faces == nullptr) continue;
       const ProductMap map = product_map(products[p]);
-      for (const HandProfile& profile : plan.profiles) {
+      for (const population::HandProfile& profile : plan.profiles) {
         const std::pair key(static_cast<int>(p), profile.glove_thickness);
         if (areas_.contains(key)) continue;
         if (profile.glove_thickness == 0.0) {
           areas_.emplace(key, FaceAreas(map.mesh, map.face_of_triangle));
           continue;
         }
-        Product as_map = products[p];
+        product::Product as_map = products[p];
         as_map.mesh = map.mesh;
-        areas_.emplace(
-            key, FaceAreas(gloved(as_map, profile.glove_thickness).mesh, map.face_of_triangle));
+        areas_.emplace(key, FaceAreas(product::gloved(as_map, profile.glove_thickness).mesh,
+                                      map.face_of_triangle));
       }
     }
   }
@@ -77,13 +77,13 @@ struct Sums {
     for (const auto& [index, sums] : face) {
       FaceSummary one;
       one.face = index;
-      one.touched = wilson_proportion(static_cast<int>(sums.peaks.size()), hands);
-      one.has_peak = wilson_proportion(sums.with_peak, hands);
-      one.above = wilson_proportion(sums.above, hands);
-      one.peak = summarise(sums.peaks);
+      one.touched = statistics::wilson_proportion(static_cast<int>(sums.peaks.size()), hands);
+      one.has_peak = statistics::wilson_proportion(sums.with_peak, hands);
+      one.above = statistics::wilson_proportion(sums.above, hands);
+      one.peak = statistics::summarise(sums.peaks);
       std::vector<double> sorted = sums.peaks;
       std::sort(sorted.begin(), sorted.end());
-      one.peak_p95 = quantile(sorted, 0.95);
+      one.peak_p95 = statistics::quantile(sorted, 0.95);
       one.force = sums.force / hands;
       one.force_share = sums.share / hands;
       one.area = sums.area / hands;
@@ -96,7 +96,7 @@ struct Sums {
 }  // namespace
 
 std::vector<FaceStatistics> face_statistics(const StudyPlan& plan,
-                                            const std::vector<Product>& products,
+                                            const std::vector<product::Product>& products,
                                             const RecordSource& records,
                                             const MeanMapOptions& options) {
   options.check();
@@ -149,4 +149,4 @@ const FaceSummary* hottest_face(const FaceStatistics& statistics) {
   return best;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

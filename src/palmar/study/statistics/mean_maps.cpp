@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 /// Mean and scatter of the hands that touch a vertex, updated hand by hand (Welford 1962); those
@@ -113,4 +113,4 @@ std::vector<StudyMaps> mean_maps(const StudyPlan& plan, const RecordSource& reco
   return maps;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -7,7 +7,7 @@
 #include "palmar/grasp/pressure_thresholds.h"
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// A pressure field over hands, vertex by vertex. Hands of different size share the template's
 /// triangles, so vertex k is the same place of every hand; on the product every hand presses where
@@ -31,7 +31,7 @@ struct MeanMapOptions {
   /// MPa. Blood-flow family: at more the skin's blood flow stops if the grip is held long. The only
   /// family of thresholds that speaks of the pressure at a point; the onsets of pain and discomfort
   /// hold for their probes' areas (pressure_thresholds.h).
-  double threshold = kBloodFlowStop;
+  double threshold = grasp::kBloodFlowStop;
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
@@ -43,4 +43,4 @@ std::vector<StudyMaps> mean_maps(const StudyPlan& plan, const RecordSource& reco
                                  int skin_vertices, const std::vector<int>& product_vertices,
                                  const MeanMapOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/study/statistics/study_test_results.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 using testing::held;
@@ -81,4 +81,4 @@ TEST(MeanMaps, NameAVertexThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

@@ -10,7 +10,7 @@
 #include "palmar/study/statistics/accommodation.h"
 #include "palmar/study/statistics/study_statistics.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 /// The sizes of one family over hands, ascending by hand length (hands of unknown length last).
@@ -107,9 +107,10 @@ SizeTable best_table(const Family& family, const std::vector<int>& sizes) {
 
 SizeChoice choice_of(const Family& family, const std::vector<int>& sizes) {
   SizeChoice choice;
-  choice.served = wilson_proportion(served_by(family, sizes), family.hands);
+  choice.served = statistics::wilson_proportion(served_by(family, sizes), family.hands);
   const SizeTable table = best_table(family, sizes);
-  choice.served_by_length = wilson_proportion(table.served, static_cast<int>(family.length.size()));
+  choice.served_by_length =
+      statistics::wilson_proportion(table.served, static_cast<int>(family.length.size()));
   const auto bound = [&](int i) -> std::optional<double> {
     if (i <= 0 || i >= static_cast<int>(family.length.size())) return std::nullopt;
     return 0.5 * (family.length[i - 1] + family.length[i]);
@@ -196,4 +197,4 @@ std::vector<ProductSizes> product_sizes(const StudyResults& results,
   return all;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

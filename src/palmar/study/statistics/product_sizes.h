@@ -9,7 +9,7 @@
 #include "palmar/statistics/proportion.h"
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// What one size of a choice is for.
 struct ServedBySize {
@@ -26,11 +26,11 @@ struct ServedBySize {
 struct SizeChoice {
   std::vector<ServedBySize> sizes;  ///< ascending by size
   /// Hands that at least one of the sizes serves: everybody tries all on.
-  Proportion served;
+  statistics::Proportion served;
   /// Hands that the size of the table serves: everybody goes by hand length. Bounds of the table
   /// are those that serve most of these hands; equal lengths take equal sizes. Of hands whose
   /// length is known.
-  Proportion served_by_length;
+  statistics::Proportion served_by_length;
 };
 
 /// How many sizes a product needs and for whom.
@@ -48,4 +48,4 @@ struct ProductSizes {
 std::vector<ProductSizes> product_sizes(const StudyResults& results,
                                         const StudyCondition& condition, int most = 3);
 
-}  // namespace palmar
+}  // namespace palmar::study

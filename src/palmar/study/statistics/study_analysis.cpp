@@ -12,7 +12,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/study/statistics/study_holds.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 // Depths that the tissue was fitted to: d_lim of Xie 2014, section 3.3.
@@ -115,9 +115,9 @@ void warn_of_design(const StudyPlan& plan, std::vector<StudyWarning>& warnings) 
         "those of a boundary or of percentiles are chosen, not drawn by chance: p values and "
         "intervals in the tables mean nothing, and shares are of these hands, not of people.");
   }
-  const bool is_weak =
-      std::any_of(plan.profiles.begin(), plan.profiles.end(),
-                  [](const HandProfile& profile) { return profile.strength_share < 1.0; });
+  const bool is_weak = std::any_of(
+      plan.profiles.begin(), plan.profiles.end(),
+      [](const population::HandProfile& profile) { return profile.strength_share < 1.0; });
   const bool is_stated =
       std::any_of(plan.settings.begin(), plan.settings.end(),
                   [](const StudySetting& setting) { return setting.grip_force.has_value(); });
@@ -130,10 +130,10 @@ void warn_of_design(const StudyPlan& plan, std::vector<StudyWarning>& warnings) 
   }
 }
 
-void warn_of_hands(const StudyPlan& plan, const HandDimensions& base,
+void warn_of_hands(const StudyPlan& plan, const hand::HandDimensions& base,
                    std::vector<StudyWarning>& warnings) {
   for (std::size_t p = 0; p < plan.populations.size(); ++p) {
-    const Population& population = plan.populations[p].population;
+    const population::Population& population = plan.populations[p].population;
     const std::string subject = "Population " + population.name;
     for (const std::string& caution : population.cautions) add(warnings, false, subject, caution);
     int hands = 0, far = 0;
@@ -160,7 +160,7 @@ void warn_of_hands(const StudyPlan& plan, const HandDimensions& base,
         "together they count as they were drawn: shares and means are of these hands, not of a "
         "country's people.");
   }
-  for (const HandProfile& profile : plan.profiles) {
+  for (const population::HandProfile& profile : plan.profiles) {
     if (profile.size_factor < 1.0 - kLargestScaling) {
       add(warnings, true, "Profile " + profile.name,
           fmt::format("hands are the template's at {:g} of its size; children's differ in shape, "
@@ -175,17 +175,17 @@ bool is_held_by_loop(const StudyResults& results, int p) {
   int count = 0;
   for (const StudyRecord& record : results.records) {
     if (task_at(results.plan, record.number).product != p || !is_in_hand(record)) continue;
-    if (!record.hold || record.hold->kind != PartKind::kLoop) return false;
+    if (!record.hold || record.hold->kind != product::PartKind::kLoop) return false;
     ++count;
   }
   return count > 0;
 }
 
-void warn_of_products(const StudyResults& results, const std::vector<Product>& products,
+void warn_of_products(const StudyResults& results, const std::vector<product::Product>& products,
                       std::vector<StudyWarning>& warnings) {
   const StudyPlan& plan = results.plan;
   for (std::size_t p = 0; p < products.size() && p < plan.products.size(); ++p) {
-    Vec3 sides = bounding_box(products[p].mesh).sizes();
+    Vec3 sides = geometry::bounding_box(products[p].mesh).sizes();
     std::sort(sides.begin(), sides.end());
     const std::string box =
         fmt::format("{:.0f} x {:.0f} x {:.0f} mm", sides[2], sides[1], sides[0]);
@@ -205,7 +205,7 @@ void warn_of_products(const StudyResults& results, const std::vector<Product>& p
 }
 
 void warn_of_fallbacks(const StudyResults& results, std::vector<StudyWarning>& warnings) {
-  for (const FallbackCount& one : kFallbackCounts) {
+  for (const contact::FallbackCount& one : contact::kFallbackCounts) {
     int count = 0;
     int grasps = 0;
     for (const StudyRecord& record : results.records) {
@@ -299,8 +299,8 @@ const QuantityComparison* comparison_of(const ConditionAnalysis& analysis, const
 }
 
 std::vector<StudyWarning> study_warnings(const StudyResults& results,
-                                         const std::vector<Product>& products,
-                                         const HandDimensions& base) {
+                                         const std::vector<product::Product>& products,
+                                         const hand::HandDimensions& base) {
   std::vector<StudyWarning> warnings;
   warn_of_settings(results.plan, warnings);
   warn_of_products(results, products, warnings);
@@ -315,4 +315,4 @@ std::vector<StudyWarning> study_warnings(const StudyResults& results,
   return warnings;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -12,7 +12,7 @@
 #include "palmar/study/statistics/study_results.h"
 #include "palmar/study/statistics/study_statistics.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// Everything that is said of one condition.
 struct ConditionAnalysis {
@@ -46,7 +46,7 @@ struct StudyWarning {
 /// drawn by chance; less strength without a load; few hands; what the populations say of
 /// themselves. Those outside first.
 std::vector<StudyWarning> study_warnings(const StudyResults& results,
-                                         const std::vector<Product>& products,
-                                         const HandDimensions& base);
+                                         const std::vector<product::Product>& products,
+                                         const hand::HandDimensions& base);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -10,7 +10,7 @@
 #include "palmar/core/error.h"
 #include "palmar/statistics/distributions.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 /// Why a hand has no value with a product, or "" if it has.
@@ -37,11 +37,11 @@ double unless_rounding(double first, double second) {
 void test(const ComparisonOptions& options, const std::vector<double>& first,
           const std::vector<double>& second, ProductPair& pair) {
   if (pair.pairs == 0) return;
-  pair.mean_first = summarise(first).mean;
-  pair.mean_second = summarise(second).mean;
+  pair.mean_first = statistics::summarise(first).mean;
+  pair.mean_second = statistics::summarise(second).mean;
   if (pair.pairs < 2) return;
-  pair.t_test = paired_t_test(second, first, options.level);
-  pair.wilcoxon = wilcoxon_signed_rank(second, first, options.level);
+  pair.t_test = statistics::paired_t_test(second, first, options.level);
+  pair.wilcoxon = statistics::wilcoxon_signed_rank(second, first, options.level);
   pair.verdict =
       pair.wilcoxon.is_constant ? DifferenceVerdict::kNone : DifferenceVerdict::kNotShown;
 }
@@ -83,7 +83,7 @@ ProductPair compare_pair(const StudyResults& results, const StudyCondition& cond
 }  // namespace
 
 void ComparisonOptions::check() const {
-  check_level(level);
+  statistics::check_level(level);
   if (!(significance > 0.0 && significance < 1.0)) {
     std::ostringstream message;
     message << "comparison: significance is " << significance << "; between 0 and 1 is required";
@@ -125,8 +125,8 @@ QuantityComparison compare_products(const StudyResults& results, const StudyCond
     t_p.push_back(pair.t_test.p_value);
     wilcoxon_p.push_back(pair.wilcoxon.p_value);
   }
-  const std::vector<double> t_holm = holm(t_p);
-  const std::vector<double> wilcoxon_holm = holm(wilcoxon_p);
+  const std::vector<double> t_holm = statistics::holm(t_p);
+  const std::vector<double> wilcoxon_holm = statistics::holm(wilcoxon_p);
   for (std::size_t i = 0; i < tested.size(); ++i) {
     ProductPair& pair = *tested[i];
     pair.t_p_holm = t_holm[i];
@@ -161,4 +161,4 @@ std::optional<GripForces> grip_forces(const StudyResults& results, const StudyCo
   return GripForces{sum.first / hands, sum.second / hands};
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

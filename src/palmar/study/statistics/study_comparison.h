@@ -9,7 +9,7 @@
 #include "palmar/statistics/paired_test.h"
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::study {
 
 struct ComparisonOptions {
   double level = 0.95;         ///< of intervals
@@ -42,8 +42,8 @@ struct ProductPair {
   std::vector<double> change;  ///< of each of them: second over first, less 1; 0 where first is 0
   std::vector<LeftOutHands> left_out;
   double mean_first = 0.0, mean_second = 0.0;  ///< over the pairs
-  PairedTest t_test;                           ///< Student's, as in the thesis; the verdict's
-  SignedRankTest wilcoxon;                     ///< beside it: needs no normal differences
+  statistics::PairedTest t_test;               ///< Student's, as in the thesis; the verdict's
+  statistics::SignedRankTest wilcoxon;         ///< beside it: needs no normal differences
   double t_p_holm = 1.0, wilcoxon_p_holm = 1.0;
   DifferenceVerdict verdict = DifferenceVerdict::kTooFewPairs;
 };
@@ -69,4 +69,4 @@ struct GripForces {
 std::optional<GripForces> grip_forces(const StudyResults& results, const StudyCondition& condition,
                                       int first, int second);
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -11,7 +11,7 @@
 #include "palmar/study/statistics/study_analysis.h"
 #include "palmar/study/statistics/study_test_results.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 using testing::held;
@@ -170,7 +170,7 @@ TEST(StudyWarnings, NameWhatIsOutsideTheChecks) {
   results.records[0] = not_held(0, StudyOutcome::kSlipsOut);
   results.records[2].fallbacks.by_region = 1;
   results.records[3].fallbacks.by_region = 2;
-  HandDimensions base;
+  hand::HandDimensions base;
   base.hand_length = 190.0;
   const std::vector<StudyWarning> warnings = study_warnings(results, {}, base);
   const auto has = [&](const std::string& subject, const std::string& words, bool is_outside) {
@@ -190,4 +190,4 @@ TEST(StudyWarnings, NameWhatIsOutsideTheChecks) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

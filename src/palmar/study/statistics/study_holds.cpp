@@ -7,7 +7,7 @@
 
 #include "palmar/grasp/grip_needs.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 bool is_same_way(const std::optional<StudyHold>& a, const std::optional<StudyHold>& b) {
@@ -48,11 +48,11 @@ int hands_with_little(const StudyResults& results, const StudyCondition& conditi
   for (const int hand : hands_of(results.plan, condition)) {
     const StudyRecord* record = record_of(results, condition, product, hand);
     if (record == nullptr || !is_in_hand(*record) || record->regions.empty()) continue;
-    std::vector<Region> touching;
+    std::vector<hand::Region> touching;
     for (const RegionRecord& region : record->regions) touching.push_back(region.region);
-    hands += lacking_contact(record->grip, touching).empty() ? 0 : 1;
+    hands += grasp::lacking_contact(record->grip, touching).empty() ? 0 : 1;
   }
   return hands;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

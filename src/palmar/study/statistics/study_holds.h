@@ -8,7 +8,7 @@
 
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// How some of a condition's hands hold a product.
 struct HandsByHold {
@@ -28,4 +28,4 @@ std::string words_of(const std::vector<HandsByHold>& holds);
 /// (grip_needs.h).
 int hands_with_little(const StudyResults& results, const StudyCondition& condition, int product);
 
-}  // namespace palmar
+}  // namespace palmar::study

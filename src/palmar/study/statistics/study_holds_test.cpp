@@ -7,7 +7,7 @@
 #include "palmar/study/statistics/study_analysis.h"
 #include "palmar/study/statistics/study_test_results.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 using testing::held;
@@ -58,19 +58,21 @@ TEST(StudyHolds, AWarningSaysThatHandsDiffer) {
 TEST(StudyHolds, GraspsThatLackTheThumbAreCounted) {
   StudyResults results = study_of(2, {"bar"});
   results.records = {held(0, 0.2), held(1, 0.2)};
-  const auto touch = [](StudyRecord& record, const std::vector<Region>& regions) {
-    record.grip = Grip::kMediumWrap;
+  const auto touch = [](StudyRecord& record, const std::vector<hand::Region>& regions) {
+    record.grip = grasp::Grip::kMediumWrap;
     record.regions.clear();
-    for (const Region region : regions) {
+    for (const hand::Region region : regions) {
       RegionRecord one;
       one.region = region;
       record.regions.push_back(one);
     }
   };
-  touch(results.records[0], {Region::kThumbDistal, Region::kIndexDistal, Region::kMiddleDistal});
-  touch(results.records[1], {Region::kThenar, Region::kIndexDistal, Region::kMiddleDistal});
+  touch(results.records[0],
+        {hand::Region::kThumbDistal, hand::Region::kIndexDistal, hand::Region::kMiddleDistal});
+  touch(results.records[1],
+        {hand::Region::kThenar, hand::Region::kIndexDistal, hand::Region::kMiddleDistal});
   EXPECT_EQ(hands_with_little(results, conditions_of(results.plan).front(), 0), 1);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

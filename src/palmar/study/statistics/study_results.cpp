@@ -9,7 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/nearest_name.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -32,10 +32,10 @@ std::optional<double> hand_value(const StudyRecord& record, const std::string& k
 }
 
 StudyQuantity described(const std::string& key) {
-  for (const GraspIndex& row : index_catalogue()) {
+  for (const grasp::GraspIndex& row : index_catalogue()) {
     if (row.key == key) return {key, row.name, row.unit, row.better};
   }
-  return {key, key, "", Better::kNeither};
+  return {key, key, "", grasp::Better::kNeither};
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ std::vector<StudyCondition> conditions_of(const StudyPlan& plan) {
 }
 
 std::string title_of(const StudyPlan& plan, const StudyCondition& condition) {
-  const auto title_of_population = [](const Population& one) {
+  const auto title_of_population = [](const population::Population& one) {
     return one.title.empty() ? one.name : one.title;
   };
   std::string title;
@@ -96,7 +96,7 @@ std::string title_of(const StudyPlan& plan, const StudyCondition& condition) {
   }
   if (plan.settings.size() > 1) title += ", " + plan.settings[index(condition.setting)].name;
   if (plan.grips.size() > 1) {
-    const std::optional<Grip>& grip = plan.grips[index(condition.grip)];
+    const std::optional<grasp::Grip>& grip = plan.grips[index(condition.grip)];
     title += ", " + (grip ? std::string(name_of(*grip)) : std::string("power grip by shape"));
   }
   return title;
@@ -127,15 +127,15 @@ bool is_in_hand(const StudyRecord& record) {
          record.force > 0.0;
 }
 
-std::optional<double> size_of(const StudyHand& hand, HandDimension dimension) {
-  for (const SizedDimension& one : hand.sample.dimensions) {
+std::optional<double> size_of(const StudyHand& hand, hand::HandDimension dimension) {
+  for (const hand::SizedDimension& one : hand.sample.dimensions) {
     if (one.dimension == dimension) return one.value;
   }
   return std::nullopt;
 }
 
 std::optional<double> size_of(const StudyPlan& plan, const StudyCondition& condition, int hand,
-                              HandDimension dimension) {
+                              hand::HandDimension dimension) {
   const std::optional<double> size = size_of(plan.hands[index(hand)], dimension);
   if (!size) return size;
   return *size * plan.profiles[index(condition.profile)].size_factor;
@@ -143,8 +143,8 @@ std::optional<double> size_of(const StudyPlan& plan, const StudyCondition& condi
 
 bool is_drawn_by_chance(const StudyPlan& plan) {
   return std::all_of(plan.populations.begin(), plan.populations.end(), [](const auto& one) {
-    return one.sampling.design == SamplingDesign::kRandom ||
-           one.sampling.design == SamplingDesign::kLatinHypercube;
+    return one.sampling.design == population::SamplingDesign::kRandom ||
+           one.sampling.design == population::SamplingDesign::kLatinHypercube;
   });
 }
 
@@ -170,16 +170,17 @@ OutcomeCounts outcomes_of(const StudyResults& results, const StudyCondition& con
 
 const std::vector<StudyQuantity>& hand_quantities() {
   static const std::vector<StudyQuantity> quantities = {
-      {"peak_pressure_cells_mpa", "peak pressure on sensor cells", "MPa", Better::kDown},
-      {"peak_pressure_mpa", "peak pressure at one vertex", "MPa", Better::kDown},
-      {"mean_pressure_mpa", "mean pressure", "MPa", Better::kDown},
-      {"contact_area_mm2", "contact area", "mm²", Better::kNeither},
-      {"force_n", "sum of normal forces", "N", Better::kNeither},
-      {"grip_force_n", "grip force", "N", Better::kNeither},
+      {"peak_pressure_cells_mpa", "peak pressure on sensor cells", "MPa", grasp::Better::kDown},
+      {"peak_pressure_mpa", "peak pressure at one vertex", "MPa", grasp::Better::kDown},
+      {"mean_pressure_mpa", "mean pressure", "MPa", grasp::Better::kDown},
+      {"contact_area_mm2", "contact area", "mm²", grasp::Better::kNeither},
+      {"force_n", "sum of normal forces", "N", grasp::Better::kNeither},
+      {"grip_force_n", "grip force", "N", grasp::Better::kNeither},
       {"range_share_needed", "share of the range of motion that the posture needs", "",
-       Better::kDown},
-      {"grip_strength_needed_n", "grip strength that holds the task's force", "N", Better::kDown},
-      {"nail_room_mm", "longest nail that touches nothing", "mm", Better::kUp}};
+       grasp::Better::kDown},
+      {"grip_strength_needed_n", "grip strength that holds the task's force", "N",
+       grasp::Better::kDown},
+      {"nail_room_mm", "longest nail that touches nothing", "mm", grasp::Better::kUp}};
   return quantities;
 }
 
@@ -235,4 +236,4 @@ StudyQuantity quantity_named(const StudyResults& results, const std::string& key
                                     : "; did you mean " + nearest + "?"));
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

@@ -13,7 +13,7 @@
 #include "palmar/study/study_plan.h"
 #include "palmar/study/study_record.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// What a study found: the plan and a record of every grasp that was finished. Statistics need no
 /// fields, so records come without skin_pressure and product_pressure; maps get those one by one
@@ -49,10 +49,10 @@ const StudyRecord* record_of(const StudyResults& results, const StudyCondition& 
 /// pressure say how it feels to hold it.
 bool is_in_hand(const StudyRecord& record);
 /// What the hand measures, if the population says so; mm.
-std::optional<double> size_of(const StudyHand& hand, HandDimension dimension);
+std::optional<double> size_of(const StudyHand& hand, hand::HandDimension dimension);
 /// The same as it grasps under a condition: times the profile's size factor; mm.
 std::optional<double> size_of(const StudyPlan& plan, const StudyCondition& condition, int hand,
-                              HandDimension dimension);
+                              hand::HandDimension dimension);
 /// Whether hands are drawn by chance: those of a boundary or of percentiles are chosen, so that
 /// shares of them, intervals and p values say nothing about people.
 bool is_drawn_by_chance(const StudyPlan& plan);
@@ -73,7 +73,7 @@ struct StudyQuantity {
   std::string key;   ///< "peak_pressure_cells_mpa", "epsilon_l1"; as in files
   std::string name;  ///< for people: "peak pressure on sensor cells"
   std::string unit;  ///< "MPa"; "" if it has none
-  Better better = Better::kNeither;
+  grasp::Better better = grasp::Better::kNeither;
 };
 /// Those that at least one record has a value of: of the whole hand first, then indices in the
 /// order in which they appear.
@@ -85,4 +85,4 @@ std::optional<double> quantity_of(const StudyRecord& record, const std::string& 
 /// The quantity with that key. Throws UsageError naming the nearest key.
 StudyQuantity quantity_named(const StudyResults& results, const std::string& key);
 
-}  // namespace palmar
+}  // namespace palmar::study

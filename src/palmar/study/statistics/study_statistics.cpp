@@ -7,7 +7,7 @@
 
 #include "palmar/statistics/correlation.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 std::vector<const StudyRecord*> records_in_hand(const StudyResults& results,
@@ -21,7 +21,7 @@ std::vector<const StudyRecord*> records_in_hand(const StudyResults& results,
 }
 
 std::vector<RegionSummary> region_summaries(const std::vector<const StudyRecord*>& records) {
-  std::map<Region, std::vector<const RegionRecord*>> touched;
+  std::map<hand::Region, std::vector<const RegionRecord*>> touched;
   for (const StudyRecord* record : records) {
     for (const RegionRecord& one : record->regions) touched[one.region].push_back(&one);
   }
@@ -39,7 +39,7 @@ std::vector<RegionSummary> region_summaries(const std::vector<const StudyRecord*
       summary.largest_peak_cells =
           std::max(summary.largest_peak_cells, rows[i]->peak_pressure_cells);
     }
-    const Summary forces = summarise(force);
+    const statistics::Summary forces = statistics::summarise(force);
     summary.force = forces.mean;
     summary.force_sd = forces.sd;
     summaries.push_back(summary);
@@ -64,10 +64,10 @@ ProductStatistics product_statistics(const StudyResults& results,
       if (const auto value = quantity_of(*record, quantity.key)) values.push_back(*value);
     }
     if (values.empty()) continue;
-    QuantitySummary one{quantity, summarise(values), 0.0, 0.0};
+    QuantitySummary one{quantity, statistics::summarise(values), 0.0, 0.0};
     std::sort(values.begin(), values.end());
-    one.p5 = quantile(values, 0.05);
-    one.p95 = quantile(values, 0.95);
+    one.p5 = statistics::quantile(values, 0.05);
+    one.p95 = statistics::quantile(values, 0.95);
     statistics.quantities.push_back(std::move(one));
   }
   statistics.regions = region_summaries(records);
@@ -105,7 +105,8 @@ std::vector<HandValue> values_of(const StudyResults& results, const StudyConditi
 
 std::optional<SizeDependence> size_dependence(const StudyResults& results,
                                               const StudyCondition& condition, int product,
-                                              const std::string& key, HandDimension dimension) {
+                                              const std::string& key,
+                                              hand::HandDimension dimension) {
   SizeDependence found;
   found.dimension = dimension;
   for (const HandValue& one : values_of(results, condition, product, key)) {
@@ -115,10 +116,10 @@ std::optional<SizeDependence> size_dependence(const StudyResults& results,
       found.value.push_back(one.value);
     }
   }
-  if (found.size.size() < 3 || is_constant(found.size)) return std::nullopt;
-  found.fit = fit_line(found.size, found.value);
-  found.rank_correlation = spearman(found.size, found.value).r;
+  if (found.size.size() < 3 || statistics::is_constant(found.size)) return std::nullopt;
+  found.fit = statistics::fit_line(found.size, found.value);
+  found.rank_correlation = statistics::spearman(found.size, found.value).r;
   return found;
 }
 
-}  // namespace palmar
+}  // namespace palmar::study

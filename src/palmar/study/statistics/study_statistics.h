@@ -9,19 +9,19 @@
 #include "palmar/statistics/summary.h"
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::study {
 
 /// A quantity of one product over the hands that held it, in the quantity's unit.
 struct QuantitySummary {
   StudyQuantity quantity;
-  Summary summary;
+  statistics::Summary summary;
   double p5 = 0.0, p95 = 0.0;  ///< percentiles (type 7)
 };
 
 /// One region of the hand over the hands that held the product. Where a hand doesn't touch with the
 /// region, its force, area and pressures there are 0 and count as such.
 struct RegionSummary {
-  Region region{};
+  hand::Region region{};
   int touching = 0;                  ///< hands
   double force = 0.0;                ///< mean, N
   double force_sd = 0.0;             ///< N
@@ -60,19 +60,21 @@ std::vector<HandValue> values_of(const StudyResults& results, const StudyConditi
 
 /// How a quantity goes with the size of the hand: value = intercept + slope * size.
 struct SizeDependence {
-  HandDimension dimension;  ///< hand length or circumference
+  hand::HandDimension dimension;  ///< hand length or circumference
   std::vector<int> hand;
   std::vector<double> size, value;  ///< mm and the quantity's unit, by hand
-  LinearFit fit;
+  statistics::LinearFit fit;
   double rank_correlation = 0.0;  ///< Spearman's, ties share their mean rank
 };
 /// Nothing with fewer than 3 hands, hands of one size, or a size that the population doesn't say.
 std::optional<SizeDependence> size_dependence(const StudyResults& results,
                                               const StudyCondition& condition, int product,
-                                              const std::string& key, HandDimension dimension);
+                                              const std::string& key,
+                                              hand::HandDimension dimension);
 
-inline constexpr HandDimension kHandLength{DimensionKind::kHandLength, Segment::kPalm};
-inline constexpr HandDimension kHandCircumference{DimensionKind::kHandCircumference,
-                                                  Segment::kPalm};
+inline constexpr hand::HandDimension kHandLength{hand::DimensionKind::kHandLength,
+                                                 hand::Segment::kPalm};
+inline constexpr hand::HandDimension kHandCircumference{hand::DimensionKind::kHandCircumference,
+                                                        hand::Segment::kPalm};
 
-}  // namespace palmar
+}  // namespace palmar::study

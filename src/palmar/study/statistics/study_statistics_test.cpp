@@ -11,7 +11,7 @@
 #include "palmar/study/statistics/product_sizes.h"
 #include "palmar/study/statistics/study_test_results.h"
 
-namespace palmar {
+namespace palmar::study {
 namespace {
 
 using testing::held;
@@ -39,7 +39,7 @@ TEST(StudyStatistics, RegionsThatAHandDoesNotTouchCountAsZero) {
   StudyResults results = study_of(2, {"a"});
   results.records = {held(0, 0.2), held(1, 0.2)};
   RegionRecord thenar;
-  thenar.region = Region::kThenar;
+  thenar.region = hand::Region::kThenar;
   thenar.force = 10.0;
   thenar.area = 200.0;
   results.records[0].regions = {thenar};
@@ -186,4 +186,4 @@ TEST(ProductSizes, HandsWithoutEverySizeTakeNoPart) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::study

@@ -11,28 +11,28 @@
 namespace palmar::testing {
 
 /// A study of hands 160, 162, ... mm long with the named products, nothing run yet.
-inline StudyResults study_of(int hands, const std::vector<std::string>& products,
-                             int populations = 1) {
-  StudyResults results;
-  StudyPlan& plan = results.plan;
+inline study::StudyResults study_of(int hands, const std::vector<std::string>& products,
+                                    int populations = 1) {
+  study::StudyResults results;
+  study::StudyPlan& plan = results.plan;
   plan.name = "test";
   for (int p = 0; p < populations; ++p) {
-    StudyPopulation population;
+    study::StudyPopulation population;
     population.population.name = "people" + std::to_string(p + 1);
     plan.populations.push_back(population);
   }
-  plan.profiles = {HandProfile{}};
-  plan.settings = {StudySetting{}};
+  plan.profiles = {population::HandProfile{}};
+  plan.settings = {study::StudySetting{}};
   plan.grips = {std::nullopt};
   for (int h = 0; h < hands; ++h) {
-    StudyHand hand;
+    study::StudyHand hand;
     hand.population = h % populations;
-    hand.sample.dimensions = {{kHandLength, 160.0 + 2.0 * h},
-                              {kHandCircumference, 190.0 + (h * 7) % 11}};
+    hand.sample.dimensions = {{study::kHandLength, 160.0 + 2.0 * h},
+                              {study::kHandCircumference, 190.0 + (h * 7) % 11}};
     plan.hands.push_back(hand);
   }
   for (const std::string& name : products) {
-    StudyProduct product;
+    study::StudyProduct product;
     product.name = product.family = name;
     plan.products.push_back(product);
   }
@@ -40,10 +40,10 @@ inline StudyResults study_of(int hands, const std::vector<std::string>& products
 }
 
 /// A grasp that holds, with a peak pressure on sensor cells [MPa].
-inline StudyRecord held(std::int64_t number, double peak) {
-  StudyRecord record;
+inline study::StudyRecord held(std::int64_t number, double peak) {
+  study::StudyRecord record;
   record.number = number;
-  record.outcome = StudyOutcome::kHeld;
+  record.outcome = study::StudyOutcome::kHeld;
   record.is_balanced = true;
   record.force = 100.0;
   record.area = 3000.0;
@@ -53,8 +53,8 @@ inline StudyRecord held(std::int64_t number, double peak) {
   return record;
 }
 
-inline StudyRecord not_held(std::int64_t number, StudyOutcome outcome) {
-  StudyRecord record;
+inline study::StudyRecord not_held(std::int64_t number, study::StudyOutcome outcome) {
+  study::StudyRecord record;
   record.number = number;
   record.outcome = outcome;
   return record;

@@ -9,7 +9,7 @@
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 void EffortRequest::check() const {
   product.check();
@@ -20,49 +20,52 @@ void EffortRequest::check() const {
   effort.check();
 }
 
-EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progress) {
+effort::EffortResult effort_of_grasp(const EffortRequest& request, const Progress& progress) {
   request.check();
-  const Product product = load_product(request.product);
+  const product::Product product = load_product(request.product);
   for (const std::string& text : product.notes) note_to(request.note, text);
-  AssessOptions options;
+  study::AssessOptions options;
   options.grasp = options_for(request.grasp, product);
   options.contact = request.contact;
   options.contact.error_band = false;
   options.friction = request.friction.options_for(product);
-  HeaviestLoad load;
+  grasp::HeaviestLoad load;
   if (request.rest.is_usual()) load.add(product, options.friction.load);
   options.balance = request.rest.options(request.friction.friction, load);
   options.balance.load = options.friction.load;
-  EffortOptions effort = request.effort;
+  effort::EffortOptions effort = request.effort;
   effort.strength *= options.balance.strength;
   options.balance.strength = effort.strength;
   options.balance.wrist = effort.wrist;
   options.indices.is_on = false;
   const auto hand = load_hand(request.hand);
-  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model, request.note);
-  Assessment held =
+  const contact::PreparedHand prepared =
+      prepared_hand(request.hand, hand, request.model, request.note);
+  study::Assessment held =
       request.grasp_file.empty()
-          ? assess(prepared, product, options, progress,
-                   [&](const Progress& p) {
-                     return hold_product(hand, product, request.grasp, options.grasp, p);
-                   })
-          : evaluate(prepared, product, read_grasp(request.grasp_file, *hand, product), options,
-                     progress);
+          ? study::assess(prepared, product, options, progress,
+                          [&](const Progress& p) {
+                            return hold_product(hand, product, request.grasp, options.grasp, p);
+                          })
+          : study::evaluate(prepared, product, read_grasp(request.grasp_file, *hand, product),
+                            options, progress);
   if (const auto asked = options.balance.asked_grip_force(held.grasp.grip);
       asked && request.grasp_file.empty()) {
     note_to(request.note, fmt::format("grip force {:.0f} N: {}", *asked,
                                       options.balance.asked_words(held.grasp.grip)));
   }
   // Friction of the grasp at rest, as in assess; of a given grasp that of the load.
-  const HandLoad* at_rest = nullptr;
-  if (!held.balance.friction_force.empty() && held.balance.status != BalanceStatus::kSlipsOut) {
+  const hand::HandLoad* at_rest = nullptr;
+  if (!held.balance.friction_force.empty() &&
+      held.balance.status != grasp::BalanceStatus::kSlipsOut) {
     held.friction.force = held.balance.friction_force;
     if (held.balance.joint_load) at_rest = &*held.balance.joint_load;
   }
   const bool has_friction =
       !held.friction.force.empty() && (options.friction.is_on() || options.balance.is_on);
-  return assess_effort(*hand, held.grasp.posture, held.contact, held.grasp.product_from_hand,
-                       *product.distance, effort, has_friction ? &held.friction : nullptr, at_rest);
+  return effort::assess_effort(*hand, held.grasp.posture, held.contact,
+                               held.grasp.product_from_hand, *product.distance, effort,
+                               has_friction ? &held.friction : nullptr, at_rest);
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -16,7 +16,7 @@
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 // Where the product leaves a hand that grips as hard as it can: grip forces that are tried, over
@@ -31,14 +31,15 @@ constexpr double kReached = 0.98;   // of the force asked for; less isn't held w
 
 double strength_of(const CapacityRequest& request) {
   const double grip = request.strength ? *request.strength
-                      : request.person ? *grip_strength(request.person->sex, request.person->age)
-                                       : usual_grip_strength();
-  return grip / usual_grip_strength();
+                      : request.person
+                          ? *grasp::grip_strength(request.person->sex, request.person->age)
+                          : grasp::usual_grip_strength();
+  return grip / grasp::usual_grip_strength();
 }
 
-bool squeezes(Grip grip) { return is_power(grip) && grip != Grip::kFixedHook; }
+bool squeezes(grasp::Grip grip) { return grasp::is_power(grip) && grip != grasp::Grip::kFixedHook; }
 
-std::string refusal(Grip grip) {
+std::string refusal(grasp::Grip grip) {
   return fmt::format(
       "setting \"grip\" is {}; what muscles can do at most is computed for power grips, in which "
       "fingers press against the palm (power, medium_wrap, large_diameter, small_diameter or "
@@ -68,7 +69,7 @@ void CapacityRequest::check() const {
   if (torque_axis && !(torque_axis->norm() > 0.0)) {
     throw UsageError("setting \"torque axis\" is 0,0,0; a direction is required");
   }
-  if (person && !grip_strength(person->sex, person->age)) {
+  if (person && !grasp::grip_strength(person->sex, person->age)) {
     throw UsageError(
         fmt::format("setting \"person\": no grip strength is known for {:g} years; 17 to 90 is "
                     "allowed, or give setting \"strength\"",
@@ -78,17 +79,18 @@ void CapacityRequest::check() const {
 
 Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progress) {
   request.check();
-  const Product product = load_product(request.product);
+  const product::Product product = load_product(request.product);
   for (const std::string& text : product.notes) note_to(request.note, text);
-  AssessOptions options;
+  study::AssessOptions options;
   options.grasp = options_for(request.grasp, product);
   options.contact = request.contact;
   options.contact.error_band = false;
   options.indices.is_on = false;
   options.footprint = false;
   const auto hand = load_hand(request.hand);
-  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model, request.note);
-  const Grasp grasp = hold_product(hand, product, request.grasp, options.grasp, progress);
+  const contact::PreparedHand prepared =
+      prepared_hand(request.hand, hand, request.model, request.note);
+  const grasp::Grasp grasp = hold_product(hand, product, request.grasp, options.grasp, progress);
   if (!squeezes(grasp.grip)) {
     throw UsageError(
         fmt::format("{} is held in a grip of another kind: {}", product.name, refusal(grasp.grip)));
@@ -99,15 +101,15 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
   result.grip = std::string(name_of(grasp.grip));
   result.axis = grasp.grip_axis.normalized();
   result.torque_axis = request.torque_axis.value_or(result.axis).normalized();
-  BalanceOptions& rest = options.balance;
-  rest.friction = request.friction.friction.value_or(kUsualFriction);
+  grasp::BalanceOptions& rest = options.balance;
+  rest.friction = request.friction.friction.value_or(grasp::kUsualFriction);
   rest.strength = result.strength;
   rest.wrist = request.wrist;
   result.friction = rest.friction;
 
   struct Tried {
     bool is_held = false;
-    Assessment assessment;
+    study::Assessment assessment;
   };
   // `asked`: N; nothing: as hard as the muscles can.
   const auto gripped = [&](std::optional<double> asked) {
@@ -116,14 +118,15 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
     rest.grip_force = asked;
     Tried tried;
     tried.assessment =
-        assess(prepared, product, options, progress, [&](const Progress&) { return grasp; });
-    const Balance& balance = tried.assessment.balance;
-    tried.is_held = balance.status == BalanceStatus::kBalanced && balance.strength_use &&
+        study::assess(prepared, product, options, progress, [&](const Progress&) { return grasp; });
+    const grasp::Balance& balance = tried.assessment.balance;
+    tried.is_held = balance.status == grasp::BalanceStatus::kBalanced && balance.strength_use &&
                     !balance.is_overloaded && balance.grip_force >= kReached * asked.value_or(0.0);
     return tried;
   };
-  if (grasp.status == GraspStatus::kNotGraspable || grasp.status == GraspStatus::kTooLarge ||
-      grasp.status == GraspStatus::kTooSmall) {
+  if (grasp.status == grasp::GraspStatus::kNotGraspable ||
+      grasp.status == grasp::GraspStatus::kTooLarge ||
+      grasp.status == grasp::GraspStatus::kTooSmall) {
     result.limited_by = "reach";
     result.message = grasp.message;
     return result;
@@ -131,7 +134,7 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
   Tried best = gripped(std::nullopt);
   double lost = 0.0;
   for (std::size_t i = 0; i < kShares.size() && !best.is_held; ++i) {
-    const double asked = kShares[i] * usual_grip_strength() * result.strength;
+    const double asked = kShares[i] * grasp::usual_grip_strength() * result.strength;
     best = gripped(asked);
     if (!best.is_held) lost = asked;
   }
@@ -160,7 +163,7 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
       lost = middle;
     }
   }
-  const Assessment& firmest = best.assessment;
+  const study::Assessment& firmest = best.assessment;
   result.activation = *firmest.balance.strength_use;
   result.grip_force = firmest.balance.grip_force;
   const bool is_by_wrist = firmest.balance.is_by_wrist;
@@ -172,24 +175,25 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
                    : fmt::format("gripped harder than with {:.0f} N, the product leaves the hand",
                                  result.grip_force);
   if (rest.friction <= 0.0) return result;
-  const auto held_load = [&](const ProductLoad& load) {
+  const auto held_load = [&](const contact::ProductLoad& load) {
     progress.throw_if_cancelled();
-    FrictionOptions friction;
+    contact::FrictionOptions friction;
     friction.coefficient = rest.friction;
     friction.load = load;
-    const FrictionResult solved =
-        solve_friction(prepared, firmest.contact, *product.distance, grasp.grip_point, friction);
+    const contact::FrictionResult solved = contact::solve_friction(
+        prepared, firmest.contact, *product.distance, grasp.grip_point, friction);
     return solved.load_factor.value_or(0.0);
   };
   const auto held_force = [&](const Vec3& along) {
     constexpr double kUnit = 10.0;  // N
-    ProductLoad load;
+    contact::ProductLoad load;
     load.force = kUnit * along;
     load.force_at = grasp.grip_point;
     return kUnit * held_load(load);
   };
-  result.torque = held_torque(prepared, firmest.contact, *product.distance,
-                              {.axis = result.torque_axis, .at = grasp.grip_point}, rest.friction);
+  result.torque =
+      study::held_torque(prepared, firmest.contact, *product.distance,
+                         {.axis = result.torque_axis, .at = grasp.grip_point}, rest.friction);
   progress.throw_if_cancelled();
   // What the product bears against the hand's push comes from the thumb's side.
   result.push = held_force(-result.axis);
@@ -197,4 +201,4 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

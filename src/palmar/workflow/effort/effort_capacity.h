@@ -9,20 +9,20 @@
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/workflow/effort/effort.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// What one hand can do with a product at most.
 struct CapacityRequest {
   ProductChoice product;
   HandChoice hand;
-  GraspSettings grasp;
-  ContactModel model = palmar_model();  ///< the equations of the skin
-  ContactOptions contact;               ///< without the error band
-  FrictionSettings friction;
+  grasp::GraspSettings grasp;
+  contact::ContactModel model = contact::palmar_model();  ///< the equations of the skin
+  contact::ContactOptions contact;                        ///< without the error band
+  grasp::FrictionSettings friction;
   // How strong the person is; at most one of the two. None: usual_grip_strength().
-  std::optional<double> strength;                    ///< N, on a dynamometer
-  std::optional<PersonOfAge> person = std::nullopt;  ///< mean of that group (Steiber 2016)
-  WristPosture wrist{};
+  std::optional<double> strength;                           ///< N, on a dynamometer
+  std::optional<grasp::PersonOfAge> person = std::nullopt;  ///< mean of that group (Steiber 2016)
+  hand::WristPosture wrist{};
   std::optional<Vec3> torque_axis;  ///< product frame, any length but 0; unset: the grip axis
   NoteSink note = {};               ///< what was found in the product
   void check() const;               ///< throws UsageError: field, value, what is allowed
@@ -54,4 +54,4 @@ struct Capacity {
 /// (also for a product that isn't held in a power grip), InputError, Cancelled.
 Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -8,14 +8,14 @@
 #include "palmar/core/error.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using testing::HasSubstr;
 using workflow_test::coarse_hand;
 using workflow_test::handle;
 
-CapacityRequest capacity_request(const Product& product) {
+CapacityRequest capacity_request(const product::Product& product) {
   CapacityRequest request;
   request.product = product;
   request.hand.value = coarse_hand();
@@ -74,7 +74,7 @@ TEST(CapacityOfGrip, SaysWhatItCannotTake) {
     EXPECT_THAT(error.what(), HasSubstr("setting \"strength\" is 5 N; 10 to 2000 N is allowed"));
   }
   request = capacity_request(handle(44.0));
-  request.grasp.grip = Grip::kFixedHook;
+  request.grasp.grip = grasp::Grip::kFixedHook;
   try {
     capacity_of_grip(request);
     FAIL() << "hooked fingers have no capacity of a grip";
@@ -84,4 +84,4 @@ TEST(CapacityOfGrip, SaysWhatItCannotTake) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -11,22 +11,22 @@
 #include "palmar/workflow/note/note.h"
 #include "palmar/workflow/product/product_choice.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A hand to be closed on a product, without contact mechanics.
 struct GraspRequest {
   ProductChoice product;
   HandChoice hand;
-  GraspSettings grasp;
+  grasp::GraspSettings grasp;
   std::string grasp_file;  ///< JSON of a grasp that is taken as it is; "": one is searched
   NoteSink note = {};      ///< what was found in the product
   void check() const;      ///< throws UsageError: field, value, what is allowed
 };
 
 struct GraspOutcome {
-  Product product;
-  std::shared_ptr<const Hand> hand;
-  Grasp grasp;  ///< the best way of holding, with its runners-up
+  product::Product product;
+  std::shared_ptr<const hand::Hand> hand;
+  grasp::Grasp grasp;  ///< the best way of holding, with its runners-up
 };
 
 /// Reads product and hand and holds the product: hold_product(), or as the file says. Throws
@@ -35,6 +35,7 @@ GraspOutcome grasp_product(const GraspRequest& request, const Progress& progress
 
 /// The grasp of a file (read_postures()) with one posture. Throws InputError, and UsageError if it
 /// doesn't say where the product is.
-Grasp read_grasp(const std::string& file, const Hand& hand, const Product& product);
+grasp::Grasp read_grasp(const std::string& file, const hand::Hand& hand,
+                        const product::Product& product);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -10,16 +10,17 @@
 #include "palmar/workflow/hand/posture_notes.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
-Grasp given_in(const EvaluateRequest& request, const Hand& hand, const Product& product) {
+grasp::Grasp given_in(const EvaluateRequest& request, const hand::Hand& hand,
+                      const product::Product& product) {
   const std::string& path = request.posture_file;
-  const PostureFile file = read_postures(path, hand.skeleton);
+  const records::PostureFile file = records::read_postures(path, hand.skeleton);
   for (const std::string& text : file.notes) note_to(request.note, path + ": " + text);
-  const PostureFrame frame = frame_of(file, path, request.frame);
+  const records::PostureFrame frame = records::frame_of(file, path, request.frame);
   for (const std::string& text : frame_notes(frame)) note_to(request.note, text);
-  std::optional<Rigid3> product_from_hand =
+  std::optional<geometry::Rigid3> product_from_hand =
       request.product_from_hand ? request.product_from_hand : frame.product_from_hand;
   if (request.measured_from_product) {
     if (!frame.measured_from_hand) {
@@ -33,7 +34,7 @@ Grasp given_in(const EvaluateRequest& request, const Hand& hand, const Product& 
                      " doesn't say where the product is (product_from_hand); setting "
                      "\"product from hand\" or setting \"measured from product\" is needed");
   }
-  Grasp grasp = given_grasp(hand, product, frame.posture, *product_from_hand);
+  grasp::Grasp grasp = grasp::given_grasp(hand, product, frame.posture, *product_from_hand);
   if (frame.grip) grasp.grip = *frame.grip;
   return grasp;
 }
@@ -55,9 +56,9 @@ void EvaluateRequest::check() const {
 
 EvaluateOutcome evaluate_grasp(const EvaluateRequest& request, const Progress& progress) {
   request.check();
-  if (!request.out.empty()) check_report_folder(request.out);
-  const Product product = load_product(request.product);
-  AssessOptions options;
+  if (!request.out.empty()) report::check_report_folder(request.out);
+  const product::Product product = load_product(request.product);
+  study::AssessOptions options;
   options.contact = request.contact;
   options.friction = request.friction.options_for(product);
   options.seed = request.seed;
@@ -65,22 +66,24 @@ EvaluateOutcome evaluate_grasp(const EvaluateRequest& request, const Progress& p
     note_to(request.note, request.product.name() + ": " + text);
   }
   const auto hand = load_hand(request.hand);
-  const Grasp grasp = given_in(request, *hand, product);
+  const grasp::Grasp grasp = given_in(request, *hand, product);
   if (!request.natural_postures.empty()) {
-    options.indices.coordination = read_coordination(request.natural_postures, hand->skeleton);
+    options.indices.coordination =
+        records::read_coordination(request.natural_postures, hand->skeleton);
   }
   if (progress.report) progress.report(0.0, "preparing the hand");
-  const PreparedHand prepared = prepared_hand(request.hand, hand, request.model, request.note);
+  const contact::PreparedHand prepared =
+      prepared_hand(request.hand, hand, request.model, request.note);
   EvaluateOutcome outcome;
   outcome.set = {.hand = hand, .assessments = {}, .command_line = request.command_line};
   outcome.set.assessments.push_back(
-      {product, evaluate(prepared, product, grasp, options, progress)});
-  const ContactResult& contact = outcome.set.assessments.front().assessment.contact;
-  outcome.has_converged = contact.status != ContactStatus::kNotConverged;
+      {product, study::evaluate(prepared, product, grasp, options, progress)});
+  const contact::ContactResult& contact = outcome.set.assessments.front().assessment.contact;
+  outcome.has_converged = contact.status != contact::ContactStatus::kNotConverged;
   if (!request.out.empty()) {
-    write_report(request.out, outcome.set, {.pictures = request.pictures}, progress);
+    report::write_report(request.out, outcome.set, {.pictures = request.pictures}, progress);
   }
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

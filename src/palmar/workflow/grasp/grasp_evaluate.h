@@ -16,7 +16,7 @@
 #include "palmar/workflow/note/note.h"
 #include "palmar/workflow/product/product_choice.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A posture and a placement that are taken as they are: measured, or found before.
 struct EvaluateRequest {
@@ -25,12 +25,12 @@ struct EvaluateRequest {
   std::string posture_file;  ///< joint angles, JSON or CSV (docs/using/postures.md)
   std::optional<int> frame;  ///< which posture of a file with several, from 1
   /// Where the hand holds the product; over what the file says. At most one of the two.
-  std::optional<Rigid3> product_from_hand = std::nullopt;
+  std::optional<geometry::Rigid3> product_from_hand = std::nullopt;
   /// The product in the frame of the recording (or mesh) that the posture was found from.
-  std::optional<Rigid3> measured_from_product = std::nullopt;
-  ContactModel model = palmar_model();  ///< the equations of the skin
-  ContactOptions contact = refined_contact_with_band();
-  FrictionSettings friction;
+  std::optional<geometry::Rigid3> measured_from_product = std::nullopt;
+  contact::ContactModel model = contact::palmar_model();  ///< the equations of the skin
+  contact::ContactOptions contact = refined_contact_with_band();
+  grasp::FrictionSettings friction;
   std::string natural_postures;  ///< CSV, basis of the index of ease; "": the built-in one
   std::string out;               ///< folder of the report; "": none is written
   bool pictures = true;          ///< PNG pictures in it
@@ -41,7 +41,7 @@ struct EvaluateRequest {
 };
 
 struct EvaluateOutcome {
-  AssessmentSet set;          ///< one product
+  study::AssessmentSet set;   ///< one product
   bool has_converged = true;  ///< the contact
 };
 
@@ -49,4 +49,4 @@ struct EvaluateOutcome {
 /// naming the file, OutputError, Cancelled.
 EvaluateOutcome evaluate_grasp(const EvaluateRequest& request, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,23 +12,23 @@
 #include "palmar/workflow/note/note.h"
 #include "palmar/workflow/product/product_choice.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Ways to hold a product, to be looked at and chosen from.
 struct GraspHoldsRequest {
   ProductChoice product;
-  HandChoice hand;      ///< a median hand of those who use the product
-  HoldOptions options;  ///< which holds to rank, and how many
-  std::string picture;  ///< PNG of the sheet; "": none
-  std::string out;      ///< folder for hold-1.toml, hold-2.toml, ... and sheet.png; "": none
-  NoteSink note = {};   ///< what was found in the product
-  void check() const;   ///< throws UsageError: field, value, what is allowed
+  HandChoice hand;             ///< a median hand of those who use the product
+  grasp::HoldOptions options;  ///< which holds to rank, and how many
+  std::string picture;         ///< PNG of the sheet; "": none
+  std::string out;             ///< folder for hold-1.toml, hold-2.toml, ... and sheet.png; "": none
+  NoteSink note = {};          ///< what was found in the product
+  void check() const;          ///< throws UsageError: field, value, what is allowed
 };
 
 struct GraspHoldsOutcome {
-  Product product;
-  std::shared_ptr<const Hand> hand;
-  RankedHolds ranked;
+  product::Product product;
+  std::shared_ptr<const hand::Hand> hand;
+  grasp::RankedHolds ranked;
   std::vector<std::string> files;  ///< that were written
 };
 
@@ -37,4 +37,4 @@ struct GraspHoldsOutcome {
 /// OutputError, Cancelled.
 GraspHoldsOutcome find_holds(const GraspHoldsRequest& request, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -7,7 +7,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/records/reach_json.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 void ReachRequest::check() const {
   if (buttons.empty() && map.empty()) {
@@ -20,12 +20,12 @@ ReachOutcome reach_of_grasp(const ReachRequest& request, const Progress& progres
   request.check();
   ReachOutcome outcome{.held = grasp_product(request.grasp, progress), .buttons = {}, .map = {}};
   const auto& [product, hand, grasp] = outcome.held;
-  outcome.buttons = reach_buttons(*hand, product, grasp, request.buttons, progress);
-  outcome.surface_area = surface_area(product.mesh);
+  outcome.buttons = grasp::reach_buttons(*hand, product, grasp, request.buttons, progress);
+  outcome.surface_area = geometry::surface_area(product.mesh);
   if (request.map.empty()) return outcome;
-  outcome.map = map_reach(*hand, product, grasp, request.map_points, progress);
-  write_file(request.map, format_reach_map(product.mesh, *outcome.map));
+  outcome.map = grasp::map_reach(*hand, product, grasp, request.map_points, progress);
+  formats::write_file(request.map, records::format_reach_map(product.mesh, *outcome.map));
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -13,7 +13,7 @@
 #include "palmar/workflow/grasp/grasp_reach.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using testing::HasSubstr;
@@ -21,7 +21,7 @@ using workflow_test::coarse_hand;
 using workflow_test::handle;
 using workflow_test::TemporaryFolder;
 
-GraspRequest request_for(const Product& product) {
+GraspRequest request_for(const product::Product& product) {
   GraspRequest request;
   request.product = product;
   request.hand.value = coarse_hand();
@@ -31,11 +31,11 @@ GraspRequest request_for(const Product& product) {
 TEST(GraspProduct, WrittenGraspIsReadBackAsTheSame) {
   const TemporaryFolder folder;
   GraspRequest request = request_for(handle(44.0));
-  const Grasp found = grasp_product(request).grasp;
-  EXPECT_EQ(found.status, GraspStatus::kHeld);
+  const grasp::Grasp found = grasp_product(request).grasp;
+  EXPECT_EQ(found.status, grasp::GraspStatus::kHeld);
   request.grasp_file = (folder / "grasp.json").string();
-  write_file(request.grasp_file, grasp_json(found));
-  const Grasp given = grasp_product(request).grasp;
+  formats::write_file(request.grasp_file, records::grasp_json(found));
+  const grasp::Grasp given = grasp_product(request).grasp;
   for (std::size_t d = 0; d < found.posture.angle.size(); ++d) {
     EXPECT_NEAR(given.posture.angle[d], found.posture.angle[d], 1e-9);  // rad; through degrees
   }
@@ -46,7 +46,7 @@ TEST(GraspProduct, WrittenGraspIsReadBackAsTheSame) {
 
 TEST(GraspProduct, FingertipsGoWithPrecisionGripsOnly) {
   GraspRequest request = request_for(handle(44.0));
-  request.grasp.fingertips = {{Finger::kThumb, Vec3(22.0, 0.0, 0.0)}};
+  request.grasp.fingertips = {{hand::Finger::kThumb, Vec3(22.0, 0.0, 0.0)}};
   try {
     grasp_product(request);
     FAIL() << "a power grip took a fingertip's place";
@@ -68,16 +68,17 @@ TEST(EvaluateGrasp, HandFarFromTheProductTouchesNothing) {
   request.product = handle(44.0);
   request.hand.value = coarse_hand();
   request.posture_file = (folder / "flat.json").string();
-  write_file(request.posture_file, R"({"index_pip_flexion_deg": 20})");
+  formats::write_file(request.posture_file, R"({"index_pip_flexion_deg": 20})");
   try {
     evaluate_grasp(request);
     FAIL() << "a posture alone says where the product is";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("setting \"measured from product\" is needed"));
   }
-  request.product_from_hand = Rigid3{Quat::Identity(), Vec3(0.0, 0.0, 1000.0)};
+  request.product_from_hand = geometry::Rigid3{Quat::Identity(), Vec3(0.0, 0.0, 1000.0)};
   const EvaluateOutcome outcome = evaluate_grasp(request);
-  EXPECT_EQ(outcome.set.assessments.front().assessment.contact.status, ContactStatus::kNoContact);
+  EXPECT_EQ(outcome.set.assessments.front().assessment.contact.status,
+            contact::ContactStatus::kNoContact);
   EXPECT_TRUE(outcome.has_converged);
 }
 
@@ -85,11 +86,11 @@ TEST(EffortOfGrasp, JointsOfAHeldHandAreInBalance) {
   EffortRequest request;
   request.product = handle(44.0);
   request.hand.value = coarse_hand();
-  const EffortResult effort = effort_of_grasp(request);
+  const effort::EffortResult effort = effort_of_grasp(request);
   EXPECT_GT(effort.contact_force, 1.0);  // N
-  for (const DigitEffort& digit : effort.digits) {
-    if (digit.status == EffortStatus::kNoLoad) continue;
-    for (const JointEffort& joint : digit.joints) {
+  for (const effort::DigitEffort& digit : effort.digits) {
+    if (digit.status == effort::EffortStatus::kNoLoad) continue;
+    for (const effort::JointEffort& joint : digit.joints) {
       const double sum = joint.external + joint.muscles + joint.stop + joint.missing;
       EXPECT_NEAR(sum, 0.0, 1e-6 * (1.0 + std::abs(joint.external)));  // N mm; rounding
     }
@@ -97,4 +98,4 @@ TEST(EffortOfGrasp, JointsOfAHeldHandAreInBalance) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

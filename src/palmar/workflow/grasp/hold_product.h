@@ -9,31 +9,31 @@
 #include "palmar/hand/hand.h"
 #include "palmar/product/product.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A held product, and the ways to hold it that were ranked for that.
 struct HeldProduct {
-  Grasp grasp;
-  std::shared_ptr<const RankedHolds> ways;  ///< null where a hold or coordinates were given
-  std::shared_ptr<const Hand> ways_hand;    ///< that they were ranked with
+  grasp::Grasp grasp;
+  std::shared_ptr<const grasp::RankedHolds> ways;  ///< null where a hold or coordinates were given
+  std::shared_ptr<const hand::Hand> ways_hand;     ///< that they were ranked with
 };
 
 /// The hand that holds are ranked and places are searched with, so that hands differ in size and
 /// not in how they hold: the built-in hand, for a left hand its mirror image; `hand` itself if it
 /// is the built-in one or there is none (share_folder()).
-std::shared_ptr<const Hand> reference_for(const std::shared_ptr<const Hand>& hand);
+std::shared_ptr<const hand::Hand> reference_for(const std::shared_ptr<const hand::Hand>& hand);
 
 /// How a hand takes hold of a product: by the part and in the way of the built-in hand (GraspPlace;
 /// reference_for()). The built-in hand searches, and so does every hand if `settings` ask for that
 /// or give the placement in full. `options`: options_for(settings, product). Throws UsageError,
 /// Cancelled.
-HeldProduct take_product(const std::shared_ptr<const Hand>& hand, const Product& product,
-                         const GraspSettings& settings, const GraspOptions& options,
-                         const Progress& progress = {});
+HeldProduct take_product(const std::shared_ptr<const hand::Hand>& hand,
+                         const product::Product& product, const grasp::GraspSettings& settings,
+                         const grasp::GraspOptions& options, const Progress& progress = {});
 
 /// The grasp alone.
-Grasp hold_product(const std::shared_ptr<const Hand>& hand, const Product& product,
-                   const GraspSettings& settings, const GraspOptions& options,
-                   const Progress& progress = {});
+grasp::Grasp hold_product(const std::shared_ptr<const hand::Hand>& hand,
+                          const product::Product& product, const grasp::GraspSettings& settings,
+                          const grasp::GraspOptions& options, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

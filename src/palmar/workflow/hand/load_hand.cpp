@@ -15,23 +15,25 @@
 #include "palmar/records/hand/hand_file.h"
 #include "palmar/records/tissue_file.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-const Population& people_of(Sex sex) {
-  return population_named(sex == Sex::kFemale ? "ansur2_women" : "ansur2_men");
+const population::Population& people_of(grasp::Sex sex) {
+  return population::population_named(sex == grasp::Sex::kFemale ? "ansur2_women" : "ansur2_men");
 }
 
-std::shared_ptr<const Hand> sized_as(const Hand& base, const PersonOfSize& person) {
+std::shared_ptr<const hand::Hand> sized_as(const hand::Hand& base, const PersonOfSize& person) {
   person.check();
-  SamplingOptions sampling;
-  sampling.design = SamplingDesign::kPercentiles;
+  population::SamplingOptions sampling;
+  sampling.design = population::SamplingDesign::kPercentiles;
   sampling.percentiles = {person.percentile};
-  const std::vector<HandSample> samples = sample_hands(people_of(person.sex), sampling);
-  auto hand = std::make_shared<Hand>(make_hand_instance(base, samples.front().dimensions).hand);
+  const std::vector<population::HandSample> samples =
+      population::sample_hands(people_of(person.sex), sampling);
+  auto hand =
+      std::make_shared<hand::Hand>(hand::make_hand_instance(base, samples.front().dimensions).hand);
   hand->name = name_of(person);
   hand->provenance += "; size of the " + name_of(person);
   return hand;
@@ -55,8 +57,8 @@ std::string name_of(const PersonOfSize& person) {
                           : last == '2'                              ? "nd"
                           : last == '3'                              ? "rd"
                                                                      : "th";
-  return std::string(person.sex == Sex::kFemale ? "woman" : "man") + " of the " + number + end +
-         " percentile (ANSUR II)";
+  return std::string(person.sex == grasp::Sex::kFemale ? "woman" : "man") + " of the " + number +
+         end + " percentile (ANSUR II)";
 }
 
 std::string share_folder() {
@@ -64,30 +66,31 @@ std::string share_folder() {
   return (program_folder().parent_path() / "share" / "palmar").string();
 }
 
-std::shared_ptr<const Hand> load_hand(const std::string& name) {
-  if (name != "template") return std::make_shared<const Hand>(read_hand(name));
+std::shared_ptr<const hand::Hand> load_hand(const std::string& name) {
+  if (name != "template") return std::make_shared<const hand::Hand>(records::read_hand(name));
   const std::string path = share_folder() + "/template.hand.glb";
   if (!fs::exists(path)) {
     throw InputError("the template hand is missing: " + path +
                      " (run `palmar doctor`; it is made when Palmar is built)");
   }
-  return std::make_shared<const Hand>(read_hand(path));
+  return std::make_shared<const hand::Hand>(records::read_hand(path));
 }
 
-std::shared_ptr<const Hand> load_hand(const std::string& name, const std::string& tissue_file) {
+std::shared_ptr<const hand::Hand> load_hand(const std::string& name,
+                                            const std::string& tissue_file) {
   return load_hand(HandChoice{.name = name, .tissue = tissue_file, .value = nullptr});
 }
 
-std::shared_ptr<const Hand> load_hand(const HandChoice& choice) {
+std::shared_ptr<const hand::Hand> load_hand(const HandChoice& choice) {
   auto hand = choice.value ? choice.value : load_hand(choice.name);
   if (choice.person) hand = sized_as(*hand, *choice.person);
-  if (choice.is_left && hand->side == Side::kRight) {
-    hand = std::make_shared<const Hand>(mirrored(*hand));
+  if (choice.is_left && hand->side == hand::Side::kRight) {
+    hand = std::make_shared<const hand::Hand>(hand::mirrored(*hand));
   }
   if (choice.tissue.empty()) return hand;
-  auto other = std::make_shared<Hand>(*hand);
-  other->tissue = read_tissue(choice.tissue, hand->tissue);
+  auto other = std::make_shared<hand::Hand>(*hand);
+  other->tissue = records::read_tissue(choice.tissue, hand->tissue);
   return other;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

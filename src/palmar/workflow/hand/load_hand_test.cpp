@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 TEST(LoadHand, FileThatIsNotThereIsNamed) {
@@ -20,13 +20,15 @@ TEST(LoadHand, FileThatIsNotThereIsNamed) {
 }
 
 TEST(PersonOfSize, IsNamedInWords) {
-  EXPECT_EQ(name_of(PersonOfSize{Sex::kFemale, 5}), "woman of the 5th percentile (ANSUR II)");
-  EXPECT_EQ(name_of(PersonOfSize{Sex::kMale, 51}), "man of the 51st percentile (ANSUR II)");
-  EXPECT_EQ(name_of(PersonOfSize{Sex::kMale, 12}), "man of the 12th percentile (ANSUR II)");
-  EXPECT_EQ(name_of(PersonOfSize{Sex::kFemale, 2.5}), "woman of the 2.5th percentile (ANSUR II)");
-  EXPECT_THROW(PersonOfSize({Sex::kFemale, 0.0}).check(), UsageError);
-  EXPECT_THROW(PersonOfSize({Sex::kFemale, 100.0}).check(), UsageError);
+  EXPECT_EQ(name_of(PersonOfSize{grasp::Sex::kFemale, 5}),
+            "woman of the 5th percentile (ANSUR II)");
+  EXPECT_EQ(name_of(PersonOfSize{grasp::Sex::kMale, 51}), "man of the 51st percentile (ANSUR II)");
+  EXPECT_EQ(name_of(PersonOfSize{grasp::Sex::kMale, 12}), "man of the 12th percentile (ANSUR II)");
+  EXPECT_EQ(name_of(PersonOfSize{grasp::Sex::kFemale, 2.5}),
+            "woman of the 2.5th percentile (ANSUR II)");
+  EXPECT_THROW(PersonOfSize({grasp::Sex::kFemale, 0.0}).check(), UsageError);
+  EXPECT_THROW(PersonOfSize({grasp::Sex::kFemale, 100.0}).check(), UsageError);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

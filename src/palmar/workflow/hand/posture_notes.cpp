@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 double in_degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
@@ -14,9 +14,9 @@ double in_degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
 }  // namespace
 
 std::vector<std::string> clamped_notes(const std::string& place,
-                                       const std::vector<ClampedAngle>& clamped) {
+                                       const std::vector<hand::ClampedAngle>& clamped) {
   std::vector<std::string> notes;
-  for (const ClampedAngle& angle : clamped) {
+  for (const hand::ClampedAngle& angle : clamped) {
     notes.push_back(
         fmt::format("{}{}{}: {:.1f} deg is outside the range of motion; {:.1f} deg is used", place,
                     place.empty() ? "" : ": ", name_of(angle.dof), in_degrees(angle.asked),
@@ -25,17 +25,17 @@ std::vector<std::string> clamped_notes(const std::string& place,
   return notes;
 }
 
-std::vector<std::string> frame_notes(const PostureFrame& frame) {
+std::vector<std::string> frame_notes(const records::PostureFrame& frame) {
   std::vector<std::string> notes;
   if (!frame.missing.empty()) {
     std::string names;
-    for (const Dof dof : frame.missing) {
+    for (const hand::Dof dof : frame.missing) {
       names += (names.empty() ? "" : ", ") + std::string(name_of(dof));
     }
     notes.push_back(fmt::format(
         "{}{}{} of {} angles are not given and stay as in the reference "
         "posture: {}",
-        frame.name, frame.name.empty() ? "" : ": ", frame.missing.size(), kDofCount, names));
+        frame.name, frame.name.empty() ? "" : ": ", frame.missing.size(), hand::kDofCount, names));
   }
   for (std::string& note : clamped_notes(frame.name, frame.clamped)) {
     notes.push_back(std::move(note));
@@ -43,4 +43,4 @@ std::vector<std::string> frame_notes(const PostureFrame& frame) {
   return notes;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

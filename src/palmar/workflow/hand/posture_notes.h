@@ -8,13 +8,13 @@
 #include "palmar/hand/skeleton.h"
 #include "palmar/records/posture/posture_file.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A note per angle that the range of motion changed; `place` ("frame 3") comes first if not empty.
 std::vector<std::string> clamped_notes(const std::string& place,
-                                       const std::vector<ClampedAngle>& clamped);
+                                       const std::vector<hand::ClampedAngle>& clamped);
 
 /// What reading a posture changed or filled in: missing angles, clamped ones.
-std::vector<std::string> frame_notes(const PostureFrame& frame);
+std::vector<std::string> frame_notes(const records::PostureFrame& frame);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

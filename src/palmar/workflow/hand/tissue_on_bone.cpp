@@ -14,7 +14,7 @@
 #include "palmar/hand/mirror.h"
 #include "palmar/records/hand/compliance_file.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 std::optional<std::filesystem::path> cache_folder() {
@@ -43,34 +43,35 @@ std::string template_advice() {
 
 }  // namespace
 
-std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& hand, const ContactModel& model,
-                                                     const NoteSink& note) {
-  if (model.tissue != TissueModel::kBone) return nullptr;
-  if (hand.side == Side::kLeft) {
-    return std::make_shared<const SkinCompliance>(
+std::shared_ptr<const contact::SkinCompliance> tissue_on_bone(const hand::Hand& hand,
+                                                              const contact::ContactModel& model,
+                                                              const NoteSink& note) {
+  if (model.tissue != contact::TissueModel::kBone) return nullptr;
+  if (hand.side == hand::Side::kLeft) {
+    return std::make_shared<const contact::SkinCompliance>(
         mirrored(*tissue_on_bone(mirrored(hand), model, note)));
   }
   const auto folder = cache_folder();
-  const std::string key = compliance_key(hand);
-  if (auto known = read_compliance(template_path(), key, hand)) {
-    return std::make_shared<const SkinCompliance>(std::move(*known));
+  const std::string key = records::compliance_key(hand);
+  if (auto known = records::read_compliance(template_path(), key, hand)) {
+    return std::make_shared<const contact::SkinCompliance>(std::move(*known));
   }
   std::filesystem::path path;
   if (folder) {
     path = *folder / ("skin-" + key.substr(0, 24) + ".compliance");
-    if (auto known = read_compliance(path, key, hand)) {
-      return std::make_shared<const SkinCompliance>(std::move(*known));
+    if (auto known = records::read_compliance(path, key, hand)) {
+      return std::make_shared<const contact::SkinCompliance>(std::move(*known));
     }
   }
   note_to(note,
           fmt::format("finding how the skin of hand \"{}\" gives way on its bones, some 13 s{}",
                       hand.name, hand.name == "template" ? ": " + template_advice() : ""));
-  auto made =
-      std::make_shared<const SkinCompliance>(skin_compliance(hand, skin_geometry(hand.skin)));
+  auto made = std::make_shared<const contact::SkinCompliance>(
+      contact::skin_compliance(hand, contact::skin_geometry(hand.skin)));
   if (folder) {
     try {
-      create_folder(*folder);
-      write_compliance(path, key, *made);
+      formats::create_folder(*folder);
+      records::write_compliance(path, key, *made);
     } catch (const Error&) {
       // The next run makes it again.
     }
@@ -78,9 +79,10 @@ std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& hand, const Con
   return made;
 }
 
-std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& base, const StudyPlan& plan,
-                                                     const NoteSink& note) {
-  for (const StudySetting& setting : plan.settings) {
+std::shared_ptr<const contact::SkinCompliance> tissue_on_bone(const hand::Hand& base,
+                                                              const study::StudyPlan& plan,
+                                                              const NoteSink& note) {
+  for (const study::StudySetting& setting : plan.settings) {
     if (auto compliance = tissue_on_bone(base, setting.model, note)) return compliance;
   }
   return nullptr;
@@ -88,20 +90,21 @@ std::shared_ptr<const SkinCompliance> tissue_on_bone(const Hand& base, const Stu
 
 std::string template_compliance_file() {
   const auto hand = load_hand("template");
-  if (!read_compliance(template_path(), compliance_key(*hand), *hand)) {
+  if (!records::read_compliance(template_path(), records::compliance_key(*hand), *hand)) {
     throw InputError(template_advice());
   }
   return template_path().string();
 }
 
-PreparedHand prepared_hand(const HandChoice& choice, const std::shared_ptr<const Hand>& hand,
-                           const ContactModel& model, const NoteSink& note) {
-  if (model.tissue != TissueModel::kBone) return PreparedHand(hand, model);
-  if (!choice.person) return PreparedHand(hand, model, tissue_on_bone(*hand, model, note));
+contact::PreparedHand prepared_hand(const HandChoice& choice,
+                                    const std::shared_ptr<const hand::Hand>& hand,
+                                    const contact::ContactModel& model, const NoteSink& note) {
+  if (model.tissue != contact::TissueModel::kBone) return contact::PreparedHand(hand, model);
+  if (!choice.person) return contact::PreparedHand(hand, model, tissue_on_bone(*hand, model, note));
   HandChoice unscaled = choice;
   unscaled.person.reset();
   const auto base = load_hand(unscaled);
-  return PreparedHand(hand, model, tissue_on_bone(*base, model, note), base);
+  return contact::PreparedHand(hand, model, tissue_on_bone(*base, model, note), base);
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

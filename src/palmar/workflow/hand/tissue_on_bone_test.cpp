@@ -7,12 +7,12 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 /// A hand that no file is about.
-Hand unknown_hand(const std::string& name) {
-  Hand hand;
+hand::Hand unknown_hand(const std::string& name) {
+  hand::Hand hand;
   hand.name = name;
   hand.skin.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   hand.skin.triangles = {{0, 1, 2}};
@@ -20,13 +20,13 @@ Hand unknown_hand(const std::string& name) {
 }
 
 /// What is said before a compliance is made; then it is called off.
-std::string said_of(const Hand& hand) {
+std::string said_of(const hand::Hand& hand) {
   std::string said;
   const NoteSink stop = [&](const std::string& text) {
     said = text;
     throw Cancelled("heard enough");
   };
-  EXPECT_THROW(tissue_on_bone(hand, {.tissue = TissueModel::kBone}, stop), Cancelled);
+  EXPECT_THROW(tissue_on_bone(hand, {.tissue = contact::TissueModel::kBone}, stop), Cancelled);
   return said;
 }
 
@@ -45,10 +45,10 @@ TEST(TissueOnBone, NamesTheTemplatesFileAndWhatMakesIt) {
 }
 
 TEST(TissueOnBone, OtherModelsNeedNone) {
-  EXPECT_EQ(tissue_on_bone(unknown_hand("template"), {.tissue = TissueModel::kHalfSpace},
+  EXPECT_EQ(tissue_on_bone(unknown_hand("template"), {.tissue = contact::TissueModel::kHalfSpace},
                            [](const std::string& text) { FAIL() << text; }),
             nullptr);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

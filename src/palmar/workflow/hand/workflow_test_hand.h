@@ -14,25 +14,25 @@
 #include "palmar/product/primitives.h"
 #include "palmar/records/hand/hand_asset.h"
 
-namespace palmar::workflow_test {
+namespace palmar::workflow::workflow_test {
 
 /// Made of the asset, with edges of 4 mm.
-inline std::shared_ptr<const Hand> coarse_hand() {
-  static const auto hand = std::make_shared<const Hand>(build_template(
-      read_hand_asset(PALMAR_SOURCE_DIR
-                      "/node_modules/@webxr-input-profiles/assets/dist/profiles/generic-hand/"
-                      "right.glb"),
+inline std::shared_ptr<const hand::Hand> coarse_hand() {
+  static const auto hand = std::make_shared<const hand::Hand>(hand::build_template(
+      records::read_hand_asset(
+          PALMAR_SOURCE_DIR "/node_modules/@webxr-input-profiles/assets/dist/profiles/generic-hand/"
+                            "right.glb"),
       {.edge_length = 4.0}));
   return hand;
 }
 
 /// A handle about the origin, along z.
-inline Product handle(double diameter) {
-  CylinderProductOptions options;
+inline product::Product handle(double diameter) {
+  product::CylinderProductOptions options;
   options.diameter = diameter;
   options.length = 140.0;
   options.fineness.chordal_error = 0.1;
-  return make_cylinder_product(options);
+  return product::make_cylinder_product(options);
 }
 
 /// A folder of its own, gone at the end of the test.
@@ -54,4 +54,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace palmar::workflow_test
+}  // namespace palmar::workflow::workflow_test

@@ -8,7 +8,7 @@
 #include "palmar/workflow/hand/load_hand.h"
 #include "palmar/workflow/live/live_session.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// "woman:P5", "man:P97.5": a person by sex and percentile, as `palmar assess --person` takes it.
 /// Throws UsageError.
@@ -20,4 +20,4 @@ std::string person_argument(const PersonOfSize& person);
 /// grips with the usual share of her own strength, as `palmar assess --person` takes it.
 LiveTask task_of_person(LiveTask task, const std::optional<PersonOfSize>& person);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -15,27 +15,28 @@
 #include "palmar/workflow/hand/load_hand.h"
 #include "palmar/workflow/live/moving_contact.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Who holds products, ready for contact. Made once; shareable between sessions and threads.
 struct LiveHand {
-  std::shared_ptr<const Hand> hand;
-  std::shared_ptr<const Hand> reference;  ///< reference_for() it
-  std::shared_ptr<const PreparedHand> prepared;
+  std::shared_ptr<const hand::Hand> hand;
+  std::shared_ptr<const hand::Hand> reference;  ///< reference_for() it
+  std::shared_ptr<const contact::PreparedHand> prepared;
 };
 /// Some 0.5 s. Throws InputError, UsageError.
-LiveHand prepare_live_hand(const HandChoice& choice, const ContactModel& model = palmar_model());
+LiveHand prepare_live_hand(const HandChoice& choice,
+                           const contact::ContactModel& model = contact::palmar_model());
 
 /// What is asked of the hand while it holds the product.
 struct LiveTask {
-  RestSettings rest;
-  FrictionSettings friction;
+  grasp::RestSettings rest;
+  grasp::FrictionSettings friction;
 };
 
 /// A hand in a posture and where it holds the product.
 struct LivePose {
-  Posture posture;  ///< held to the range of motion before use
-  Rigid3 product_from_hand;
+  hand::Posture posture;  ///< held to the range of motion before use
+  geometry::Rigid3 product_from_hand;
 };
 
 /// One product in one hand, worked on step by step: what `palmar assess` and `palmar grasp
@@ -45,33 +46,33 @@ struct LivePose {
 class LiveSession {
  public:
   /// The product with the findings of its check (add_findings()).
-  LiveSession(LiveHand hand, std::shared_ptr<const Product> product);
+  LiveSession(LiveHand hand, std::shared_ptr<const product::Product> product);
 
-  const Hand& hand() const { return *hand_.hand; }
-  const Hand& reference() const { return *hand_.reference; }
-  const Product& product() const { return *product_; }
+  const hand::Hand& hand() const { return *hand_.hand; }
+  const hand::Hand& reference() const { return *hand_.reference; }
+  const product::Product& product() const { return *product_; }
 
   /// Ways to hold the product, best first; ranked once (some 1 s). Throws Cancelled.
-  const RankedHolds& holds(const Progress& progress = {});
+  const grasp::RankedHolds& holds(const Progress& progress = {});
 
   /// Takes the hold of that number, from 1, and lets it come to rest: `palmar assess --hold N`. A
   /// hold that was taken before isn't searched again. Throws UsageError (also if there are fewer
   /// holds), Cancelled.
-  AssessmentSet take_hold(int number, const LiveTask& task, const Progress& progress = {});
+  study::AssessmentSet take_hold(int number, const LiveTask& task, const Progress& progress = {});
 
   /// Fingers close round the product where it is, and the grasp comes to rest. `grip`: a power
   /// grip; unset: the one that suits the shape there. Throws UsageError, Cancelled.
-  AssessmentSet close_here(const LivePose& pose, std::optional<Grip> grip, const LiveTask& task,
-                           const Progress& progress = {});
+  study::AssessmentSet close_here(const LivePose& pose, std::optional<grasp::Grip> grip,
+                                  const LiveTask& task, const Progress& progress = {});
 
   /// The grasp comes to rest from that posture and placement. Throws UsageError, Cancelled.
-  AssessmentSet rest_here(const LivePose& pose, Grip grip, const LiveTask& task,
-                          const Progress& progress = {});
+  study::AssessmentSet rest_here(const LivePose& pose, grasp::Grip grip, const LiveTask& task,
+                                 const Progress& progress = {});
 
   /// Posture and placement as they are: `palmar grasp evaluate`. Throws InputError if a number
   /// isn't finite, Cancelled.
-  AssessmentSet evaluate_here(const LivePose& pose, Grip grip, const LiveTask& task,
-                              const Progress& progress = {});
+  study::AssessmentSet evaluate_here(const LivePose& pose, grasp::Grip grip, const LiveTask& task,
+                                     const Progress& progress = {});
 
   /// What move() needs beforehand, done once: some 0.2 s.
   void prepare_to_move();
@@ -79,21 +80,22 @@ class LiveSession {
   /// The contact alone, along a motion: from the last call's solution, as exact as is watched
   /// (moving_contact.h), without the error band; 5 to 15 ms. The result is
   /// overwritten by the next call. Throws UsageError for numbers that aren't finite.
-  const ContactResult& move(const LivePose& pose);
+  const contact::ContactResult& move(const LivePose& pose);
 
  private:
-  AssessOptions options_for_task(const LiveTask& task) const;
-  AssessmentSet set_of(Assessment assessment) const;
-  Grasp given(const LivePose& pose, Grip grip) const;
-  AssessmentSet rest_of(const AssessOptions& options, const Grasp& grasp, const Progress& progress);
+  study::AssessOptions options_for_task(const LiveTask& task) const;
+  study::AssessmentSet set_of(study::Assessment assessment) const;
+  grasp::Grasp given(const LivePose& pose, grasp::Grip grip) const;
+  study::AssessmentSet rest_of(const study::AssessOptions& options, const grasp::Grasp& grasp,
+                               const Progress& progress);
 
   LiveHand hand_;
-  std::shared_ptr<const Product> product_;
-  std::map<int, GraspPlace> places_;  ///< by the number of the hold
-  std::map<int, Grasp> grasps_;       ///< of `hand_` there
+  std::shared_ptr<const product::Product> product_;
+  std::map<int, grasp::GraspPlace> places_;  ///< by the number of the hold
+  std::map<int, grasp::Grasp> grasps_;       ///< of `hand_` there
   std::optional<MovingContact> solver_;
-  std::shared_ptr<const DistanceField> moving_distance_;
-  ContactResult moving_;
+  std::shared_ptr<const geometry::DistanceField> moving_distance_;
+  contact::ContactResult moving_;
 };
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -15,19 +15,19 @@
 #include "palmar/workflow/assess.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using workflow_test::coarse_hand;
 using workflow_test::handle;
 
 /// With a hand that isn't the built-in one and searches by itself.
-LiveSession session_with(const Product& product) {
+LiveSession session_with(const product::Product& product) {
   HandChoice choice;
   choice.value = coarse_hand();
-  LiveHand hand = prepare_live_hand(choice, ContactModel{});
+  LiveHand hand = prepare_live_hand(choice, contact::ContactModel{});
   hand.reference = hand.hand;
-  return {hand, std::make_shared<const Product>(product)};
+  return {hand, std::make_shared<const product::Product>(product)};
 }
 
 LiveTask task_of(double grip_force) {
@@ -37,31 +37,31 @@ LiveTask task_of(double grip_force) {
 }
 
 /// Without what differs from run to run: times, and the command line.
-std::string comparable(const AssessmentSet& set) {
-  AssessmentSet same = set;
+std::string comparable(const study::AssessmentSet& set) {
+  study::AssessmentSet same = set;
   same.command_line.clear();
-  for (AssessedProduct& one : same.assessments) one.assessment.times = {};
-  return assessment_json(same);
+  for (study::AssessedProduct& one : same.assessments) one.assessment.times = {};
+  return records::assessment_json(same);
 }
 
 /// A handle of 40 mm, gripped with 60 N, at rest.
-const Grasp& grasp_of_60() {
-  static const AssessmentSet set = session_with(handle(40.0)).take_hold(1, task_of(60.0));
+const grasp::Grasp& grasp_of_60() {
+  static const study::AssessmentSet set = session_with(handle(40.0)).take_hold(1, task_of(60.0));
   return set.assessments.front().assessment.grasp;
 }
 
 TEST(LiveSession, HoldAtRestIsWhatAssessFinds) {
-  const Product product = handle(40.0);
+  const product::Product product = handle(40.0);
   LiveSession session = session_with(product);
   AssessRequest request;
   request.products.emplace_back(product);
   request.hand.value = coarse_hand();
-  request.model = ContactModel{};
+  request.model = contact::ContactModel{};
   request.grasp.is_place_per_hand = true;  // the hand of this test is not the built-in one
   for (const double force : {60.0, 35.0}) {
     request.rest.grip_force = force;
     AssessOutcome outcome = assess_products(request);
-    AssessmentSet live = session.take_hold(1, task_of(force));
+    study::AssessmentSet live = session.take_hold(1, task_of(force));
     // What was asked for to find the hold is said otherwise: by its number.
     live.assessments.front().assessment.options.grasp =
         outcome.set.assessments.front().assessment.options.grasp;
@@ -71,10 +71,10 @@ TEST(LiveSession, HoldAtRestIsWhatAssessFinds) {
 
 TEST(LiveSession, HoldsAreRankedOnceAndStartWithTheOneThatIsTaken) {
   LiveSession session = session_with(handle(40.0));
-  const RankedHolds* first = &session.holds();
+  const grasp::RankedHolds* first = &session.holds();
   EXPECT_EQ(&session.holds(), first);
   ASSERT_FALSE(first->holds.empty());
-  const AssessmentSet set = session.take_hold(1, task_of(50.0));
+  const study::AssessmentSet set = session.take_hold(1, task_of(50.0));
   ASSERT_TRUE(set.assessments.front().assessment.grasp.hold.has_value());
   EXPECT_EQ(set.assessments.front().assessment.grasp.hold_words, first->holds.front().words);
 }
@@ -87,13 +87,13 @@ TEST(LiveSession, HoldsThatAreNotThereAreRefused) {
 
 TEST(LiveSession, ContactOfAMotionIsThatOfTheEvaluatedPlace) {
   LiveSession session = session_with(handle(40.0));
-  const Grasp& grasp = grasp_of_60();
+  const grasp::Grasp& grasp = grasp_of_60();
   LivePose pose{grasp.posture, grasp.product_from_hand};
   for (int step = 0; step < 4; ++step) {
     pose.product_from_hand.translation += Vec3(0.3, -0.2, 0.25);  // mm
-    const ContactResult& moving = session.move(pose);
-    const AssessmentSet there = session.evaluate_here(pose, grasp.grip, {});
-    const ContactResult& still = there.assessments.front().assessment.contact;
+    const contact::ContactResult& moving = session.move(pose);
+    const study::AssessmentSet there = session.evaluate_here(pose, grasp.grip, {});
+    const contact::ContactResult& still = there.assessments.front().assessment.contact;
     ASSERT_EQ(moving.pressure.size(), still.pressure.size());
     // Moduli are settled to 1 % on the way, to 0.001 % at rest. Skin that bulges until it touches,
     // with next to no force, is left out of the area.
@@ -106,36 +106,38 @@ TEST(LiveSession, ContactOfAMotionIsThatOfTheEvaluatedPlace) {
 
 TEST(LiveSession, HandAndProductMovedTogetherPressTheSame) {
   LiveSession session = session_with(handle(40.0));
-  const Grasp& grasp = grasp_of_60();
-  const double before = grip_force(session.move({grasp.posture, grasp.product_from_hand}),
-                                   *session.product().distance)
+  const grasp::Grasp& grasp = grasp_of_60();
+  const double before = grasp::grip_force(session.move({grasp.posture, grasp.product_from_hand}),
+                                          *session.product().distance)
                             .force;
   EXPECT_NEAR(before, 60.0, 1.2);  // N; settling ends within 2 % of it
   // A cylinder looks the same after half a turn about an axis across it.
-  const Rigid3 turned = Rigid3::about_axis(Vec3::UnitX(), Vec3::Zero(), std::numbers::pi);
-  const double after = grip_force(session.move({grasp.posture, turned * grasp.product_from_hand}),
-                                  *session.product().distance)
-                           .force;
+  const geometry::Rigid3 turned =
+      geometry::Rigid3::about_axis(Vec3::UnitX(), Vec3::Zero(), std::numbers::pi);
+  const double after =
+      grasp::grip_force(session.move({grasp.posture, turned * grasp.product_from_hand}),
+                        *session.product().distance)
+          .force;
   EXPECT_NEAR(after, before, 0.01 * before);
 }
 
 TEST(LiveSession, FingersCloseWhereTheProductWasPut) {
   LiveSession session = session_with(handle(40.0));
-  const Grasp& grasp = grasp_of_60();
-  LivePose open{reference_posture(session.hand().skeleton), grasp.product_from_hand};
-  const AssessmentSet closed = session.close_here(open, grasp.grip, task_of(60.0));
-  const Assessment& held = closed.assessments.front().assessment;
-  EXPECT_EQ(held.balance.status, BalanceStatus::kBalanced) << held.balance.message;
+  const grasp::Grasp& grasp = grasp_of_60();
+  LivePose open{hand::reference_posture(session.hand().skeleton), grasp.product_from_hand};
+  const study::AssessmentSet closed = session.close_here(open, grasp.grip, task_of(60.0));
+  const study::Assessment& held = closed.assessments.front().assessment;
+  EXPECT_EQ(held.balance.status, grasp::BalanceStatus::kBalanced) << held.balance.message;
   EXPECT_NEAR(held.balance.grip_force, 60.0, 1.2);  // N
 }
 
 TEST(LiveSession, RestFollowsTheGripForceFromWhereItIs) {
   LiveSession session = session_with(handle(40.0));
-  const Grasp& grasp = grasp_of_60();
-  const AssessmentSet firm =
+  const grasp::Grasp& grasp = grasp_of_60();
+  const study::AssessmentSet firm =
       session.rest_here({grasp.posture, grasp.product_from_hand}, grasp.grip, task_of(90.0));
-  const Balance& balance = firm.assessments.front().assessment.balance;
-  EXPECT_EQ(balance.status, BalanceStatus::kBalanced) << balance.message;
+  const grasp::Balance& balance = firm.assessments.front().assessment.balance;
+  EXPECT_EQ(balance.status, grasp::BalanceStatus::kBalanced) << balance.message;
   EXPECT_NEAR(balance.grip_force, 90.0, 1.8);  // N
 }
 
@@ -144,7 +146,7 @@ TEST(LiveSession, NumbersThatAreNotFiniteAreRefused) {
   LivePose pose;
   pose.product_from_hand.translation.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(session.move(pose), UsageError);
-  EXPECT_THROW(session.evaluate_here(pose, Grip::kMediumWrap, {}), UsageError);
+  EXPECT_THROW(session.evaluate_here(pose, grasp::Grip::kMediumWrap, {}), UsageError);
 }
 
 TEST(LiveSession, CancelledHoldLeavesTheSessionUsable) {
@@ -154,9 +156,9 @@ TEST(LiveSession, CancelledHoldLeavesTheSessionUsable) {
   progress.cancel = &cancel;
   EXPECT_THROW(session.take_hold(1, task_of(60.0), progress), Cancelled);
   cancel = false;
-  const AssessmentSet set = session.take_hold(1, task_of(60.0), progress);
-  EXPECT_EQ(set.assessments.front().assessment.balance.status, BalanceStatus::kBalanced);
+  const study::AssessmentSet set = session.take_hold(1, task_of(60.0), progress);
+  EXPECT_EQ(set.assessments.front().assessment.balance.status, grasp::BalanceStatus::kBalanced);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,7 +12,7 @@
 #include "palmar/geometry/distance/grid_distance.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 constexpr double kMovingAccuracy = 0.01;  // of the moduli, and with them of forces
@@ -27,42 +27,45 @@ constexpr double kLeastGradient = 0.985;
 
 }  // namespace
 
-std::shared_ptr<const DistanceField> distance_for_moving(
-    const TriangleMesh& mesh, const std::shared_ptr<const DistanceField>& distance) {
-  const double area = surface_area(mesh);
+std::shared_ptr<const geometry::DistanceField> distance_for_moving(
+    const geometry::TriangleMesh& mesh,
+    const std::shared_ptr<const geometry::DistanceField>& distance) {
+  const double area = geometry::surface_area(mesh);
   for (double spacing = kFinestSpacing; spacing <= kCoarsestSpacing; spacing += 0.25) {
     const double nodes = area * 2.0 * (kGridBand + 2.0 * spacing) / (spacing * spacing * spacing);
     if (nodes > kMostNodes) continue;
-    return std::make_shared<GridDistance>(
-        distance, GridDistanceOptions{
+    return std::make_shared<geometry::GridDistance>(
+        distance, geometry::GridDistanceOptions{
                       .spacing = spacing, .band = kGridBand, .least_gradient = kLeastGradient});
   }
   return distance;
 }
 
 struct MovingContact::Impl {
-  explicit Impl(const PreparedHand& prepared) : solver(prepared, ContactOptions{}) {}
-  ContactSolver::Impl solver;
+  explicit Impl(const contact::PreparedHand& prepared)
+      : solver(prepared, contact::ContactOptions{}) {}
+  contact::ContactSolver::Impl solver;
 };
 
-MovingContact::MovingContact(const PreparedHand& prepared)
+MovingContact::MovingContact(const contact::PreparedHand& prepared)
     : impl_(std::make_unique<Impl>(prepared)) {}
 MovingContact::~MovingContact() = default;
 MovingContact::MovingContact(MovingContact&&) noexcept = default;
 MovingContact& MovingContact::operator=(MovingContact&&) noexcept = default;
 
-void MovingContact::solve(const std::vector<Vec3>& posed_skin, const Rigid3& product_from_hand,
-                          const DistanceField& product, ContactResult& result) {
-  ContactSolver::Impl& solver = impl_->solver;
+void MovingContact::solve(const std::vector<Vec3>& posed_skin,
+                          const geometry::Rigid3& product_from_hand,
+                          const geometry::DistanceField& product, contact::ContactResult& result) {
+  contact::ContactSolver::Impl& solver = impl_->solver;
   if (!solver.prepared->is_on_bone()) {
     solver.solve(posed_skin, product_from_hand, product, std::nullopt, result);
     return;
   }
   solver.solve_forces(posed_skin, product_from_hand, product, kMovingAccuracy, result);
-  const SkinOnProduct& skin = solver.skin();
+  const contact::SkinOnProduct& skin = solver.skin();
   const std::size_t n = posed_skin.size();
-  std::array<double, kRegionCount> depth{}, modulus_of{};
-  for (const RegionContact& region : result.regions) {
+  std::array<double, hand::kRegionCount> depth{}, modulus_of{};
+  for (const contact::RegionContact& region : result.regions) {
     depth[index_of(region.region)] = region.max_penetration;
     modulus_of[index_of(region.region)] = region.shear_modulus;
   }
@@ -93,9 +96,10 @@ void MovingContact::solve(const std::vector<Vec3>& posed_skin, const Rigid3& pro
   result.regions.clear();
   result.total = {};
   result.total.max_penetration = deepest;
-  const SkinGeometry pressed = pressed_skin(*solver.prepared, skin, result.undeformed);
-  add_totals(*solver.prepared, skin, pressed, gap, modulus, depth, modulus_of,
-             solver.options.cell_area, result);
+  const contact::SkinGeometry pressed =
+      contact::pressed_skin(*solver.prepared, skin, result.undeformed);
+  contact::add_totals(*solver.prepared, skin, pressed, gap, modulus, depth, modulus_of,
+                      solver.options.cell_area, result);
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Takes a note that a user should see while a task runs: what was repaired, proposed or doubted.
 using NoteSink = std::function<void(const std::string& text)>;
@@ -15,4 +15,4 @@ inline void note_to(const NoteSink& sink, const std::string& text) {
   if (sink) sink(text);
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

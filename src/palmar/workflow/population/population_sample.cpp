@@ -7,7 +7,7 @@
 #include "palmar/records/population/hand_sample_table.h"
 #include "palmar/records/population/population_file.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 void PopulationSampleRequest::check() const {
   if (!out.empty() && !out.ends_with(".csv") && !out.ends_with(".json")) {
@@ -19,15 +19,16 @@ void PopulationSampleRequest::check() const {
 PopulationSampleOutcome sample_population(const PopulationSampleRequest& request) {
   request.check();
   PopulationSampleOutcome outcome;
-  outcome.population = load_population(request.population);
-  outcome.hands = sample_hands(outcome.population, request.sampling);
+  outcome.population = records::load_population(request.population);
+  outcome.hands = population::sample_hands(outcome.population, request.sampling);
   for (const std::string& caution : outcome.population.cautions) note_to(request.note, caution);
   if (request.out.empty()) return outcome;
-  write_file(request.out,
-             request.out.ends_with(".json")
-                 ? hand_sample_json(outcome.population, request.sampling, outcome.hands)
-                 : format_csv(hand_sample_table(outcome.hands)));
+  formats::write_file(
+      request.out,
+      request.out.ends_with(".json")
+          ? records::hand_sample_json(outcome.population, request.sampling, outcome.hands)
+          : records::format_csv(records::hand_sample_table(outcome.hands)));
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

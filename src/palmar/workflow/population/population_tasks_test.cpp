@@ -15,7 +15,7 @@
 #include "palmar/workflow/population/table_describe.h"
 #include "palmar/workflow/population/table_regress.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,7 +39,7 @@ class PopulationTasks : public testing::Test {
  protected:
   TableChoice table(const std::string& text) {
     const fs::path path = folder / "people.csv";
-    write_file(path, text);
+    formats::write_file(path, text);
     return {.file = path.string()};
   }
   std::string path(const std::string& name) const { return (folder / name).string(); }
@@ -59,13 +59,13 @@ std::string usage_error_of(const Task& task) {
 
 TEST_F(PopulationTasks, GroupsOfATableMakeUpTheWhole) {
   TableDescribeRequest request{.table = table(kPeople)};
-  const Descriptions whole = describe_table(request);
+  const records::Descriptions whole = describe_table(request);
   request.table.by = "sex";
   request.out = path("tables");
-  const Descriptions groups = describe_table(request);
+  const records::Descriptions groups = describe_table(request);
   ASSERT_EQ(groups.groups.size(), 2U);
-  const Summary& women = groups.groups[0].result[0].summary.value();
-  const Summary& men = groups.groups[1].result[0].summary.value();
+  const statistics::Summary& women = groups.groups[0].result[0].summary.value();
+  const statistics::Summary& men = groups.groups[1].result[0].summary.value();
   EXPECT_EQ(women.mean, 175.0);  // mm
   EXPECT_EQ(women.sd, 5.0);      // mm
   EXPECT_EQ(men.mean, 192.5);    // mm
@@ -77,7 +77,7 @@ TEST_F(PopulationTasks, ConditionsAndColumnsChooseFromTheTable) {
   TableDescribeRequest request{.table = table(kPeople)};
   request.table.conditions = {"sex=M", "hand_length>=190"};
   request.table.columns = {"hand_width"};
-  const Descriptions tall = describe_table(request);
+  const records::Descriptions tall = describe_table(request);
   EXPECT_EQ(tall.groups[0].subjects, 3);
   ASSERT_EQ(tall.groups[0].result.size(), 1U);
   EXPECT_NEAR(tall.groups[0].result[0].summary->mean, (84.0 + 87.0 + 86.5) / 3, 1e-12);  // mm
@@ -86,7 +86,7 @@ TEST_F(PopulationTasks, ConditionsAndColumnsChooseFromTheTable) {
 }
 
 TEST_F(PopulationTasks, CorrelationIsThatOfAnscombe) {
-  const Correlations found =
+  const records::Correlations found =
       correlate_table({.table = table(kAnscombe), .out = path("figures"), .note = {}});
   ASSERT_EQ(found.groups[0].result.pairs.size(), 1U);
   EXPECT_NEAR(std::pow(found.groups[0].result.pairs[0].pearson.r, 2), 0.667, 5e-4);  // its digits
@@ -100,7 +100,7 @@ TEST_F(PopulationTasks, RegressionIsThatOfAnscombe) {
   request.out = path("figures");
   const TableRegressOutcome outcome = regress_table(request);
   ASSERT_EQ(outcome.regressions.groups[0].result.size(), 1U);
-  const LinearFit& fit = outcome.regressions.groups[0].result[0].fit;
+  const statistics::LinearFit& fit = outcome.regressions.groups[0].result[0].fit;
   EXPECT_NEAR(fit.intercept.estimate, 3.0, 5e-3);
   EXPECT_NEAR(fit.slopes[0].estimate, 0.5, 5e-4);
   EXPECT_NEAR(fit.r2, 0.667, 5e-4);
@@ -115,7 +115,7 @@ TEST_F(PopulationTasks, PopulationOfATableHasItsMeansAndShares) {
   request.population_out = path("our people.toml");
   request.note = [&](const std::string& text) { notes += text + "\n"; };
   regress_table(request);
-  const Population people = load_population(request.population_out);
+  const population::Population people = records::load_population(request.population_out);
   EXPECT_EQ(people.name, "our_people");
   ASSERT_EQ(people.strata.size(), 2U);
   EXPECT_NEAR(people.strata[0].share, 3.0 / 7.0, 1e-12);
@@ -147,16 +147,16 @@ TEST_F(PopulationTasks, WhatCannotBeAnalysedIsNamed) {
 TEST_F(PopulationTasks, MiddleManHasTheMeanHandOfTheSurvey) {
   // ANSUR II (Gordon et al. 2014): mean hand length of men 193.28 mm.
   PopulationSampleRequest request{.population = "ansur2_men"};
-  request.sampling.design = SamplingDesign::kPercentiles;
+  request.sampling.design = population::SamplingDesign::kPercentiles;
   request.sampling.percentiles = {50.0};
   request.out = path("hands.csv");
   const PopulationSampleOutcome outcome = sample_population(request);
   ASSERT_EQ(outcome.hands.size(), 1U);
-  const SizedDimension& first = outcome.hands[0].dimensions.at(0);
+  const hand::SizedDimension& first = outcome.hands[0].dimensions.at(0);
   EXPECT_EQ(name_of(first.dimension), "hand_length");
   EXPECT_NEAR(first.value, 193.28, 0.005);  // mm; digits of the survey
   // The file is a table of subjects.
-  const Descriptions read = describe_table({.table = {.file = request.out}});
+  const records::Descriptions read = describe_table({.table = {.file = request.out}});
   EXPECT_EQ(read.groups[0].subjects, 1);
 }
 
@@ -171,4 +171,4 @@ TEST_F(PopulationTasks, FileOfASampleNeedsAKnownEnding) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

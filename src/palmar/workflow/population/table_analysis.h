@@ -14,19 +14,20 @@
 #include "palmar/records/table_results.h"
 #include "palmar/workflow/population/table_choice.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// The analysis of every group of a table; what it says about a group of too few subjects names the
 /// group. `groups` becomes what was analysed.
 template <typename Result, typename Analyse>
-TableResults<Result> analysed(const TableChoice& choice, double level,
-                              std::vector<TableGroup>& groups, const Analyse& analyse) {
-  TableResults<Result> results;
+records::TableResults<Result> analysed(const TableChoice& choice, double level,
+                                       std::vector<population::TableGroup>& groups,
+                                       const Analyse& analyse) {
+  records::TableResults<Result> results;
   results.source = choice.file;
   results.by = choice.by;
   results.level = level;
   groups = load_groups(choice, results.notes);
-  for (const TableGroup& group : groups) {
+  for (const population::TableGroup& group : groups) {
     try {
       results.groups.push_back({group.name, group.table.subjects(), analyse(group.table)});
     } catch (const InputError& error) {
@@ -38,9 +39,10 @@ TableResults<Result> analysed(const TableChoice& choice, double level,
 }
 
 /// The table as a file of that folder, which is made if missing.
-inline void write_table(const std::string& folder, const std::string& name, const CsvTable& table) {
-  create_folder(folder);
-  write_file(std::filesystem::path(folder) / name, format_csv(table));
+inline void write_table(const std::string& folder, const std::string& name,
+                        const records::CsvTable& table) {
+  formats::create_folder(folder);
+  formats::write_file(std::filesystem::path(folder) / name, records::format_csv(table));
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

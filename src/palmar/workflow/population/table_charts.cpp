@@ -14,37 +14,38 @@
 #include "palmar/report/chart/scatter_chart.h"
 #include "palmar/report/words/plain_words.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 constexpr int kLinePlaces = 60;        // at which the line and its bands are drawn
 constexpr double kSignificant = 0.05;  // p value
 
-void write_chart(const std::string& folder, const std::string& name, const Figure& figure) {
+void write_chart(const std::string& folder, const std::string& name, const report::Figure& figure) {
   const std::filesystem::path path(folder);
-  write_file(path / (name + ".svg"), to_svg(figure));
-  write_file(path / (name + ".png"), to_png(figure));
-  write_file(path / (name + ".pdf"), to_pdf(figure));
+  formats::write_file(path / (name + ".svg"), report::to_svg(figure));
+  formats::write_file(path / (name + ".png"), report::to_png(figure));
+  formats::write_file(path / (name + ".pdf"), report::to_pdf(figure));
 }
 
-std::string label_of(const DimensionTable& table, const std::string& name) {
-  const TableColumn& column = table.column(name);
+std::string label_of(const population::DimensionTable& table, const std::string& name) {
+  const population::TableColumn& column = table.column(name);
   std::string label = name;
   std::replace(label.begin(), label.end(), '_', ' ');
   return column.unit.empty() ? label : label + ", " + column.unit;
 }
 
-ScatterSeries series_of(const TableGroup& group, const TableRegression& r, double level) {
-  ScatterSeries series;
+report::ScatterSeries series_of(const population::TableGroup& group,
+                                const population::TableRegression& r, double level) {
+  report::ScatterSeries series;
   series.name = group.name;
-  const auto [xs, ys] =
-      complete_pairs(group.table.column(r.predictors[0]).values, group.table.column(r.name).values);
+  const auto [xs, ys] = statistics::complete_pairs(group.table.column(r.predictors[0]).values,
+                                                   group.table.column(r.name).values);
   for (std::size_t i = 0; i < xs.size(); ++i) series.points.emplace_back(xs[i], ys[i]);
   const auto [low, high] = std::minmax_element(xs.begin(), xs.end());
   for (int i = 0; i <= kLinePlaces; ++i) {
     const double x = *low + (*high - *low) * i / kLinePlaces;
-    const Band mean = confidence_band(r.fit, x, level);
-    const Band single = prediction_band(r.fit, x, level);
+    const statistics::Band mean = statistics::confidence_band(r.fit, x, level);
+    const statistics::Band single = statistics::prediction_band(r.fit, x, level);
     series.line.x.push_back(x);
     series.line.value.push_back(mean.value);
     series.line.low.push_back(mean.low);
@@ -56,9 +57,9 @@ ScatterSeries series_of(const TableGroup& group, const TableRegression& r, doubl
 }
 
 /// "men: y = 12.300 + 0.4000 x, n = 40, ...", the group's name only if there are groups.
-std::string equation_note(const std::string& group, const LinearFit& fit) {
+std::string equation_note(const std::string& group, const statistics::LinearFit& fit) {
   const double slope = fit.slopes[0].estimate;
-  const std::string p = p_text(fit.f_p_value);
+  const std::string p = records::p_text(fit.f_p_value);
   return fmt::format("{}y = {:.3f} {} {:.4f} x, n = {}, R² = {:.3f}, residual sd {:.2f}, p {}{}",
                      group.empty() ? "" : group + ": ", fit.intercept.estimate,
                      slope < 0.0 ? "-" : "+", std::abs(slope), fit.n, fit.r2, fit.residual_sd,
@@ -66,19 +67,20 @@ std::string equation_note(const std::string& group, const LinearFit& fit) {
 }
 
 /// One dimension on one predictor.
-ScatterChart scatter_of(const TableRegression& wanted, const std::vector<TableGroup>& groups,
-                        const Regressions& results) {
-  ScatterChart chart;
-  const DimensionTable& table = groups.front().table;
+report::ScatterChart scatter_of(const population::TableRegression& wanted,
+                                const std::vector<population::TableGroup>& groups,
+                                const records::Regressions& results) {
+  report::ScatterChart chart;
+  const population::DimensionTable& table = groups.front().table;
   chart.x_label = label_of(table, wanted.predictors[0]);
   chart.y_label = label_of(table, wanted.name);
-  chart.title = capitalised(chart.y_label.substr(0, chart.y_label.find(',')) + " on " +
-                            chart.x_label.substr(0, chart.x_label.find(',')));
+  chart.title = report::capitalised(chart.y_label.substr(0, chart.y_label.find(',')) + " on " +
+                                    chart.x_label.substr(0, chart.x_label.find(',')));
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const TableRegression& r : results.groups[g].result) {
+    for (const population::TableRegression& r : results.groups[g].result) {
       if (r.name != wanted.name || r.predictors != wanted.predictors) continue;
-      ScatterSeries series = series_of(groups[g], r, results.level);
-      series.colour = series_colour(g);
+      report::ScatterSeries series = series_of(groups[g], r, results.level);
+      series.colour = report::series_colour(g);
       chart.series.push_back(std::move(series));
       chart.notes.push_back(equation_note(results.by.empty() ? "" : groups[g].name, r.fit));
     }
@@ -100,10 +102,10 @@ std::string file_part(const std::string& name) {
   return result;
 }
 
-void write_correlation_charts(const std::string& folder, const Correlations& results) {
+void write_correlation_charts(const std::string& folder, const records::Correlations& results) {
   for (const auto& group : results.groups) {
     const bool is_one_of_several = !results.by.empty();
-    CorrelationChart chart;
+    report::CorrelationChart chart;
     chart.title = "Correlations" + (is_one_of_several ? ", " + results.by + " " + group.name : "");
     chart.names = group.result.names;
     chart.r = group.result.r;
@@ -113,17 +115,18 @@ void write_correlation_charts(const std::string& folder, const Correlations& res
       chart.is_significant(pair.a, pair.b) = chart.is_significant(pair.b, pair.a) = is_significant;
     }
     write_chart(folder, "correlation" + (is_one_of_several ? "_" + file_part(group.name) : ""),
-                correlation_chart(chart));
+                report::correlation_chart(chart));
   }
 }
 
-void write_scatter_charts(const std::string& folder, const std::vector<TableGroup>& groups,
-                          const Regressions& results) {
-  for (const TableRegression& one : results.groups.front().result) {
+void write_scatter_charts(const std::string& folder,
+                          const std::vector<population::TableGroup>& groups,
+                          const records::Regressions& results) {
+  for (const population::TableRegression& one : results.groups.front().result) {
     if (one.predictors.size() != 1) continue;
     write_chart(folder, file_part(one.name + "_on_" + one.predictors[0]),
-                scatter_chart(scatter_of(one, groups, results)));
+                report::scatter_chart(scatter_of(one, groups, results)));
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -4,15 +4,18 @@
 
 #include "palmar/records/population/dimension_table_file.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
-void TableChoice::check() const { TableReading{.unit = unit}.check(); }
+void TableChoice::check() const { records::TableReading{.unit = unit}.check(); }
 
-std::vector<TableGroup> load_groups(const TableChoice& choice, std::vector<std::string>& notes) {
-  DimensionTable table = read_dimension_table(choice.file, {.unit = choice.unit});
-  for (const std::string& condition : choice.conditions) table = where(table, condition);
+std::vector<population::TableGroup> load_groups(const TableChoice& choice,
+                                                std::vector<std::string>& notes) {
+  population::DimensionTable table =
+      records::read_dimension_table(choice.file, {.unit = choice.unit});
+  for (const std::string& condition : choice.conditions)
+    table = population::where(table, condition);
   notes = table.notes;
-  return grouped(table, choice.by, notes);
+  return population::grouped(table, choice.by, notes);
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

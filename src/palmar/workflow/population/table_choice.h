@@ -7,7 +7,7 @@
 
 #include "palmar/population/dimension_table.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Whom and what a task takes of a table of subjects.
 struct TableChoice {
@@ -21,6 +21,7 @@ struct TableChoice {
 
 /// The groups of the subjects; what was found in the table is added to `notes`. Throws UsageError:
 /// a condition or column that can't be; InputError naming file, line and column.
-std::vector<TableGroup> load_groups(const TableChoice& choice, std::vector<std::string>& notes);
+std::vector<population::TableGroup> load_groups(const TableChoice& choice,
+                                                std::vector<std::string>& notes);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -8,7 +8,7 @@
 #include "palmar/workflow/note/note.h"
 #include "palmar/workflow/population/table_choice.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// How the dimensions of a table of subjects go together: every pair of them.
 struct TableCorrelateRequest {
@@ -21,6 +21,6 @@ struct TableCorrelateRequest {
 
 /// Throws UsageError; InputError naming file, line and column (a column that doesn't vary, too few
 /// subjects); OutputError.
-Correlations correlate_table(const TableCorrelateRequest& request);
+records::Correlations correlate_table(const TableCorrelateRequest& request);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -8,7 +8,7 @@
 #include "palmar/workflow/note/note.h"
 #include "palmar/workflow/population/table_choice.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Mean, deviation and percentiles of every dimension of a table of subjects.
 struct TableDescribeRequest {
@@ -19,6 +19,6 @@ struct TableDescribeRequest {
 };
 
 /// Throws UsageError; InputError naming the file: unreadable, no column of numbers; OutputError.
-Descriptions describe_table(const TableDescribeRequest& request);
+records::Descriptions describe_table(const TableDescribeRequest& request);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

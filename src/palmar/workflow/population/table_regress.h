@@ -11,7 +11,7 @@
 #include "palmar/workflow/note/note.h"
 #include "palmar/workflow/population/table_choice.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Every dimension of a table of subjects on a few of them, and what the table says about the
 /// people it was taken from.
@@ -30,12 +30,12 @@ struct TableRegressRequest {
 };
 
 struct TableRegressOutcome {
-  Regressions regressions;
-  std::optional<Population> population;  ///< that was written
+  records::Regressions regressions;
+  std::optional<population::Population> population;  ///< that was written
 };
 
 /// Throws UsageError, also if nothing is left to regress and no population is asked for; InputError
 /// naming file, line and column (a predictor that doesn't vary, too few subjects); OutputError.
 TableRegressOutcome regress_table(const TableRegressRequest& request);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

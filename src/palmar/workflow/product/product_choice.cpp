@@ -8,17 +8,17 @@
 #include "palmar/product/intake/check.h"
 #include "palmar/records/product/made_product.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 /// Above this, finding crossing triangles takes more than a few tenths of a second.
 constexpr int kMostTrianglesForCrossings = 100'000;
 
 /// Nothing unless the product's source says by which kind and parameters it was made.
-std::optional<Vec3> thumb_side_of(const Product& product) {
-  if (!is_made(product.source)) return std::nullopt;
+std::optional<Vec3> thumb_side_of(const product::Product& product) {
+  if (!records::is_made(product.source)) return std::nullopt;
   try {
-    return thumb_side_of(made_from(product.source));
+    return thumb_side_of(records::made_from(product.source));
   } catch (const Error&) {
     return std::nullopt;  // a primitive, which says only its size
   }
@@ -35,28 +35,30 @@ void ProductChoice::check() const {
   reading.limits.check();
 }
 
-Product load_product(const ProductChoice& choice, const Progress& progress) {
+product::Product load_product(const ProductChoice& choice, const Progress& progress) {
   choice.check();
   if (choice.value) return *choice.value;
-  LoadProductOptions options = choice.reading;
+  records::LoadProductOptions options = choice.reading;
   options.progress = progress;
   return load_product(choice.file, options);
 }
 
-void add_findings(Product& product) {
+void add_findings(product::Product& product) {
   const bool is_small = product.mesh.triangle_count() <= kMostTrianglesForCrossings;
-  for (const Finding& finding : check_mesh(product.mesh, is_small).findings) {
+  for (const product::Finding& finding : product::check_mesh(product.mesh, is_small).findings) {
     const bool is_known = std::any_of(
         product.notes.begin(), product.notes.end(),
         [&](const std::string& note) { return note.find(finding.text) != std::string::npos; });
-    if (finding.severity != Severity::kOk && !is_known) product.notes.push_back(finding.text);
+    if (finding.severity != product::Severity::kOk && !is_known)
+      product.notes.push_back(finding.text);
   }
 }
 
-GraspOptions options_for(const GraspSettings& settings, const Product& product) {
-  GraspOptions result = settings.options();
+grasp::GraspOptions options_for(const grasp::GraspSettings& settings,
+                                const product::Product& product) {
+  grasp::GraspOptions result = settings.options();
   if (!result.is_placed() && !result.holds.toward) result.holds.toward = thumb_side_of(product);
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

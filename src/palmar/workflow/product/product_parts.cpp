@@ -6,7 +6,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/report/picture/parts_picture.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 void ProductPartsRequest::check() const {
   options.check();
@@ -19,17 +19,18 @@ void ProductPartsRequest::check() const {
 ProductPartsOutcome list_product_parts(const ProductPartsRequest& request,
                                        const Progress& progress) {
   request.check();
-  LoadProductOptions reading = request.reading;
+  records::LoadProductOptions reading = request.reading;
   reading.progress = progress;
   ProductPartsOutcome outcome;
-  outcome.product = load_product(request.file, reading);
-  outcome.parts = find_parts(outcome.product, request.options);
+  outcome.product = records::load_product(request.file, reading);
+  outcome.parts = product::find_parts(outcome.product, request.options);
   if (!request.out.empty()) {
-    const Image picture = parts_picture(outcome.product, outcome.parts, {}, progress);
-    write_file(request.out,
-               request.out.ends_with(".svg") ? picture_svg(picture) : encode_png(picture));
+    const report::Image picture =
+        report::parts_picture(outcome.product, outcome.parts, {}, progress);
+    formats::write_file(request.out, request.out.ends_with(".svg") ? report::picture_svg(picture)
+                                                                   : report::encode_png(picture));
   }
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -8,24 +8,24 @@
 #include "palmar/product/parts/product_parts.h"
 #include "palmar/records/product/product_file.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// What hands can take hold of on a product.
 struct ProductPartsRequest {
-  std::string file;                 ///< STL, OBJ, PLY, 3MF, glTF, STEP or IGES
-  LoadProductOptions reading = {};  ///< its `progress` isn't used
-  PartOptions options = {};
+  std::string file;                          ///< STL, OBJ, PLY, 3MF, glTF, STEP or IGES
+  records::LoadProductOptions reading = {};  ///< its `progress` isn't used
+  product::PartOptions options = {};
   std::string out;     ///< picture of the parts: .png or .svg; empty: none
   void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 
 struct ProductPartsOutcome {
-  Product product;
-  ProductParts parts;
+  product::Product product;
+  product::ProductParts parts;
 };
 
 /// Throws UsageError, InputError naming the file, OutputError, Cancelled.
 ProductPartsOutcome list_product_parts(const ProductPartsRequest& request,
                                        const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -4,7 +4,7 @@
 
 #include "palmar/workflow/redesign/redesign_request.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 void CandidateLimits::check() const {
   if (smallest_volume) {
@@ -16,8 +16,8 @@ void CandidateLimits::check() const {
   require_setting(lost_hands >= 0.0 && lost_hands <= 1.0, "lost hands", lost_hands, "0 to 1");
 }
 
-std::vector<SearchConstraint> CandidateLimits::on_volume() const {
-  std::vector<SearchConstraint> all;
+std::vector<redesign::SearchConstraint> CandidateLimits::on_volume() const {
+  std::vector<redesign::SearchConstraint> all;
   if (smallest_volume) all.push_back({"volume by the original's", "", *smallest_volume, false});
   if (largest_volume) all.push_back({"volume by the original's", "", *largest_volume, true});
   return all;
@@ -27,8 +27,8 @@ std::vector<double> CandidateLimits::volumes(double ratio) const {
   return std::vector<double>(on_volume().size(), ratio);
 }
 
-SearchConstraint CandidateLimits::on_lost_hands() const {
+redesign::SearchConstraint CandidateLimits::on_lost_hands() const {
   return {"share of hands that lose hold", "", lost_hands, true};
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -7,7 +7,7 @@
 
 #include "palmar/redesign/feature_search.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// What a candidate of any search must keep to.
 struct CandidateLimits {
@@ -15,10 +15,10 @@ struct CandidateLimits {
   double lost_hands = 0.1;  ///< share of the hands that hold the original
   void check() const;       ///< throws UsageError: setting, value, allowed range
 
-  std::vector<SearchConstraint> on_volume() const;
+  std::vector<redesign::SearchConstraint> on_volume() const;
   /// A candidate's values by on_volume(); `ratio`: its volume by the original's.
   std::vector<double> volumes(double ratio) const;
-  SearchConstraint on_lost_hands() const;
+  redesign::SearchConstraint on_lost_hands() const;
 };
 
-}  // namespace palmar
+}  // namespace palmar::workflow

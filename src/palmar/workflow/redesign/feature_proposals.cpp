@@ -13,7 +13,7 @@
 #include "palmar/study/statistics/face_statistics.h"
 #include "palmar/workflow/redesign/proposal_list.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kCertain = 1.96;  // standard errors: 95 %
 
 /// One proposal, made and held.
-void try_one(FeatureRun& run, const GoalFigure& before, TriedProposal& one,
+void try_one(FeatureRun& run, const redesign::GoalFigure& before, TriedProposal& one,
              const Progress& progress) {
   run.settings = {feature_setting(one.words)};
   SearchStory::Beside beside;
@@ -34,13 +34,13 @@ void try_one(FeatureRun& run, const GoalFigure& before, TriedProposal& one,
   }
   one.grip_force_ratio = beside.grip_force_ratio;
   one.largest_change = beside.largest_change;
-  const GoalChange change = goal_change(before, beside.figure);
+  const redesign::GoalChange change = redesign::goal_change(before, beside.figure);
   one.gain = run.goal.is_lower_better ? -change.share : change.share;
   one.gain_error = change.error;
   one.verdict = verdict_on(one.gain, one.gain_error);
-  const std::vector<SearchConstraint> constraints = run.constraints();
+  const std::vector<redesign::SearchConstraint> constraints = run.constraints();
   for (std::size_t k = 0; k < constraints.size(); ++k) {
-    if (excess(constraints[k], one.outcome.constraint[k]) > 1e-9) {
+    if (redesign::excess(constraints[k], one.outcome.constraint[k]) > 1e-9) {
       one.verdict = ProposalVerdict::kNotAllowed;
     }
   }
@@ -71,17 +71,17 @@ ProposalVerdict verdict_on(double gain, double gain_error) {
 }
 
 std::vector<TriedProposal> try_proposals(FeatureRun& run, const Progress& progress) {
-  const Product& product = run.original->product();
+  const product::Product& product = run.original->product();
   if (!product.faces) {
     throw UsageError(run.request.product + ": its faces aren't known; a CAD file is needed");
   }
-  const std::vector<FaceStatistics> statistics =
-      face_statistics(run.original->study.plan, {product}, run.original->source());
-  std::vector<FaceSummary> touched;
+  const std::vector<study::FaceStatistics> statistics =
+      study::face_statistics(run.original->study.plan, {product}, run.original->source());
+  std::vector<study::FaceSummary> touched;
   if (!statistics.empty()) touched = statistics.front().faces;
   const std::vector<Proposal> proposals = proposals_for(*product.faces, touched, run.limits);
   // What the original's CAD gives as it is: gains are reported from it.
-  const GoalFigure before = run.as_it_is(progress).figure;
+  const redesign::GoalFigure before = run.as_it_is(progress).figure;
   std::vector<TriedProposal> tried;
   for (std::size_t i = 0; i < proposals.size(); ++i) {
     progress.update(static_cast<double>(i) / static_cast<double>(proposals.size()),
@@ -100,7 +100,7 @@ std::vector<TriedProposal> try_proposals(FeatureRun& run, const Progress& progre
 }
 
 std::string proposals_csv(const std::vector<TriedProposal>& tried) {
-  CsvTable table;
+  records::CsvTable table;
   table.header = {"vary",
                   "verdict",
                   "goal",
@@ -121,10 +121,11 @@ std::string proposals_csv(const std::vector<TriedProposal>& tried) {
                           number("{:.2f}", 100 * one.gain_per_mm()),
                           number("{:.4f}", one.grip_force_ratio), one.outcome.failure, one.reason});
   }
-  return format_csv(table);
+  return records::format_csv(table);
 }
 
-std::string proposals_json(const std::vector<TriedProposal>& tried, const FeatureGoal& goal) {
+std::string proposals_json(const std::vector<TriedProposal>& tried,
+                           const redesign::FeatureGoal& goal) {
   Json list = Json::array();
   for (const TriedProposal& one : tried) {
     Json json = {{"vary", one.words}, {"reason", one.reason}, {"verdict", name_of(one.verdict)}};
@@ -144,4 +145,4 @@ std::string proposals_json(const std::vector<TriedProposal>& tried, const Featur
   return json.dump();
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

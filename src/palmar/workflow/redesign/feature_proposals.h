@@ -7,7 +7,7 @@
 
 #include "palmar/workflow/redesign/feature_run.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// What is to be said of a proposal that was tried.
 enum class ProposalVerdict {
@@ -23,7 +23,7 @@ std::string name_of(ProposalVerdict verdict);  ///< "change", "leave", "worse", 
 struct TriedProposal {
   std::string words;   ///< as feature_setting() reads them: "fillet:face=7=6"
   std::string reason;  ///< "face 7 (fillet r 3) has the highest pressure in 63 % of hands"
-  SearchOutcome outcome;
+  redesign::SearchOutcome outcome;
   double gain = 0.0;              ///< share by which the goal gets better; below 0: worse
   double gain_error = 0.0;        ///< its standard error, over the hands' own differences
   double largest_change = 0.0;    ///< mm, of the surface
@@ -42,6 +42,7 @@ std::vector<TriedProposal> try_proposals(FeatureRun& run, const Progress& progre
 
 std::string proposals_csv(const std::vector<TriedProposal>& tried);
 /// One JSON object.
-std::string proposals_json(const std::vector<TriedProposal>& tried, const FeatureGoal& goal);
+std::string proposals_json(const std::vector<TriedProposal>& tried,
+                           const redesign::FeatureGoal& goal);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,7 +12,7 @@
 #include "palmar/product/intake/make_product.h"
 #include "palmar/product/parametric_kinds.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 constexpr double kChordalError = 0.01;  // mm; finer than skin feels, the same for all candidates
@@ -33,14 +33,17 @@ void FeatureLimits::check() const {
 }
 
 void FeatureRun::find_starts(const Progress& progress) {
-  CadFeatureRequest asked{
+  records::CadFeatureRequest asked{
       .source = source, .reference = {}, .features = {}, .keep_out = limits.keep_out};
   for (const FeatureSetting& setting : settings) {
     if (setting.parameter.empty()) asked.features.push_back(setting.feature);
   }
-  const std::vector<ChosenEdges> fillets = describe_features(asked, {}, silent(progress));
-  KindValues values;
-  if (source.made) values = complete_values(parametric_kind(source.made->kind), source.made->given);
+  const std::vector<records::ChosenEdges> fillets =
+      records::describe_features(asked, {}, silent(progress));
+  product::KindValues values;
+  if (source.made)
+    values =
+        product::complete_values(product::parametric_kind(source.made->kind), source.made->given);
   start.clear();
   size_t fillet = 0;
   for (const FeatureSetting& setting : settings) {
@@ -68,15 +71,15 @@ std::vector<double> FeatureRun::all_values(const std::vector<double>& varying) c
   return values;
 }
 
-ChangedCad FeatureRun::make(const std::vector<double>& varying, bool mesh, bool step,
-                            const Progress& progress) const {
-  CadFeatureRequest asked = request_for(source, settings, all_values(varying));
+records::ChangedCad FeatureRun::make(const std::vector<double>& varying, bool mesh, bool step,
+                                     const Progress& progress) const {
+  records::CadFeatureRequest asked = request_for(source, settings, all_values(varying));
   asked.keep_out = limits.keep_out;
   asked.mesh = mesh;
   asked.step = step;
   asked.chordal_error = kChordalError;
   try {
-    return change_features(asked, {}, silent(progress));
+    return records::change_features(asked, {}, silent(progress));
   } catch (const UsageError& error) {
     // Parameters that don't go together: a candidate that can't be made.
     if (!source.made) throw;
@@ -84,21 +87,22 @@ ChangedCad FeatureRun::make(const std::vector<double>& varying, bool mesh, bool 
   }
 }
 
-Product FeatureRun::product_of(const ChangedCad& made, const std::string& name,
-                               const std::string& source_name) const {
-  return make_product(
-      name, made.mesh.mesh,
-      {.unit = LengthUnit::kMillimetre, .source = UnitSource::kMade, .explanation = ""},
-      source_name, &made.mesh.faces);
+product::Product FeatureRun::product_of(const records::ChangedCad& made, const std::string& name,
+                                        const std::string& source_name) const {
+  return product::make_product(name, made.mesh.mesh,
+                               {.unit = geometry::LengthUnit::kMillimetre,
+                                .source = product::UnitSource::kMade,
+                                .explanation = ""},
+                               source_name, &made.mesh.faces);
 }
 
-std::vector<SearchConstraint> FeatureRun::constraints() const {
-  std::vector<SearchConstraint> all;
+std::vector<redesign::SearchConstraint> FeatureRun::constraints() const {
+  std::vector<redesign::SearchConstraint> all;
   if (limits.largest_offset) {
     all.push_back({"largest change of the surface", "mm", *limits.largest_offset, true});
   }
   if (!limits.keep_out.empty()) all.push_back({"change of the faces to keep", "mm", kKept, true});
-  for (const SearchConstraint& one : limits.on_volume()) all.push_back(one);
+  for (const redesign::SearchConstraint& one : limits.on_volume()) all.push_back(one);
   if (limits.least_grip_force) {
     all.push_back({"grip force by the original's", "", *limits.least_grip_force, false});
   }
@@ -106,12 +110,12 @@ std::vector<SearchConstraint> FeatureRun::constraints() const {
   return all;
 }
 
-JudgedShape FeatureRun::judge(const ChangedCad& made, const Progress& progress) const {
-  const StudyResults results =
+JudgedShape FeatureRun::judge(const records::ChangedCad& made, const Progress& progress) const {
+  const study::StudyResults results =
       assess_candidate(request, *original, product_of(made, "candidate", "candidate"),
-                       needs_indices(goal), silent(progress));
-  return {.figure = goal_of(results, goal, 1),
-          .grip_force_ratio = mean_ratio(results, "grip_force_n", 1)};
+                       redesign::needs_indices(goal), silent(progress));
+  return {.figure = redesign::goal_of(results, goal, 1),
+          .grip_force_ratio = redesign::mean_ratio(results, "grip_force_n", 1)};
 }
 
 const JudgedShape& FeatureRun::as_it_is(const Progress& progress) const {
@@ -123,33 +127,34 @@ const JudgedShape& FeatureRun::as_it_is(const Progress& progress) const {
   return *kept_as_it_is;
 }
 
-SearchOutcome FeatureRun::assess(const std::vector<double>& varying, SearchStory::Beside& beside,
-                                 const Progress& progress) const {
-  const ChangedCad made = make(varying, true, false, progress);
+redesign::SearchOutcome FeatureRun::assess(const std::vector<double>& varying,
+                                           SearchStory::Beside& beside,
+                                           const Progress& progress) const {
+  const records::ChangedCad made = make(varying, true, false, progress);
   const JudgedShape judged =
       made.largest_change < kUnchanged ? as_it_is(progress) : judge(made, progress);
-  const GoalFigure& figure = judged.figure;
+  const redesign::GoalFigure& figure = judged.figure;
   beside.hands = figure.hands;
   beside.lost = figure.lost;
   beside.grip_force_ratio = judged.grip_force_ratio;
   beside.figure = figure;
   beside.largest_change = made.largest_change;
   beside.volume_ratio = made.volume_before > 0.0 ? made.volume / made.volume_before : 0.0;
-  SearchOutcome outcome{
+  redesign::SearchOutcome outcome{
       .failure = "", .goal = figure.value, .goal_error = figure.error, .constraint = {}};
   outcome.constraint =
       values_of(made, beside.grip_force_ratio, static_cast<double>(figure.lost) / figure.hands);
   return outcome;
 }
 
-SearchOutcome FeatureRun::measure(const std::vector<double>& varying,
-                                  const Progress& progress) const {
+redesign::SearchOutcome FeatureRun::measure(const std::vector<double>& varying,
+                                            const Progress& progress) const {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   return {.failure = "",
           .constraint = values_of(make(varying, false, false, progress), kUnknown, kUnknown)};
 }
 
-std::vector<double> FeatureRun::values_of(const ChangedCad& made, double grip_force_ratio,
+std::vector<double> FeatureRun::values_of(const records::ChangedCad& made, double grip_force_ratio,
                                           double lost_share) const {
   const double volume_ratio = made.volume_before > 0.0 ? made.volume / made.volume_before : 0.0;
   std::vector<double> values;
@@ -161,7 +166,7 @@ std::vector<double> FeatureRun::values_of(const ChangedCad& made, double grip_fo
   return values;
 }
 
-SearchStory FeatureRun::search(double step, const SearchOptions& options,
+SearchStory FeatureRun::search(double step, const redesign::SearchOptions& options,
                                const Progress& progress) const {
   SearchStory story{
       .settings = {}, .problem = {}, .goal = goal, .result = {}, .original = {}, .beside = {}};
@@ -186,4 +191,4 @@ SearchStory FeatureRun::search(double step, const SearchOptions& options,
   return story;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,7 +12,7 @@
 #include "palmar/workflow/redesign/feature_settings.h"
 #include "palmar/workflow/redesign/search_story.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// What a candidate must keep to.
 struct FeatureLimits : CandidateLimits {
@@ -25,7 +25,7 @@ struct FeatureLimits : CandidateLimits {
 
 /// What hands say of one shape.
 struct JudgedShape {
-  GoalFigure figure;
+  redesign::GoalFigure figure;
   double grip_force_ratio = 0.0;  ///< by the original's
 };
 
@@ -35,10 +35,10 @@ inline constexpr double kUnchanged = 0.005;
 /// Making and assessing candidates: what a search and proposals share.
 struct FeatureRun {
   const RedesignRequest& request;
-  CadSource source;
+  records::CadSource source;
   std::vector<FeatureSetting> settings;
   FeatureLimits limits;
-  FeatureGoal goal;
+  redesign::FeatureGoal goal;
   const HeldOriginal* original = nullptr;
   std::vector<double> start;  ///< by setting: what the original has, within the range
   mutable std::optional<JudgedShape> kept_as_it_is = {};  ///< of as_it_is()
@@ -49,25 +49,27 @@ struct FeatureRun {
   /// Values of all settings from those of the ones that vary.
   std::vector<double> all_values(const std::vector<double>& varying) const;
   /// The solid of a candidate.
-  ChangedCad make(const std::vector<double>& varying, bool mesh, bool step,
-                  const Progress& progress) const;
-  Product product_of(const ChangedCad& made, const std::string& name,
-                     const std::string& source_name) const;
-  std::vector<SearchConstraint> constraints() const;
-  JudgedShape judge(const ChangedCad& made, const Progress& progress) const;
+  records::ChangedCad make(const std::vector<double>& varying, bool mesh, bool step,
+                           const Progress& progress) const;
+  product::Product product_of(const records::ChangedCad& made, const std::string& name,
+                              const std::string& source_name) const;
+  std::vector<redesign::SearchConstraint> constraints() const;
+  JudgedShape judge(const records::ChangedCad& made, const Progress& progress) const;
   /// The original, made and meshed like a candidate, so that differences come from the shape alone;
   /// judged once.
   const JudgedShape& as_it_is(const Progress& progress) const;
   /// Made, held by all hands, judged. A candidate that changes nothing is the original.
-  SearchOutcome assess(const std::vector<double>& varying, SearchStory::Beside& beside,
-                       const Progress& progress) const;
+  redesign::SearchOutcome assess(const std::vector<double>& varying, SearchStory::Beside& beside,
+                                 const Progress& progress) const;
   /// Made only: constraints that hands decide are NaN.
-  SearchOutcome measure(const std::vector<double>& varying, const Progress& progress) const;
+  redesign::SearchOutcome measure(const std::vector<double>& varying,
+                                  const Progress& progress) const;
   /// By constraints().
-  std::vector<double> values_of(const ChangedCad& made, double grip_force_ratio,
+  std::vector<double> values_of(const records::ChangedCad& made, double grip_force_ratio,
                                 double lost_share) const;
   /// With nothing that varies: the one candidate.
-  SearchStory search(double step, const SearchOptions& options, const Progress& progress) const;
+  SearchStory search(double step, const redesign::SearchOptions& options,
+                     const Progress& progress) const;
 };
 
-}  // namespace palmar
+}  // namespace palmar::workflow

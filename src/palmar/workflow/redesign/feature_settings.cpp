@@ -14,11 +14,11 @@
 #include "palmar/product/parametric_kinds.h"
 #include "palmar/records/product/cad_format.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 double number_in(const std::string& text, const std::string& words) {
-  const std::optional<double> value = parse_double(text);
+  const std::optional<double> value = formats::parse_double(text);
   if (!value || !std::isfinite(*value)) {
     throw UsageError(
         fmt::format("setting \"vary\" \"{}\": \"{}\" is no number; a value as 8, or a range as "
@@ -41,7 +41,7 @@ void read_range(const std::string& words, FeatureSetting& setting) {
   }
 }
 
-std::vector<Vec3> points_in(const CsvFile& table) {
+std::vector<Vec3> points_in(const formats::CsvFile& table) {
   std::array<int, 3> column{};
   const std::array<const char*, 3> name = {"x_mm", "y_mm", "z_mm"};
   for (size_t i = 0; i < 3; ++i) {
@@ -49,7 +49,7 @@ std::vector<Vec3> points_in(const CsvFile& table) {
     if (column[i] < 0) table.fail(table.header_line, fmt::format("no column {}", name[i]));
   }
   std::vector<Vec3> points;
-  for (const CsvFile::Row& row : table.rows) {
+  for (const formats::CsvFile::Row& row : table.rows) {
     Vec3 point;
     for (size_t i = 0; i < 3; ++i) {
       point[static_cast<Eigen::Index>(i)] = table.number(row, static_cast<size_t>(column[i]));
@@ -75,10 +75,10 @@ FeatureSetting feature_setting(const std::string& words, const GrooveSettings& g
   const size_t colon = setting.name.find(':');
   if (colon == std::string::npos) {
     setting.parameter = setting.name;
-    setting.unit = unit_of_parameter(setting.name);
+    setting.unit = product::unit_of_parameter(setting.name);
     return setting;
   }
-  CadFeature& feature = setting.feature;
+  records::CadFeature& feature = setting.feature;
   feature.feature = setting.name.substr(0, colon);
   feature.where = setting.name.substr(colon + 1);
   setting.unit = feature.feature == "taper" ? "deg" : "mm";
@@ -106,7 +106,7 @@ FeatureSetting feature_setting(const std::string& words, const GrooveSettings& g
     feature.ring_at = number_in(feature.where.substr(3), words);
     return setting;
   }
-  const CsvFile table = read_csv(feature.where);
+  const formats::CsvFile table = formats::read_csv(feature.where);
   feature.points = points_in(table);
   const bool is_closed =
       feature.points.size() > 3 && (feature.points.front() - feature.points.back()).norm() < 1e-6;
@@ -115,22 +115,23 @@ FeatureSetting feature_setting(const std::string& words, const GrooveSettings& g
   return setting;
 }
 
-std::optional<CadSource> cad_source_of(const RedesignRequest& request) {
-  CadSource source;
-  if (is_made(request.product)) {
-    source.made = made_from(request.product);
+std::optional<records::CadSource> cad_source_of(const RedesignRequest& request) {
+  records::CadSource source;
+  if (records::is_made(request.product)) {
+    source.made = records::made_from(request.product);
     return source;
   }
   source.file = request.product;
-  read_file(source.file);  // says what is wrong with it, if anything
-  if (!is_cad_file(source.file)) return std::nullopt;
-  if (request.unit) source.millimetres_per_unit = millimetres_per(*request.unit);
+  formats::read_file(source.file);  // says what is wrong with it, if anything
+  if (!records::is_cad_file(source.file)) return std::nullopt;
+  if (request.unit) source.millimetres_per_unit = geometry::millimetres_per(*request.unit);
   return source;
 }
 
-CadFeatureRequest request_for(const CadSource& source, const std::vector<FeatureSetting>& settings,
-                              const std::vector<double>& values) {
-  CadFeatureRequest request{.source = source, .reference = source};
+records::CadFeatureRequest request_for(const records::CadSource& source,
+                                       const std::vector<FeatureSetting>& settings,
+                                       const std::vector<double>& values) {
+  records::CadFeatureRequest request{.source = source, .reference = source};
   for (size_t i = 0; i < settings.size(); ++i) {
     if (settings[i].parameter.empty()) {
       request.features.push_back(settings[i].feature);
@@ -154,4 +155,4 @@ std::string words_of(const std::vector<FeatureSetting>& settings,
   return text;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

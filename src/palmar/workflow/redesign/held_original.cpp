@@ -16,26 +16,26 @@
 #include "palmar/workflow/hand/load_hand.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
 
-StudyRequest study_of(const RedesignRequest& asked) {
-  StudyRequest request;
+records::StudyRequest study_of(const RedesignRequest& asked) {
+  records::StudyRequest request;
   request.hand = asked.hand;
   if (asked.seed != 0) request.seed = asked.seed;
   for (const std::string& name : asked.populations) {
-    for (PopulationRequest& one : population_requests(name)) {
+    for (records::PopulationRequest& one : records::population_requests(name)) {
       if (one.table.empty()) one.sampling.hands = asked.hands;  // else given hands
       request.populations.push_back(std::move(one));
     }
   }
   request.grips = asked.grips;
-  ProductRequest product;
+  records::ProductRequest product;
   product.unit = asked.unit;
-  if (is_made(asked.product)) {
-    product.made = made_from(asked.product);
+  if (records::is_made(asked.product)) {
+    product.made = records::made_from(asked.product);
     request.name = product.made.kind;
   } else {
     product.file = asked.product;
@@ -45,38 +45,41 @@ StudyRequest study_of(const RedesignRequest& asked) {
   product.held.axis = asked.axis;
   product.held.holding = asked.holding;
   request.products.push_back(std::move(product));
-  StudySetting setting;
+  study::StudySetting setting;
   if (asked.grip_force > 0.0) setting.grip_force = asked.grip_force;
   setting.limit_depths = asked.keeps_posture();
-  setting.torque = asked.goal_key == kHeldTorqueKey;
+  setting.torque = asked.goal_key == study::kHeldTorqueKey;
   request.settings = {setting};
   return request;
 }
 
 /// Grasps the original; `shared` has the hand that is scaled and what its hands share, if known.
-HeldOriginal hold_original(const RedesignRequest& request, const StudyRequest& asked,
-                           StudyInputs shared, const Progress& progress) {
+HeldOriginal hold_original(const RedesignRequest& request, const records::StudyRequest& asked,
+                           study::StudyInputs shared, const Progress& progress) {
   progress.throw_if_cancelled();
-  HeldOriginal original{.study = load_study(asked, shared.base), .records = {}};
-  StudyInputs& inputs = original.study.inputs;
-  const StudyPlan& plan = original.study.plan;
+  HeldOriginal original{.study = records::load_study(asked, shared.base), .records = {}};
+  study::StudyInputs& inputs = original.study.inputs;
+  const study::StudyPlan& plan = original.study.plan;
   inputs.parts = shared.parts;
   inputs.compliance =
       shared.compliance ? shared.compliance : tissue_on_bone(*inputs.base, plan, request.on_note);
   inputs.family = shared.family ? shared.family
-                                : std::make_shared<const HandFamily>(
+                                : std::make_shared<const contact::HandFamily>(
                                       inputs.base, plan.settings.front().model, inputs.compliance);
   if (request.on_note) {
     for (const std::string& text : original.study.notes) request.on_note(text);
   }
-  run_study(
-      plan, inputs, {.tasks = tasks_of(plan)},
-      [&](const StudyRecord& record) { original.records.push_back(record); }, progress);
-  std::sort(original.records.begin(), original.records.end(),
-            [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
-  const auto lost = std::find_if_not(original.records.begin(), original.records.end(), is_in_hand);
+  study::run_study(
+      plan, inputs, {.tasks = study::tasks_of(plan)},
+      [&](const study::StudyRecord& record) { original.records.push_back(record); }, progress);
+  std::sort(
+      original.records.begin(), original.records.end(),
+      [](const study::StudyRecord& a, const study::StudyRecord& b) { return a.number < b.number; });
+  const auto lost =
+      std::find_if_not(original.records.begin(), original.records.end(), study::is_in_hand);
   if (lost == original.records.end()) return original;
-  const auto held = std::count_if(original.records.begin(), original.records.end(), is_in_hand);
+  const auto held =
+      std::count_if(original.records.begin(), original.records.end(), study::is_in_hand);
   const std::string why = lost->reason.empty() ? "" : " (" + lost->reason + ")";
   if (held > 0) {
     original.study.notes.push_back(fmt::format(
@@ -95,37 +98,38 @@ HeldOriginal hold_original(const RedesignRequest& request, const StudyRequest& a
 
 }  // namespace
 
-RecordSource HeldOriginal::source() const {
-  return [this](const std::function<void(const StudyRecord&)>& visit) {
-    for (const StudyRecord& record : records) visit(record);
+study::RecordSource HeldOriginal::source() const {
+  return [this](const std::function<void(const study::StudyRecord&)>& visit) {
+    for (const study::StudyRecord& record : records) visit(record);
   };
 }
 
-std::optional<Hold> HeldOriginal::hold() const {
-  for (const StudyRecord& record : records) {
-    if (is_in_hand(record) && record.hold) return record.hold->hold;
+std::optional<grasp::Hold> HeldOriginal::hold() const {
+  for (const study::StudyRecord& record : records) {
+    if (study::is_in_hand(record) && record.hold) return record.hold->hold;
   }
   return std::nullopt;
 }
 
-std::shared_ptr<const ProductParts> HeldOriginal::shared_parts() const {
-  if (!found_parts) found_parts = std::make_shared<const ProductParts>(find_parts(product()));
+std::shared_ptr<const product::ProductParts> HeldOriginal::shared_parts() const {
+  if (!found_parts)
+    found_parts = std::make_shared<const product::ProductParts>(product::find_parts(product()));
   return found_parts;
 }
 
 HeldOriginal grasp_original(const RedesignRequest& request, const Progress& progress) {
   request.check();
-  const StudyRequest asked = study_of(request);
+  const records::StudyRequest asked = study_of(request);
   HandChoice hand;
   hand.name = asked.hand;
   hand.is_left = request.is_left;
-  StudyInputs shared{.base = load_hand(hand), .products = {}};
+  study::StudyInputs shared{.base = load_hand(hand), .products = {}};
   return hold_original(request, asked, std::move(shared), progress);
 }
 
-HandsOnHandle hands_in_hold(const HeldOriginal& original, const Hold& hold) {
-  const Rigid3 place = part_frame(original.part_of(hold), hold.along, hold.turn);
-  HandsOnHandle hands;
+redesign::HandsOnHandle hands_in_hold(const HeldOriginal& original, const grasp::Hold& hold) {
+  const geometry::Rigid3 place = product::part_frame(original.part_of(hold), hold.along, hold.turn);
+  redesign::HandsOnHandle hands;
   hands.place = place.translation;
   hands.thumb_side = hold.toward * (place.rotation * Vec3::UnitX());
   hands.palm = place.rotation * Vec3::UnitZ();
@@ -134,32 +138,33 @@ HandsOnHandle hands_in_hold(const HeldOriginal& original, const Hold& hold) {
 
 Vec3 held_place(const RedesignRequest& request, const HeldOriginal& original) {
   if (request.at) return *request.at;
-  if (const std::optional<Hold> hold = original.hold()) {
-    const ProductPart& part = original.parts().parts.at(static_cast<std::size_t>(hold->part - 1));
-    return part_frame(part, hold->along, hold->turn).translation;
+  if (const std::optional<grasp::Hold> hold = original.hold()) {
+    const product::ProductPart& part =
+        original.parts().parts.at(static_cast<std::size_t>(hold->part - 1));
+    return product::part_frame(part, hold->along, hold->turn).translation;
   }
-  return bounding_box(original.product().mesh).center();
+  return geometry::bounding_box(original.product().mesh).center();
 }
 
 JudgingHands judging_hands(const RedesignRequest& request, const HeldOriginal& made_for,
                            const Progress& progress) {
   for (const std::string& name : request.populations) {
-    for (const PopulationRequest& one : population_requests(name)) {
+    for (const records::PopulationRequest& one : records::population_requests(name)) {
       if (!one.table.empty()) return {.original = made_for, .are_others = false};
     }
   }
   RedesignRequest other = request;
   other.seed = made_for.study.plan.seed + 1;
   other.on_note = nullptr;  // they were said
-  if (const std::optional<Hold> hold = made_for.hold(); hold && !request.at) {
+  if (const std::optional<grasp::Hold> hold = made_for.hold(); hold && !request.at) {
     other.holding = {};
     other.holding.hold = hold;
   }
   other.check();
-  StudyInputs shared = made_for.study.inputs;
+  study::StudyInputs shared = made_for.study.inputs;
   if (made_for.hold()) shared.parts = {made_for.shared_parts()};
   return {.original = hold_original(other, study_of(other), std::move(shared), progress),
           .are_others = true};
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -13,24 +13,25 @@
 #include "palmar/study/statistics/study_results.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// The original in the hands.
 struct HeldOriginal {
-  LoadedStudy study;                 ///< with one product, one condition
-  std::vector<StudyRecord> records;  ///< with fields, ascending
-  const Product& product() const { return study.inputs.products.front(); }
-  RecordSource source() const;  ///< of `records`, which must outlive it
+  records::LoadedStudy study;               ///< with one product, one condition
+  std::vector<study::StudyRecord> records;  ///< with fields, ascending
+  const product::Product& product() const { return study.inputs.products.front(); }
+  study::RecordSource source() const;  ///< of `records`, which must outlive it
   /// The hold in which it is held, if its place wasn't given by coordinates.
-  std::optional<Hold> hold() const;
+  std::optional<grasp::Hold> hold() const;
   /// Parts of the product, found when first asked for.
-  const ProductParts& parts() const { return *shared_parts(); }
+  const product::ProductParts& parts() const { return *shared_parts(); }
   /// The part that a hold is of.
-  const ProductPart& part_of(const Hold& hold) const {
+  const product::ProductPart& part_of(const grasp::Hold& hold) const {
     return parts().parts.at(static_cast<std::size_t>(hold.part - 1));
   }
-  std::shared_ptr<const ProductParts> shared_parts() const;
-  mutable std::shared_ptr<const ProductParts> found_parts = nullptr;  ///< by shared_parts()
+  std::shared_ptr<const product::ProductParts> shared_parts() const;
+  mutable std::shared_ptr<const product::ProductParts> found_parts =
+      nullptr;  ///< by shared_parts()
 };
 /// Loads, draws and grasps; the place is that of the populations' mean hand. Throws as
 /// RedesignRequest::check() and load_study(), NumericalError if no hand holds the product: no
@@ -39,7 +40,7 @@ HeldOriginal grasp_original(const RedesignRequest& request, const Progress& prog
 
 /// How hands in this hold lie on the original: place, thumb's side and palm; the rest as it is by
 /// default.
-HandsOnHandle hands_in_hold(const HeldOriginal& original, const Hold& hold);
+redesign::HandsOnHandle hands_in_hold(const HeldOriginal& original, const grasp::Hold& hold);
 
 /// Where hands hold the original, product frame, mm.
 Vec3 held_place(const RedesignRequest& request, const HeldOriginal& original);
@@ -53,4 +54,4 @@ struct JudgingHands {
 JudgingHands judging_hands(const RedesignRequest& request, const HeldOriginal& made_for,
                            const Progress& progress);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -7,7 +7,7 @@
 
 #include "palmar/study/statistics/study_results.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// How differently the hands of a comparison hold the original and one redesign, over the hands
 /// that hold both: where the same place of the product lies in the hand, and how it is turned
@@ -24,9 +24,9 @@ struct HoldChange {
 
 /// One per redesign; product 0 is the original, and `place` [product frame, mm] is where it is
 /// held.
-std::vector<HoldChange> hold_changes(const StudyResults& results, const Vec3& place);
+std::vector<HoldChange> hold_changes(const study::StudyResults& results, const Vec3& place);
 
 /// For people, with the warning if it is another hold; nothing if no hand holds both.
 std::string words_of(const HoldChange& change);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -15,7 +15,7 @@
 #include "palmar/statistics/distributions.h"
 #include "palmar/statistics/summary.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -25,16 +25,19 @@ constexpr int kMostHands = 15;                                      // at offset
 constexpr std::size_t kSizes = 3;
 constexpr double kLevel = 0.975;
 
-std::vector<HoldGain> gains_in(const StudyResults& results,
-                               const std::vector<StudyQuantity>& quantities,
+std::vector<HoldGain> gains_in(const study::StudyResults& results,
+                               const std::vector<study::StudyQuantity>& quantities,
                                const std::vector<int>& hands) {
   std::vector<HoldGain> gains;
-  for (const StudyQuantity& one : quantities) gains.push_back(gain_of(results, one.key, hands));
+  for (const study::StudyQuantity& one : quantities)
+    gains.push_back(gain_of(results, one.key, hands));
   return gains;
 }
 
 /// Below 0 if it is a gain.
-double sense(const StudyQuantity& quantity) { return quantity.better == Better::kUp ? -1.0 : 1.0; }
+double sense(const study::StudyQuantity& quantity) {
+  return quantity.better == grasp::Better::kUp ? -1.0 : 1.0;
+}
 
 std::string words_of(const HoldGain& gain) {
   if (gain.hands == 0) return "-";
@@ -44,16 +47,17 @@ std::string words_of(const HoldGain& gain) {
 
 }  // namespace
 
-HoldGain gain_of(const StudyResults& results, const std::string& key,
+HoldGain gain_of(const study::StudyResults& results, const std::string& key,
                  const std::vector<int>& hands) {
-  const StudyCondition condition = conditions_of(results.plan).front();
+  const study::StudyCondition condition = study::conditions_of(results.plan).front();
   std::vector<double> differences;
   double before = 0.0;
   for (const int hand : hands) {
-    const StudyRecord* const first = record_of(results, condition, 0, hand);
-    const StudyRecord* const second = record_of(results, condition, 1, hand);
+    const study::StudyRecord* const first = study::record_of(results, condition, 0, hand);
+    const study::StudyRecord* const second = study::record_of(results, condition, 1, hand);
     if (first == nullptr || second == nullptr) continue;
-    const std::optional<double> was = quantity_of(*first, key), is = quantity_of(*second, key);
+    const std::optional<double> was = study::quantity_of(*first, key),
+                                is = study::quantity_of(*second, key);
     if (!was || !is || !std::isfinite(*was) || !std::isfinite(*is)) continue;
     before += *was;
     differences.push_back(*is - *was);
@@ -61,11 +65,11 @@ HoldGain gain_of(const StudyResults& results, const std::string& key,
   HoldGain gain{.hands = static_cast<int>(differences.size())};
   if (differences.empty() || before == 0.0) return gain;
   const double mean = before / gain.hands;
-  const Summary summary = summarise(differences);
+  const statistics::Summary summary = statistics::summarise(differences);
   gain.change = gain.low = gain.high = summary.mean / mean;
   if (gain.hands > 1) {
-    const double half =
-        student_quantile(kLevel, gain.hands - 1.0) * summary.standard_error / std::abs(mean);
+    const double half = statistics::student_quantile(kLevel, gain.hands - 1.0) *
+                        summary.standard_error / std::abs(mean);
     gain.low -= half;
     gain.high += half;
   }
@@ -89,12 +93,12 @@ std::optional<double> gone_at(const HoldGains& gains, std::size_t quantity, int 
   return std::nullopt;
 }
 
-HoldGains hold_gains(const JudgingHands& judges, const Product& redesign,
+HoldGains hold_gains(const JudgingHands& judges, const product::Product& redesign,
                      const RedesignComparison& comparison, const Progress& progress) {
   HoldGains result;
   result.quantities = comparison.quantities;
-  const StudyResults& judged = comparison.results;
-  std::vector<int> all = hands_of(judged.plan, conditions_of(judged.plan).front());
+  const study::StudyResults& judged = comparison.results;
+  std::vector<int> all = study::hands_of(judged.plan, study::conditions_of(judged.plan).front());
   result.offsets.push_back({0.0, gains_in(judged, result.quantities, all)});
   const int every = std::max(1, (static_cast<int>(all.size()) + kMostHands - 1) / kMostHands);
   std::vector<HoldOffset> offsets;
@@ -103,19 +107,21 @@ HoldGains hold_gains(const JudgingHands& judges, const Product& redesign,
       {.original = judges.original,
        .shapes = {{judges.original.product(), 0}, {redesign, 1}},
        .offsets = offsets,
-       .with_indices = std::any_of(result.quantities.begin(), result.quantities.end(),
-                                   [](const StudyQuantity& one) { return is_index(one.key); })});
+       .with_indices = std::any_of(
+           result.quantities.begin(), result.quantities.end(),
+           [](const study::StudyQuantity& one) { return redesign::is_index(one.key); })});
   auto records = grasps.of([&](int hand, std::size_t) { return hand % every == 0; }, progress);
   for (std::size_t k = 0; k < offsets.size(); ++k) {
-    const StudyResults at{.plan = plan_of_two(judges.original), .records = std::move(records[k])};
+    const study::StudyResults at{.plan = plan_of_two(judges.original),
+                                 .records = std::move(records[k])};
     result.offsets.push_back({offsets[k].along, gains_in(at, result.quantities, all)});
   }
   std::sort(result.offsets.begin(), result.offsets.end(),
             [](const auto& a, const auto& b) { return a.along < b.along; });
 
-  const HandDimension length{DimensionKind::kHandLength};
+  const hand::HandDimension length{hand::DimensionKind::kHandLength};
   const auto length_of = [&](int hand) {
-    return size_of(judged.plan.hands[static_cast<std::size_t>(hand)], length).value_or(0.0);
+    return study::size_of(judged.plan.hands[static_cast<std::size_t>(hand)], length).value_or(0.0);
   };
   std::stable_sort(all.begin(), all.end(),
                    [&](int a, int b) { return length_of(a) < length_of(b); });
@@ -139,7 +145,8 @@ std::string gains_text(const HoldGains& gains) {
     text += "\n";
   };
   text += fmt::format("  {:<34}", "");
-  for (const StudyQuantity& one : gains.quantities) text += fmt::format("  {:<26}", one.name);
+  for (const study::StudyQuantity& one : gains.quantities)
+    text += fmt::format("  {:<26}", one.name);
   text.erase(text.find_last_not_of(' ') + 1);
   text += "\n";
   for (const HoldGains::AtOffset& one : gains.offsets) {
@@ -152,7 +159,7 @@ std::string gains_text(const HoldGains& gains) {
     line(fmt::format("hands of {:.0f} to {:.0f} mm", one.shortest, one.longest), one.gains);
   }
   for (std::size_t q = 0; q < gains.quantities.size(); ++q) {
-    if (gains.quantities[q].better == Better::kNeither) continue;
+    if (gains.quantities[q].better == grasp::Better::kNeither) continue;
     const auto words = [&](int direction) {
       const std::optional<double> gone = gone_at(gains, q, direction);
       return gone ? fmt::format("{:.0f} mm", *gone) : std::string("beyond 12 mm");
@@ -164,7 +171,7 @@ std::string gains_text(const HoldGains& gains) {
 }
 
 std::string gains_csv(const HoldGains& gains) {
-  CsvTable table;
+  records::CsvTable table;
   table.header = {"offset_mm",      "shortest_hand_mm", "longest_hand_mm", "quantity",
                   "change_percent", "low_percent",      "high_percent",    "hands"};
   const auto add = [&](const std::string& offset, const std::string& shortest,
@@ -183,7 +190,7 @@ std::string gains_csv(const HoldGains& gains) {
   for (const HoldGains::OfSize& one : gains.sizes) {
     add("0", fmt::format("{:.1f}", one.shortest), fmt::format("{:.1f}", one.longest), one.gains);
   }
-  return format_csv(table);
+  return records::format_csv(table);
 }
 
 std::string gains_json(const HoldGains& gains) {
@@ -207,7 +214,7 @@ std::string gains_json(const HoldGains& gains) {
                              {"changes", list(one.gains)}});
   }
   for (std::size_t q = 0; q < gains.quantities.size(); ++q) {
-    if (gains.quantities[q].better == Better::kNeither) continue;
+    if (gains.quantities[q].better == grasp::Better::kNeither) continue;
     const auto value = [&](int direction) {
       const std::optional<double> gone = gone_at(gains, q, direction);
       return gone ? Json(*gone) : Json();
@@ -219,15 +226,15 @@ std::string gains_json(const HoldGains& gains) {
 }
 
 std::string gains_svg(const HoldGains& gains) {
-  ScatterChart chart{.title = "Change where the hand lies elsewhere",
-                     .x_label = "hand off its place, towards the thumb, mm",
-                     .y_label = "change against the original there, %",
-                     .series = {},
-                     .notes = {"shaded: 95 % interval of the mean over hands"}};
+  report::ScatterChart chart{.title = "Change where the hand lies elsewhere",
+                             .x_label = "hand off its place, towards the thumb, mm",
+                             .y_label = "change against the original there, %",
+                             .series = {},
+                             .notes = {"shaded: 95 % interval of the mean over hands"}};
   for (std::size_t q = 0; q < gains.quantities.size(); ++q) {
-    if (gains.quantities[q].better == Better::kNeither) continue;
-    ScatterSeries series{.name = gains.quantities[q].name, .points = {}, .line = {}};
-    series.colour = series_colour(chart.series.size());
+    if (gains.quantities[q].better == grasp::Better::kNeither) continue;
+    report::ScatterSeries series{.name = gains.quantities[q].name, .points = {}, .line = {}};
+    series.colour = report::series_colour(chart.series.size());
     for (const HoldGains::AtOffset& one : gains.offsets) {
       const HoldGain& gain = one.gains[q];
       if (gain.hands == 0) continue;
@@ -239,7 +246,7 @@ std::string gains_svg(const HoldGains& gains) {
     }
     chart.series.push_back(std::move(series));
   }
-  return to_svg(scatter_chart(chart));
+  return report::to_svg(report::scatter_chart(chart));
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

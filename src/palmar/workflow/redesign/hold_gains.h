@@ -10,7 +10,7 @@
 #include "palmar/workflow/redesign/hold_offsets.h"
 #include "palmar/workflow/redesign/redesign_comparison.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Mean change of a quantity from the original to a redesign, both held at the same place by the
 /// same hands: shares of the original's mean, with the 95 % interval of the paired differences.
@@ -21,7 +21,7 @@ struct HoldGain {
 
 /// Gains where hands lie elsewhere than the hold says, and by the size of hands.
 struct HoldGains {
-  std::vector<StudyQuantity> quantities;
+  std::vector<study::StudyQuantity> quantities;
   struct AtOffset {
     double along = 0.0;           ///< mm towards the thumb's side
     std::vector<HoldGain> gains;  ///< by quantity
@@ -36,7 +36,7 @@ struct HoldGains {
 
 /// The change over the hands in both of two lists of records, numbered in `plan` with products 0
 /// and 1.
-HoldGain gain_of(const StudyResults& results, const std::string& key,
+HoldGain gain_of(const study::StudyResults& results, const std::string& key,
                  const std::vector<int>& hands);
 
 /// The offset along the handle at which the gain of a quantity is gone, in one direction (+1
@@ -46,7 +46,7 @@ std::optional<double> gone_at(const HoldGains& gains, std::size_t quantity, int 
 
 /// Of the first redesign of a comparison, at offsets of up to 12 mm; there every second hand or
 /// fewer, 15 at most, of those that judged. Throws Cancelled.
-HoldGains hold_gains(const JudgingHands& judges, const Product& redesign,
+HoldGains hold_gains(const JudgingHands& judges, const product::Product& redesign,
                      const RedesignComparison& comparison, const Progress& progress);
 
 std::string gains_text(const HoldGains& gains);
@@ -54,4 +54,4 @@ std::string gains_csv(const HoldGains& gains);
 std::string gains_json(const HoldGains& gains);  ///< one JSON object
 std::string gains_svg(const HoldGains& gains);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,7 +12,7 @@
 #include "palmar/study/study_task.h"
 #include "palmar/workflow/redesign/candidate_study.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// How far a hand lies from where the hold says: people don't take a thing at the same place twice.
 struct HoldOffset {
@@ -26,14 +26,15 @@ struct HoldOffset {
 std::vector<HoldOffset> spread_offsets(int count, double along_deviation, double turn_deviation);
 
 /// The hold with the hand so far elsewhere.
-Hold moved_hold(const Hold& hold, const ProductPart& part, const HoldOffset& offset);
+grasp::Hold moved_hold(const grasp::Hold& hold, const product::ProductPart& part,
+                       const HoldOffset& offset);
 
 /// The original, a candidate or both held at several offsets of the hold of the original. Places
 /// are found once, for however many hands.
 class OffsetGrasps {
  public:
   struct Shape {
-    const Product& product;
+    const product::Product& product;
     int as = 0;  ///< its number in plan_of_two(): 0 the original, 1 the candidate
   };
   struct Asked {
@@ -49,17 +50,18 @@ class OffsetGrasps {
 
   using Wanted = std::function<bool(int hand, std::size_t offset)>;
   /// Records without fields, by offset, numbered as in plan_of_two(), ascending. Throws Cancelled.
-  std::vector<std::vector<StudyRecord>> of(const Wanted& is_wanted, const Progress& progress);
+  std::vector<std::vector<study::StudyRecord>> of(const Wanted& is_wanted,
+                                                  const Progress& progress);
 
  private:
-  LoadedStudy study_;  // a product per offset, of the first shape, of the second
-  StudyPlan two_;
+  records::LoadedStudy study_;  // a product per offset, of the first shape, of the second
+  study::StudyPlan two_;
   std::size_t offsets_ = 0;
   std::vector<int> as_;  // by shape
-  std::unique_ptr<StudyBench> bench_;
+  std::unique_ptr<study::StudyBench> bench_;
 };
 
 /// The plan that those records are numbered in.
-StudyPlan plan_of_two(const HeldOriginal& original);
+study::StudyPlan plan_of_two(const HeldOriginal& original);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

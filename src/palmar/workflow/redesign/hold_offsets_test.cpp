@@ -12,7 +12,7 @@
 #include "palmar/study/statistics/study_test_results.h"
 #include "palmar/workflow/redesign/hold_gains.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 TEST(SpreadOffsets, AreNormallyDistributedAndIndependent) {
@@ -40,17 +40,18 @@ TEST(SpreadOffsets, AreNormallyDistributedAndIndependent) {
 }
 
 TEST(MovedHold, LiesTowardsTheThumbWhicheverWayThePartRuns) {
-  CylinderProductOptions options;
+  product::CylinderProductOptions options;
   options.diameter = 40.0;
   options.length = 140.0;
-  const ProductPart part = find_parts(make_cylinder_product(options)).parts.at(0);
+  const product::ProductPart part =
+      product::find_parts(product::make_cylinder_product(options)).parts.at(0);
   for (const int toward : {1, -1}) {
-    Hold hold;
+    grasp::Hold hold;
     hold.along = 0.5;
     hold.toward = toward;
-    const Hold moved = moved_hold(hold, part, {.along = 7.0, .turn = 0.2});
-    const Rigid3 from = part_frame(part, hold.along, hold.turn);
-    const Rigid3 to = part_frame(part, moved.along, moved.turn);
+    const grasp::Hold moved = moved_hold(hold, part, {.along = 7.0, .turn = 0.2});
+    const geometry::Rigid3 from = product::part_frame(part, hold.along, hold.turn);
+    const geometry::Rigid3 to = product::part_frame(part, moved.along, moved.turn);
     const Vec3 thumb = toward * (from.rotation * Vec3::UnitX());
     EXPECT_NEAR((to.translation - from.translation).dot(thumb), 7.0, 0.01);
     EXPECT_NEAR(from.rotation.angularDistance(to.rotation), 0.2, 1e-6);
@@ -58,22 +59,22 @@ TEST(MovedHold, LiesTowardsTheThumbWhicheverWayThePartRuns) {
 }
 
 /// Two products in hands whose peaks are 0.2 and 0.2 (1 + change).
-StudyResults changed_by(double change, int hands) {
-  StudyResults results = testing::study_of(hands, {"original", "shaped"});
+study::StudyResults changed_by(double change, int hands) {
+  study::StudyResults results = testing::study_of(hands, {"original", "shaped"});
   for (int h = 0; h < hands; ++h) {
     for (int product = 0; product < 2; ++product) {
-      StudyTask task;
+      study::StudyTask task;
       task.hand = h;
       task.product = product;
-      results.records.push_back(
-          testing::held(number_of(results.plan, task), product == 0 ? 0.2 : 0.2 * (1 + change)));
+      results.records.push_back(testing::held(study::number_of(results.plan, task),
+                                              product == 0 ? 0.2 : 0.2 * (1 + change)));
     }
   }
   return results;
 }
 
 TEST(HoldGains, AreSharesOfTheOriginalsMeanWithAnInterval) {
-  StudyResults results = changed_by(-0.1, 2);
+  study::StudyResults results = changed_by(-0.1, 2);
   results.records[3].peak_pressure_cells = 0.16;  // -20 % in the second hand
   const HoldGain gain = gain_of(results, "peak_pressure_cells_mpa", {0, 1});
   EXPECT_NEAR(gain.change, -0.15, 1e-12);
@@ -86,7 +87,7 @@ TEST(HoldGains, AreSharesOfTheOriginalsMeanWithAnInterval) {
 
 TEST(HoldGains, SayWhereTheGainIsGone) {
   HoldGains gains;
-  gains.quantities = {quantity_named(changed_by(0.0, 1), "peak_pressure_cells_mpa")};
+  gains.quantities = {study::quantity_named(changed_by(0.0, 1), "peak_pressure_cells_mpa")};
   const auto at = [](double along, double change) {
     return HoldGains::AtOffset{along, {{.change = change, .hands = 9}}};
   };
@@ -99,4 +100,4 @@ TEST(HoldGains, SayWhereTheGainIsGone) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -11,7 +11,7 @@
 #include "palmar/redesign/pressed_shape.h"
 #include "palmar/workflow/redesign/held_original.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A pressed handle as a solid: one bicubic surface through its outlines.
 struct PressedSolid {
@@ -27,10 +27,8 @@ struct PressedSolid {
 /// Makes the solid of a pressed shape on grids of 3.5, 2.5 and 1.75 mm until it lies within 0.05 mm
 /// (root mean square) of the mesh, and writes the nearest to the request's folder; or why there is
 /// none, a sentence about the product. Throws Cancelled, InputError, OutputError.
-std::variant<PressedSolid, std::string> write_pressed_solid(const RedesignRequest& request,
-                                                            const HeldOriginal& original,
-                                                            const Product& pressed,
-                                                            const PressedShapeOptions& options,
-                                                            const Progress& progress);
+std::variant<PressedSolid, std::string> write_pressed_solid(
+    const RedesignRequest& request, const HeldOriginal& original, const product::Product& pressed,
+    const redesign::PressedShapeOptions& options, const Progress& progress);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

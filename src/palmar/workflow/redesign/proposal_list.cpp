@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 constexpr double kLeastShare = 0.1;  // of hands; rarer ones aren't worth a change of the product
@@ -20,7 +20,7 @@ constexpr double kTimesRadius[] = {2.0, 4.0};  // of one that is rounded
 constexpr double kMove = 1.0;                  // mm; of a face
 constexpr double kSameRadius = 0.05;           // mm; fillets that were made with one radius
 
-std::string share_words(const ProductFaces& faces, const FaceSummary& face) {
+std::string share_words(const product::ProductFaces& faces, const study::FaceSummary& face) {
   const std::string title = title_of(faces.face[static_cast<std::size_t>(face.face)]);
   if (face.has_peak.share < kLeastShare) {
     return fmt::format("{} is touched by {:.0f} % of hands", title, 100 * face.touched.share);
@@ -37,13 +37,13 @@ double radius_within(double from, double wanted, const FeatureLimits& limits) {
   return std::floor(std::min(wanted, most) * 20) / 20;
 }
 
-bool rounds(const ProductFace& face) { return face.is_fillet && face.radius > 0.0; }
+bool rounds(const product::ProductFace& face) { return face.is_fillet && face.radius > 0.0; }
 
 /// A face and those that it runs into smoothly, fillets aside: they move together. "3+4".
-std::string faces_with(const ProductFaces& faces, int face) {
+std::string faces_with(const product::ProductFaces& faces, int face) {
   std::vector<int> group = {face};
   for (std::size_t i = 0; i < group.size(); ++i) {
-    for (const ProductEdge& edge : faces.edge) {
+    for (const product::ProductEdge& edge : faces.edge) {
       if (!edge.is_smooth || edge.faces[0] < 0 || edge.faces[1] < 0) continue;
       if (edge.faces[0] != group[i] && edge.faces[1] != group[i]) continue;
       const int beyond = edge.faces[0] == group[i] ? edge.faces[1] : edge.faces[0];
@@ -57,7 +57,7 @@ std::string faces_with(const ProductFaces& faces, int face) {
   return fmt::format("{}", fmt::join(numbers, "+"));
 }
 
-bool is_hot(const FaceSummary& face) { return face.has_peak.share >= kLeastShare; }
+bool is_hot(const study::FaceSummary& face) { return face.has_peak.share >= kLeastShare; }
 
 /// Proposals that know each other.
 class ProposalList {
@@ -89,21 +89,23 @@ void add_radii(ProposalList& list, const std::string& where, double from,
 
 }  // namespace
 
-std::vector<Proposal> proposals_for(const ProductFaces& faces, std::vector<FaceSummary> touched,
+std::vector<Proposal> proposals_for(const product::ProductFaces& faces,
+                                    std::vector<study::FaceSummary> touched,
                                     const FeatureLimits& limits) {
-  std::erase_if(touched, [](const FaceSummary& face) {
+  std::erase_if(touched, [](const study::FaceSummary& face) {
     return face.touched.share < kLeastShare && !is_hot(face);
   });
-  std::stable_sort(touched.begin(), touched.end(), [](const FaceSummary& a, const FaceSummary& b) {
-    return std::pair(a.has_peak.count, a.touched.count) >
-           std::pair(b.has_peak.count, b.touched.count);
-  });
-  const auto own = [&](const FaceSummary& face) -> const ProductFace& {
+  std::stable_sort(touched.begin(), touched.end(),
+                   [](const study::FaceSummary& a, const study::FaceSummary& b) {
+                     return std::pair(a.has_peak.count, a.touched.count) >
+                            std::pair(b.has_peak.count, b.touched.count);
+                   });
+  const auto own = [&](const study::FaceSummary& face) -> const product::ProductFace& {
     return faces.face[static_cast<std::size_t>(face.face)];
   };
-  const auto sharp_edges_of = [&](const FaceSummary& face) {
+  const auto sharp_edges_of = [&](const study::FaceSummary& face) {
     std::vector<int> edges;
-    for (const ProductEdge& edge : faces.edge) {
+    for (const product::ProductEdge& edge : faces.edge) {
       if (edge.is_convex && !edge.is_smooth && edge.faces[0] >= 0 && edge.faces[1] >= 0 &&
           (edge.faces[0] == face.face || edge.faces[1] == face.face)) {
         edges.push_back(edge.number);
@@ -113,9 +115,9 @@ std::vector<Proposal> proposals_for(const ProductFaces& faces, std::vector<FaceS
   };
   ProposalList list;
   // All fillets of one radius together, then each hot one.
-  std::map<long, std::vector<const FaceSummary*>> by_radius;
+  std::map<long, std::vector<const study::FaceSummary*>> by_radius;
   std::vector<int> edges;
-  for (const FaceSummary& face : touched) {
+  for (const study::FaceSummary& face : touched) {
     if (rounds(own(face)) && !own(face).is_concave) {
       by_radius[std::lround(own(face).radius / kSameRadius)].push_back(&face);
     }
@@ -127,14 +129,14 @@ std::vector<Proposal> proposals_for(const ProductFaces& faces, std::vector<FaceS
     std::vector<double> wanted;
     for (const double times : kTimesRadius) wanted.push_back(times * radius);
     std::vector<int> numbers;
-    for (const FaceSummary* face : those) numbers.push_back(own(*face).number);
+    for (const study::FaceSummary* face : those) numbers.push_back(own(*face).number);
     const std::string reason = share_words(faces, *those.front());
     add_radii(list, "face=" + joined(numbers), radius, wanted,
               those.size() > 1
                   ? fmt::format("{}; all {} fillets of r {:.3g} mm", reason, those.size(), radius)
                   : reason,
               limits);
-    for (const FaceSummary* face : those) {
+    for (const study::FaceSummary* face : those) {
       if (is_hot(*face) && those.size() > 1) {
         add_radii(list, fmt::format("face={}", own(*face).number), radius, wanted,
                   share_words(faces, *face), limits);
@@ -146,7 +148,7 @@ std::vector<Proposal> proposals_for(const ProductFaces& faces, std::vector<FaceS
     add_radii(list, "edge=" + joined(edges), 0.0, first, "the sharp edges that hands come near",
               limits);
   }
-  for (const FaceSummary& face : touched) {
+  for (const study::FaceSummary& face : touched) {
     const std::vector<int> its = sharp_edges_of(face);
     if (is_hot(face) && !its.empty()) {
       add_radii(list, "edge=" + joined(its), 0.0, first,
@@ -157,7 +159,7 @@ std::vector<Proposal> proposals_for(const ProductFaces& faces, std::vector<FaceS
   const double move = std::min(kMove, limits.largest_offset.value_or(kMove));
   std::vector<std::pair<std::string, std::string>> groups;
   std::set<std::string> known;
-  for (const FaceSummary& face : touched) {
+  for (const study::FaceSummary& face : touched) {
     if (rounds(own(face)) || groups.size() == kMostMoved) continue;
     const std::string group = faces_with(faces, face.face);
     if (known.insert(group).second) groups.emplace_back(group, share_words(faces, face));
@@ -177,4 +179,4 @@ std::vector<Proposal> proposals_for(const ProductFaces& faces, std::vector<FaceS
   return list.take();
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

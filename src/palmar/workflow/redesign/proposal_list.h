@@ -9,7 +9,7 @@
 #include "palmar/study/statistics/face_statistics.h"
 #include "palmar/workflow/redesign/feature_run.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A change of features that is worth trying, because of what hands touch.
 struct Proposal {
@@ -22,7 +22,8 @@ struct Proposal {
 /// sharp edges likewise with a first and a second radius; faces, each with those that it runs into
 /// smoothly, and all of them together, moved in and out. As far as the budget of change allows;
 /// none twice, at most 24.
-std::vector<Proposal> proposals_for(const ProductFaces& faces, std::vector<FaceSummary> touched,
+std::vector<Proposal> proposals_for(const product::ProductFaces& faces,
+                                    std::vector<study::FaceSummary> touched,
                                     const FeatureLimits& limits);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

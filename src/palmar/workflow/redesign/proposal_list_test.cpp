@@ -11,22 +11,22 @@
 #include "palmar/product/primitives.h"
 #include "palmar/workflow/redesign/feature_proposals.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-ProductFaces prism(double fillet) {
-  PrismProductOptions options;
+product::ProductFaces prism(double fillet) {
+  product::PrismProductOptions options;
   options.fillet_radius = fillet;
-  return *make_prism_product(options).faces;
+  return *product::make_prism_product(options).faces;
 }
 
-FaceSummary touched(const ProductFaces& faces, const std::string& name, double share,
-                    double peaks) {
-  FaceSummary summary;
+study::FaceSummary touched(const product::ProductFaces& faces, const std::string& name,
+                           double share, double peaks) {
+  study::FaceSummary summary;
   for (std::size_t f = 0; f < faces.face.size(); ++f) {
     if (faces.face[f].name == name) summary.face = static_cast<int>(f);
   }
@@ -36,8 +36,8 @@ FaceSummary touched(const ProductFaces& faces, const std::string& name, double s
   return summary;
 }
 
-std::string number_of(const ProductFaces& faces, const std::string& name) {
-  for (const ProductFace& face : faces.face) {
+std::string number_of(const product::ProductFaces& faces, const std::string& name) {
+  for (const product::ProductFace& face : faces.face) {
     if (face.name == name) return std::to_string(face.number);
   }
   return "?";
@@ -50,7 +50,7 @@ std::vector<std::string> words_of(const std::vector<Proposal>& proposals) {
 }
 
 TEST(Proposals, EnlargeFilletsThatAreTouchedToo) {
-  const ProductFaces faces = prism(3.0);
+  const product::ProductFaces faces = prism(3.0);
   const std::vector<Proposal> all =
       proposals_for(faces,
                     {touched(faces, "fillet 1", 0.9, 0.6), touched(faces, "fillet 2", 0.8, 0.0),
@@ -67,7 +67,7 @@ TEST(Proposals, EnlargeFilletsThatAreTouchedToo) {
 }
 
 TEST(Proposals, KeepToTheBudgetOfChange) {
-  const ProductFaces faces = prism(3.0);
+  const product::ProductFaces faces = prism(3.0);
   FeatureLimits limits;
   limits.largest_offset = 1.0;
   // A fillet at 90 degrees moves by (sqrt 2 - 1) of the change of its radius: 3 + 2.41 mm.
@@ -79,14 +79,14 @@ TEST(Proposals, KeepToTheBudgetOfChange) {
 }
 
 TEST(Proposals, OfASharpPrismAreItsEdges) {
-  const ProductFaces faces = prism(0.0);
+  const product::ProductFaces faces = prism(0.0);
   const auto words = words_of(proposals_for(faces, {touched(faces, "right", 0.9, 0.6)}, {}));
   EXPECT_THAT(words, Contains(::testing::ContainsRegex("fillet:edge=[0-9+]+=3")));
   EXPECT_THAT(words, Contains(::testing::ContainsRegex("fillet:edge=[0-9+]+=6")));
 }
 
 TEST(Proposals, ThatNobodyTouchesAreNone) {
-  const ProductFaces faces = prism(3.0);
+  const product::ProductFaces faces = prism(3.0);
   EXPECT_TRUE(proposals_for(faces, {}, {}).empty());
   EXPECT_TRUE(proposals_for(faces, {touched(faces, "right", 0.05, 0.0)}, {}).empty());
 }
@@ -100,4 +100,4 @@ TEST(Proposals, AreWorthAChangeOnlyBeyondChance) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,7 +12,7 @@
 #include "palmar/records/study/study_store.h"
 #include "palmar/report/study/study_report.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,17 +45,17 @@ std::vector<std::string> notes_on(const RedesignComparison& comparison, std::siz
 
 RedesignComparison compare_redesigns(const RedesignRequest& request, const JudgingHands& judges,
                                      const std::vector<RedesignedProduct>& redesigns,
-                                     const std::vector<StudyFigure>& figures,
+                                     const std::vector<report::StudyFigure>& figures,
                                      const Progress& progress) {
   const HeldOriginal& original = judges.original;
-  const LoadedStudy study = with_redesigns(request, original, redesigns);
+  const records::LoadedStudy study = with_redesigns(request, original, redesigns);
   const fs::path folder = request.out;
-  create_folder(folder);
+  formats::create_folder(folder);
   // Beside the old one until it is finished: a redesign that is stopped leaves the old one whole.
   const fs::path store_path = folder / "redesign.palmar", fresh = folder / "redesign.new.palmar";
   fs::remove(fresh);
   const RemovedInTheEnd rest{fresh};
-  StudyStore::create(fresh, study.plan, study.inputs);
+  records::StudyStore::create(fresh, study.plan, study.inputs);
   RedesignComparison comparison{.results = {.plan = study.plan, .records = {}},
                                 .quantities = {},
                                 .report = folder / "report" / "report.html",
@@ -64,32 +64,34 @@ RedesignComparison compare_redesigns(const RedesignRequest& request, const Judgi
                                 .is_in_other_hands = judges.are_others,
                                 .changes = {},
                                 .notes = {}};
-  StudyResults& results = comparison.results;
+  study::StudyResults& results = comparison.results;
   std::string digest, program;
   {
-    StudyStore store(fresh, StudyAccess::kWrite);
-    for (const StudyRecord& record : renumbered(original, study.plan)) store.keep(record);
-    run_study(
+    records::StudyStore store(fresh, records::StudyAccess::kWrite);
+    for (const study::StudyRecord& record : renumbered(original, study.plan)) store.keep(record);
+    study::run_study(
         study.plan, study.inputs, {.tasks = store.missing()},
-        [&](const StudyRecord& record) { store.keep(record); }, progress);
+        [&](const study::StudyRecord& record) { store.keep(record); }, progress);
     store.finish();
     digest = store.digest();
     program = store.program();
-    store.for_each(false, [&](const StudyRecord& record) { results.records.push_back(record); });
+    store.for_each(false,
+                   [&](const study::StudyRecord& record) { results.records.push_back(record); });
   }
   fs::rename(fresh, store_path);
-  const StudyStore store(store_path);
-  StudyReportOptions report;
+  const records::StudyStore store(store_path);
+  report::StudyReportOptions report;
   report.language = request.language;
   report.command = request.command;
   report.figures = figures;
-  write_study_report((folder / "report").string(),
-                     {results, study.inputs,
-                      [&store](const std::function<void(const StudyRecord&)>& visit) {
-                        store.for_each(true, visit);
-                      },
-                      program, digest},
-                     report, progress);
+  report::write_study_report(
+      (folder / "report").string(),
+      {results, study.inputs,
+       [&store](const std::function<void(const study::StudyRecord&)>& visit) {
+         store.for_each(true, visit);
+       },
+       program, digest},
+      report, progress);
   comparison.changes = hold_changes(results, held_place(request, original));
   comparison.notes = notes_on(comparison, study.plan.hands.size());
   if (request.on_note) {
@@ -100,8 +102,9 @@ RedesignComparison compare_redesigns(const RedesignRequest& request, const Judgi
       std::find(keys.begin(), keys.end(), request.goal_key) == keys.end()) {
     keys.insert(keys.begin(), request.goal_key);
   }
-  for (const std::string& key : keys) comparison.quantities.push_back(quantity_named(results, key));
+  for (const std::string& key : keys)
+    comparison.quantities.push_back(study::quantity_named(results, key));
   return comparison;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -11,14 +11,14 @@
 #include "palmar/formats/file.h"
 #include "palmar/formats/mesh/mesh_file.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-CadSource source_of(const RedesignRequest& request) {
-  const std::optional<CadSource> source = cad_source_of(request);
+records::CadSource source_of(const RedesignRequest& request) {
+  const std::optional<records::CadSource> source = cad_source_of(request);
   if (source) return *source;
   throw UsageError(
       request.product +
@@ -27,7 +27,7 @@ CadSource source_of(const RedesignRequest& request) {
 }
 
 std::vector<FeatureSetting> settings_of(const RedesignFeatureRequest& request,
-                                        const CadSource& source) {
+                                        const records::CadSource& source) {
   std::vector<FeatureSetting> settings;
   for (const std::string& words : request.vary) {
     settings.push_back(feature_setting(words, request.grooves));
@@ -55,15 +55,15 @@ std::vector<FeatureSetting> settings_of(const RedesignFeatureRequest& request,
 
 void write_story(const RedesignFeatureRequest& request, const SearchStory& story) {
   const fs::path& folder = request.redesign.out;
-  write_file(folder / "history.csv", history_csv(story));
-  write_file(folder / "history.svg", history_svg(story));
+  formats::write_file(folder / "history.csv", history_csv(story));
+  formats::write_file(folder / "history.svg", history_svg(story));
   Json json = Json::parse(history_json(story));
   json["product"] = request.redesign.product;
   json["command"] = request.redesign.command;
   json["seed"] = request.redesign.seed;
   json["population"] = request.redesign.populations;
   json["posture"] = name_of(request.redesign.posture);
-  write_file(folder / "search.json", json.dump(2) + "\n");
+  formats::write_file(folder / "search.json", json.dump(2) + "\n");
 }
 
 }  // namespace
@@ -84,10 +84,10 @@ RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& asked,
   asked.check();
   progress.throw_if_cancelled();
   RedesignFeatureRequest request = asked;
-  request.redesign.goal_key = feature_goal(asked.goal).key;
-  const CadSource source = source_of(request.redesign);
+  request.redesign.goal_key = redesign::feature_goal(asked.goal).key;
+  const records::CadSource source = source_of(request.redesign);
   RedesignFeatureOutcome outcome;
-  outcome.goal = feature_goal(request.goal);
+  outcome.goal = redesign::feature_goal(request.goal);
   const auto note = [&](const std::string& text) { outcome.add_note(request.redesign, text); };
   FeatureRun run{.request = request.redesign,
                  .source = source,
@@ -103,10 +103,10 @@ RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& asked,
   run.original = &original;
 
   const fs::path& folder = request.redesign.out;
-  create_folder(folder);
+  formats::create_folder(folder);
   if (request.proposes) {
     outcome.proposals = try_proposals(run, progress);
-    write_file(folder / "proposals.csv", proposals_csv(outcome.proposals));
+    formats::write_file(folder / "proposals.csv", proposals_csv(outcome.proposals));
     if (request.on_search) request.on_search(outcome);
     outcome.json = proposals_json(outcome.proposals, outcome.goal);
     return outcome;
@@ -116,7 +116,7 @@ RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& asked,
   write_story(request, story);
   if (request.on_search) request.on_search(outcome);
   if (!story.result.best) {
-    const SearchTrial& last = story.result.history.back();
+    const redesign::SearchTrial& last = story.result.history.back();
     throw NumericalError(
         fmt::format("{}: no candidate is within the constraints{}; {} has all that were tried",
                     request.redesign.product,
@@ -126,7 +126,7 @@ RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& asked,
 
   const std::vector<double>& values =
       story.result.history[static_cast<size_t>(*story.result.best)].values;
-  const ChangedCad made = run.make(values, true, true, progress);
+  const records::ChangedCad made = run.make(values, true, true, progress);
   Json json = Json::parse(history_json(story));
   json["redesign"] = nullptr;
   if (!is_better_than_original(story)) {
@@ -143,9 +143,9 @@ RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& asked,
                                   .volume_before = made.volume_before,
                                   .largest_change = made.largest_change};
   const MadeRedesign& redesign = *outcome.redesign;
-  write_file(redesign.step, made.step);
-  const Product product = run.product_of(made, redesign.name, redesign.step.string());
-  write_mesh(folder / "redesign.stl", product.mesh);
+  formats::write_file(redesign.step, made.step);
+  const product::Product product = run.product_of(made, redesign.name, redesign.step.string());
+  formats::write_mesh(folder / "redesign.stl", product.mesh);
   for (const std::string& text : made.notes) note(text);
   note(
       fmt::format("{}: a valid closed solid of {:.0f} mm3 (before: {:.0f} mm3), "
@@ -164,4 +164,4 @@ RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& asked,
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

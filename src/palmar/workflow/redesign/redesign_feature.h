@@ -16,7 +16,7 @@
 #include "palmar/workflow/redesign/redesign_request.h"
 #include "palmar/workflow/redesign/search_story.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 struct RedesignFeatureOutcome;
 
@@ -30,7 +30,7 @@ struct RedesignFeatureRequest {
   double smallest_groove_radius = 3.0;  ///< mm; of the smallest cutter that can be used
   std::string goal = "peak";            ///< what is made better, as feature_goal() reads it
   FeatureLimits limits;
-  SearchOptions search;
+  redesign::SearchOptions search;
   double step = 0.05;     ///< mm (deg of tapers); sizes are rounded to it, as a machine keeps it
   bool proposes = false;  ///< no search: tries a change of every feature that carries peaks
   bool compares = true;   ///< in the end the same hands hold original and redesign
@@ -51,7 +51,7 @@ struct MadeRedesign {
 };
 
 struct RedesignFeatureOutcome : RedesignOutcome {
-  FeatureGoal goal;
+  redesign::FeatureGoal goal;
   std::optional<SearchStory> story;      ///< nothing with `proposes`
   std::vector<TriedProposal> proposals;  ///< with `proposes`, best first
   std::optional<MadeRedesign> redesign;  ///< nothing if the best changes nothing
@@ -64,4 +64,4 @@ struct RedesignFeatureOutcome : RedesignOutcome {
 RedesignFeatureOutcome redesign_features(const RedesignFeatureRequest& request,
                                          const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -5,7 +5,7 @@
 #include "palmar/formats/file.h"
 #include "palmar/grasp/grip.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 constexpr std::size_t kLeastHands = 6;  // fewer prove nothing, here or elsewhere
@@ -19,15 +19,15 @@ void RedesignOutcome::add_note(const RedesignRequest& request, const std::string
 
 void RedesignOutcome::judge(const RedesignRequest& request, const HeldOriginal& made_for,
                             const RedesignedProduct& redesign, const Progress& progress,
-                            const std::vector<StudyFigure>& figures) {
+                            const std::vector<report::StudyFigure>& figures) {
   const JudgingHands judges = judging_hands(request, made_for, progress);
   comparison = compare_redesigns(request, judges, {redesign}, figures, progress);
-  const std::optional<Hold> hold = judges.original.hold();
+  const std::optional<grasp::Hold> hold = judges.original.hold();
   if (judges.original.study.plan.hands.size() < kLeastHands) return;
-  if (request.keeps_posture() || !hold || !is_power(hold->grip) || hold->is_over_end) return;
+  if (request.keeps_posture() || !hold || !grasp::is_power(hold->grip) || hold->is_over_end) return;
   gains = hold_gains(judges, redesign.product, *comparison, progress);
-  write_file(request.out / "gains.csv", gains_csv(*gains));
-  write_file(request.out / "gains.svg", gains_svg(*gains));
+  formats::write_file(request.out / "gains.csv", gains_csv(*gains));
+  formats::write_file(request.out / "gains.svg", gains_svg(*gains));
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -10,7 +10,7 @@
 #include "palmar/workflow/redesign/hold_gains.h"
 #include "palmar/workflow/redesign/redesign_comparison.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// What every redesign comes to; each has more of its own.
 struct RedesignOutcome {
@@ -26,7 +26,7 @@ struct RedesignOutcome {
   /// Throws as that.
   void judge(const RedesignRequest& request, const HeldOriginal& made_for,
              const RedesignedProduct& redesign, const Progress& progress,
-             const std::vector<StudyFigure>& figures = {});
+             const std::vector<report::StudyFigure>& figures = {});
 };
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -18,7 +18,7 @@
 #include "palmar/redesign/held_hand.h"
 #include "palmar/report/picture/depth_pictures.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ const std::string kOfTouching = "-of-touching";
 
 /// What the hands give besides their skin.
 struct HandsOnProduct {
-  std::vector<TriangleMesh> skins;
+  std::vector<geometry::TriangleMesh> skins;
   Vec3 axis = Vec3::Zero();  ///< of the handle, unit: across the fingers
   Vec3 palm = Vec3::Zero();  ///< from the palm into the product
 };
@@ -36,9 +36,9 @@ struct HandsOnProduct {
 HandsOnProduct hands_on(const HeldOriginal& original, const std::optional<Vec3>& axis,
                         const Progress& progress) {
   HandsOnProduct result;
-  for_each_held_hand(
+  redesign::for_each_held_hand(
       original.study.plan, original.study.inputs, original.source(), {}, 0,
-      [&](const HeldHand& held) {
+      [&](const redesign::HeldHand& held) {
         result.skins.push_back(held.skin);
         result.axis += held.product_from_hand.rotation * Vec3::UnitX();
         result.palm += held.product_from_hand.rotation * Vec3::UnitZ();
@@ -51,7 +51,7 @@ HandsOnProduct hands_on(const HeldOriginal& original, const std::optional<Vec3>&
     constexpr double kOblique = 0.8;  // cosine of 37 degrees
     const Vec3 across = result.axis.normalized();
     double nearest = kOblique;
-    for (const GripSite& site : find_grip_sites(original.product().mesh)) {
+    for (const grasp::GripSite& site : grasp::find_grip_sites(original.product().mesh)) {
       const double cosine = site.axis.dot(across);
       if (std::abs(cosine) <= nearest) continue;
       nearest = std::abs(cosine);
@@ -62,14 +62,14 @@ HandsOnProduct hands_on(const HeldOriginal& original, const std::optional<Vec3>&
   return result;
 }
 
-PressedShapeOptions shape_options(const RedesignPressRequest& request) {
-  PressedShapeOptions options = request.shape;
+redesign::PressedShapeOptions shape_options(const RedesignPressRequest& request) {
+  redesign::PressedShapeOptions options = request.shape;
   for (const std::string& face : request.keep_faces) options.keep_out.add_face(face);
   return options;
 }
 
 Json press_settings(const RedesignPressRequest& request) {
-  const PressedShapeOptions& o = request.shape;
+  const redesign::PressedShapeOptions& o = request.shape;
   Json boxes = Json::array();
   for (const Box3& box : o.keep_out.boxes) {
     boxes.push_back(
@@ -88,7 +88,7 @@ Json press_settings(const RedesignPressRequest& request) {
           {"keep_blend_mm", o.keep_out.blend}};
 }
 
-Json press_figures(const PressedShape& shape, const Product& original) {
+Json press_figures(const redesign::PressedShape& shape, const product::Product& original) {
   const auto vector = [](const Vec3& v) { return Json{v.x(), v.y(), v.z()}; };
   Json shifts = Json::array();
   for (const double shift : shape.shift) shifts.push_back(shift);
@@ -96,8 +96,8 @@ Json press_figures(const PressedShape& shape, const Product& original) {
       {"hands", shape.hands},
       {"triangles", shape.mesh.triangle_count()},
       {"triangles_before", original.mesh.triangle_count()},
-      {"is_closed", examine_topology(shape.mesh).is_closed},
-      {"volume_before_mm3", signed_volume(original.mesh)},
+      {"is_closed", geometry::examine_topology(shape.mesh).is_closed},
+      {"volume_before_mm3", geometry::signed_volume(original.mesh)},
       {"removed_volume_mm3", shape.removed_volume},
       {"deepest_mm", shape.deepest},
       {"deepest_at_mm", vector(shape.deepest_at)},
@@ -121,43 +121,44 @@ Json solid_figures(const PressedSolid& solid) {
           {"poles", solid.poles}};
 }
 
-void write_pictures(const RedesignPressRequest& request, const PressedShape& shape,
-                    const Product& original, const HandsOnProduct& hands,
+void write_pictures(const RedesignPressRequest& request, const redesign::PressedShape& shape,
+                    const product::Product& original, const HandsOnProduct& hands,
                     const Progress& progress) {
-  DepthScene scene;
+  report::DepthScene scene;
   scene.mesh = shape.mesh;
   scene.depth = shape.depth;
   scene.title = original.name + ", pressed shape";
   scene.subtitle = fmt::format("{:g} of the overlap of {} hands", request.shape.share, shape.hands);
   scene.axis = hands.axis;
   scene.palm = hands.palm;
-  for (const Picture& picture : depth_pictures(scene, {}, progress)) {
-    write_file(request.redesign.out / (picture.name + ".png"), encode_png(picture.image));
+  for (const report::Picture& picture : report::depth_pictures(scene, {}, progress)) {
+    formats::write_file(request.redesign.out / (picture.name + ".png"),
+                        report::encode_png(picture.image));
   }
 }
 
 }  // namespace
 
-std::string name_of(const CombineOptions& combine) {
-  const bool is_mean = combine.statistic == ImprintStatistic::kMean;
+std::string name_of(const redesign::CombineOptions& combine) {
+  const bool is_mean = combine.statistic == redesign::ImprintStatistic::kMean;
   return (is_mean ? "mean" : fmt::format("{:g}", combine.percentile)) +
          (combine.is_among_touching ? kOfTouching : "");
 }
 
-CombineOptions combine_options(const std::string& words) {
-  CombineOptions combine;
+redesign::CombineOptions combine_options(const std::string& words) {
+  redesign::CombineOptions combine;
   std::string text = words;
   if (text.size() > kOfTouching.size() && text.ends_with(kOfTouching)) {
     combine.is_among_touching = true;
     text.resize(text.size() - kOfTouching.size());
   }
   if (text == "mean") return combine;
-  const std::optional<double> percentile = parse_double(text);
+  const std::optional<double> percentile = formats::parse_double(text);
   if (!percentile || !std::isfinite(*percentile)) {
     throw UsageError("setting \"over\" is \"" + words +
                      "\"; mean or a percentile, 0 to 100, is allowed");
   }
-  combine.statistic = ImprintStatistic::kPercentile;
+  combine.statistic = redesign::ImprintStatistic::kPercentile;
   combine.percentile = *percentile;
   return combine;
 }
@@ -177,21 +178,21 @@ void RedesignPressRequest::check() const {
 RedesignPressOutcome redesign_press(const RedesignPressRequest& request, const Progress& progress) {
   request.check();
   const HeldOriginal original = grasp_original(request.redesign, progress);
-  const Product& product = original.product();
+  const product::Product& product = original.product();
   const HandsOnProduct hands = hands_on(original, request.redesign.axis, progress);
-  PressedShapeOptions options = shape_options(request);
+  redesign::PressedShapeOptions options = shape_options(request);
   if (request.aligns) options.align_along = hands.axis;
   RedesignPressOutcome outcome;
-  outcome.shape = press_shape(product, hands.skins, options, progress);
-  outcome.volume_before = signed_volume(product.mesh);
+  outcome.shape = redesign::press_shape(product, hands.skins, options, progress);
+  outcome.volume_before = geometry::signed_volume(product.mesh);
   outcome.file = request.redesign.out / ("pressed." + request.formats.front());
   outcome.notes = original.study.notes;
-  const PressedShape& shape = outcome.shape;
+  const redesign::PressedShape& shape = outcome.shape;
 
   const fs::path& folder = request.redesign.out;
-  create_folder(folder);
+  formats::create_folder(folder);
   for (const std::string& format : request.formats) {
-    write_mesh(folder / ("pressed." + format), shape.mesh);
+    formats::write_mesh(folder / ("pressed." + format), shape.mesh);
   }
   Json json{{"product", product.name},
             {"source", product.source},
@@ -202,7 +203,8 @@ RedesignPressOutcome redesign_press(const RedesignPressRequest& request, const P
             {"settings", press_settings(request)},
             {"figures", press_figures(shape, product)}};
   if (request.draws) write_pictures(request, shape, product, hands, progress);
-  const Product pressed = pressed_product(product, shape, product.name + " pressed");
+  const product::Product pressed =
+      redesign::pressed_product(product, shape, product.name + " pressed");
   std::optional<std::string> why_no_solid;
   if (shape.deepest > 0.0) {
     auto solid = write_pressed_solid(request.redesign, original, pressed, options, progress);
@@ -212,7 +214,7 @@ RedesignPressOutcome redesign_press(const RedesignPressRequest& request, const P
       why_no_solid = std::get<std::string>(solid);
   }
   if (outcome.solid) json["solid"] = solid_figures(*outcome.solid);
-  write_file(folder / "pressed.json", json.dump(2) + "\n");
+  formats::write_file(folder / "pressed.json", json.dump(2) + "\n");
   if (request.on_shape) request.on_shape(outcome);
   outcome.json = json.dump();
   if (why_no_solid) {
@@ -228,4 +230,4 @@ RedesignPressOutcome redesign_press(const RedesignPressRequest& request, const P
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -14,15 +14,16 @@
 #include "palmar/workflow/redesign/redesign_outcome.h"
 #include "palmar/workflow/redesign/redesign_request.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 struct RedesignPressOutcome;
 
 /// Redesign 1: the product's surface pressed in where hands reach into it.
 struct RedesignPressRequest {
   RedesignRequest redesign;
-  PressedShapeOptions shape;  ///< align_along and the faces of keep_out are filled in here
-  bool aligns = false;        ///< shifts every hand along the handle before they are combined
+  redesign::PressedShapeOptions shape;  ///< align_along and the faces of keep_out are filled in
+                                        ///< here
+  bool aligns = false;  ///< shifts every hand along the handle before they are combined
   /// CAD faces that must stay as they are: numbers or names.
   std::vector<std::string> keep_faces;
   std::vector<std::string> formats = {"stl"};  ///< files of the shape: stl, obj, ply
@@ -38,16 +39,16 @@ struct RedesignPressRequest {
 
 /// `json` is what pressed.json holds.
 struct RedesignPressOutcome : RedesignOutcome {
-  PressedShape shape;
+  redesign::PressedShape shape;
   double volume_before = 0.0;         ///< mm^3, of the original
   std::filesystem::path file;         ///< the shape in the first of the formats
   std::optional<PressedSolid> solid;  ///< of its handle, if one could be made
 };
 
 /// "mean", "75" (percentile), "mean-of-touching", "75-of-touching".
-std::string name_of(const CombineOptions& combine);
+std::string name_of(const redesign::CombineOptions& combine);
 /// Throws UsageError.
-CombineOptions combine_options(const std::string& words);
+redesign::CombineOptions combine_options(const std::string& words);
 
 /// Hands hold the product, press its surface in and hold the redesign. Writes to OUT: pressed.stl
 /// (and the other formats), pressed.step or pressed-handle.step (PressedSolid), pressed.json,
@@ -56,4 +57,4 @@ CombineOptions combine_options(const std::string& words);
 RedesignPressOutcome redesign_press(const RedesignPressRequest& request,
                                     const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

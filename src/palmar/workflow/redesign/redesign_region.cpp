@@ -24,7 +24,7 @@
 #include "palmar/report/picture/region_picture.h"
 #include "palmar/workflow/redesign/region_files.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,15 +37,15 @@ Vec3 handle_axis(const RedesignRequest& request, const HeldOriginal& original) {
   if (request.axis) return request.axis->normalized();
   constexpr double kOblique = 0.8, kSame = 0.998;  // cosines of 37 and 3.6 degrees
   Vec3 across = Vec3::Zero();
-  for (const StudyRecord& record : original.records) {
-    if (is_in_hand(record)) across += record.product_from_hand.rotation * Vec3::UnitX();
+  for (const study::StudyRecord& record : original.records) {
+    if (study::is_in_hand(record)) across += record.product_from_hand.rotation * Vec3::UnitX();
   }
-  const TriangleMesh& mesh = original.product().mesh;
-  const PrincipalFrame frame = principal_frame(mesh);
+  const geometry::TriangleMesh& mesh = original.product().mesh;
+  const grasp::PrincipalFrame frame = grasp::principal_frame(mesh);
   if (!(across.norm() > 1e-9)) return frame.axes.col(0);
   Vec3 axis = across.normalized();
   double nearest = kOblique;
-  for (const GripSite& site : find_grip_sites(mesh)) {
+  for (const grasp::GripSite& site : grasp::find_grip_sites(mesh)) {
     const double cosine = std::abs(site.axis.dot(across.normalized()));
     if (cosine <= nearest) continue;
     nearest = cosine;
@@ -60,8 +60,8 @@ Vec3 handle_axis(const RedesignRequest& request, const HeldOriginal& original) {
 /// Surfaces of one patch: one, or one for each piece of it if it goes over edges.
 void fit_patch(RegionFindings& findings, int region, int number, const std::vector<Vec3>& normals,
                double pressed_share) {
-  const RegionPatch& patch = findings.regions[static_cast<std::size_t>(region)]
-                                 .patches[static_cast<std::size_t>(number - 1)];
+  const redesign::RegionPatch& patch = findings.regions[static_cast<std::size_t>(region)]
+                                           .patches[static_cast<std::size_t>(number - 1)];
   std::vector<Vec3> points, directions, targets;
   for (const int v : patch.vertices) {
     const auto i = static_cast<std::size_t>(v);
@@ -70,7 +70,7 @@ void fit_patch(RegionFindings& findings, int region, int number, const std::vect
     targets.push_back(points.back() - pressed_share * findings.imprint[i] * normals[i]);
   }
   // The product's own edges decide, not how unevenly hands press.
-  const auto pieces = split_patch(points, directions);
+  const auto pieces = redesign::split_patch(points, directions);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     FittedPatch fitted;
     fitted.region = region;
@@ -85,8 +85,8 @@ void fit_patch(RegionFindings& findings, int region, int number, const std::vect
       fitted.mean_depth += findings.imprint[static_cast<std::size_t>(patch.vertices[i])];
     }
     fitted.mean_depth /= static_cast<double>(at.size());
-    fitted.product = choose_surface(at, out);
-    fitted.target = choose_surface(fitted.target_points, out);
+    fitted.product = redesign::choose_surface(at, out);
+    fitted.target = redesign::choose_surface(fitted.target_points, out);
     findings.patches.push_back(std::move(fitted));
   }
 }
@@ -95,16 +95,18 @@ RegionFindings find_regions(const HeldOriginal& original, const RedesignRegionRe
                             const std::function<void(const std::string&)>& note,
                             const Progress& progress) {
   RegionFindings findings;
-  ContactStudy contact = study_contact(original.study.plan, original.study.inputs,
-                                       original.source(), {}, 0, request.threshold, progress);
+  redesign::ContactStudy contact =
+      redesign::study_contact(original.study.plan, original.study.inputs, original.source(), {}, 0,
+                              request.threshold, progress);
   findings.map = std::move(contact.map);
   findings.count = std::move(contact.count);
   findings.imprint = std::move(contact.imprint);
   findings.axis = handle_axis(request.redesign, original);
-  const TriangleMesh& map = findings.map.mesh;
-  findings.regions.push_back(contact_region(map, findings.count, {}, request.region));
-  for (const HandPart part : {HandPart::kFingers, HandPart::kThumb, HandPart::kPalm}) {
-    findings.regions.push_back(contact_region(map, findings.count, part, request.region));
+  const geometry::TriangleMesh& map = findings.map.mesh;
+  findings.regions.push_back(redesign::contact_region(map, findings.count, {}, request.region));
+  for (const redesign::HandPart part :
+       {redesign::HandPart::kFingers, redesign::HandPart::kThumb, redesign::HandPart::kPalm}) {
+    findings.regions.push_back(redesign::contact_region(map, findings.count, part, request.region));
   }
   if (findings.regions.front().patches.empty()) {
     throw UsageError(fmt::format(
@@ -112,9 +114,9 @@ RegionFindings find_regions(const HeldOriginal& original, const RedesignRegionRe
         "\"threshold\" has a region",
         findings.regions.front().title, request.threshold));
   }
-  const std::vector<Vec3> normals = vertex_normals(map);
+  const std::vector<Vec3> normals = geometry::vertex_normals(map);
   for (std::size_t r = 1; r < findings.regions.size(); ++r) {
-    const ContactRegion& region = findings.regions[r];
+    const redesign::ContactRegion& region = findings.regions[r];
     for (std::size_t k = 0; k < region.patches.size(); ++k) {
       if (region.patches[k].area < request.smallest_patch ||
           region.patches[k].vertices.size() < 8) {
@@ -125,19 +127,19 @@ RegionFindings find_regions(const HeldOriginal& original, const RedesignRegionRe
     }
   }
   try {
-    findings.sheet = unroll(original.product().mesh, findings.regions, findings.axis);
+    findings.sheet = redesign::unroll(original.product().mesh, findings.regions, findings.axis);
   } catch (const UsageError& error) {
     note(error.what());
   }
   if (request.relieves) {
-    RegionOptions wide = request.region;
+    redesign::RegionOptions wide = request.region;
     wide.share = request.relief_share;
-    ReliefOptions options = request.relief;
+    redesign::ReliefOptions options = request.relief;
     options.axis = findings.axis;
     try {
-      findings.plan =
-          plan_reliefs(map, findings.regions.front(), contact_region(map, findings.count, {}, wide),
-                       findings.imprint, options);
+      findings.plan = redesign::plan_reliefs(
+          map, findings.regions.front(), redesign::contact_region(map, findings.count, {}, wide),
+          findings.imprint, options);
       for (const std::string& text : findings.plan->notes) note(text);
     } catch (const UsageError& error) {
       note(error.what());
@@ -148,44 +150,45 @@ RegionFindings find_regions(const HeldOriginal& original, const RedesignRegionRe
 
 /// Runs the CAD program; gives its reply, and the redesign if a solid was cut.
 Json run_region_cad(const RedesignRegionRequest& asked, const RegionFindings& findings,
-                    const Product& product, std::optional<RedesignedProduct>& redesign,
+                    const product::Product& product, std::optional<RedesignedProduct>& redesign,
                     const Progress& progress) {
-  const CadFolder folder;
-  const bool made = is_made(asked.redesign.product);
-  const bool has_solid = made || is_cad_file(asked.redesign.product);
-  const std::vector<RidgeRelief> reliefs =
-      findings.plan && has_solid ? findings.plan->reliefs : std::vector<RidgeRelief>();
-  Json request = region_request(curves_of(findings), surfaces_of(findings), reliefs);
+  const records::CadFolder folder;
+  const bool made = records::is_made(asked.redesign.product);
+  const bool has_solid = made || records::is_cad_file(asked.redesign.product);
+  const std::vector<redesign::RidgeRelief> reliefs =
+      findings.plan && has_solid ? findings.plan->reliefs : std::vector<redesign::RidgeRelief>();
+  Json request = records::region_request(curves_of(findings), surfaces_of(findings), reliefs);
   request["junction_radius_mm"] = asked.junction_radius;
   if (made) {
-    MakeCadOptions options;
+    records::MakeCadOptions options;
     options.mesh = false;
-    write_file(folder.path() / "product.step",
-               make_cad(made_from(asked.redesign.product), options, progress).step);
+    formats::write_file(
+        folder.path() / "product.step",
+        records::make_cad(records::made_from(asked.redesign.product), options, progress).step);
     request["file"] = (folder.path() / "product.step").string();
   } else if (has_solid) {
     request["file"] = fs::absolute(asked.redesign.product).string();
     if (asked.redesign.unit) {
-      request["millimetres_per_unit"] = millimetres_per(*asked.redesign.unit);
+      request["millimetres_per_unit"] = geometry::millimetres_per(*asked.redesign.unit);
     }
   }
-  CadLimits limits;
+  records::CadLimits limits;
   limits.seconds = 300.0;
-  const Json reply =
-      Json::parse(run_cad("region", request.dump(), folder, product.name, limits, progress));
+  const Json reply = Json::parse(
+      records::run_cad("region", request.dump(), folder, product.name, limits, progress));
   const fs::path& out = asked.redesign.out;
-  write_file(out / "region.step", read_file(folder.path() / "region.step"));
+  formats::write_file(out / "region.step", formats::read_file(folder.path() / "region.step"));
   if (!reliefs.empty()) {
-    const std::string step = read_file(folder.path() / "redesign.step");
-    write_file(out / "redesign.step", step);
-    FaceMesh mesh = read_face_mesh(folder.path() / "mesh.bin");
-    write_mesh(out / "redesign.stl", mesh.mesh);
-    UnitDecision unit;
-    unit.unit = LengthUnit::kMillimetre;
-    unit.source = UnitSource::kMade;
-    redesign = RedesignedProduct{
-        make_product(product.name + ", reliefs", mesh.mesh, unit, "redesign.step", &mesh.faces),
-        "reliefs", (out / "redesign.step").string()};
+    const std::string step = formats::read_file(folder.path() / "redesign.step");
+    formats::write_file(out / "redesign.step", step);
+    records::FaceMesh mesh = records::read_face_mesh(folder.path() / "mesh.bin");
+    formats::write_mesh(out / "redesign.stl", mesh.mesh);
+    product::UnitDecision unit;
+    unit.unit = geometry::LengthUnit::kMillimetre;
+    unit.source = product::UnitSource::kMade;
+    redesign = RedesignedProduct{product::make_product(product.name + ", reliefs", mesh.mesh, unit,
+                                                       "redesign.step", &mesh.faces),
+                                 "reliefs", (out / "redesign.step").string()};
   }
   return reply;
 }
@@ -213,20 +216,20 @@ RedesignRegionOutcome redesign_region(const RedesignRegionRequest& request,
   const auto note = [&](const std::string& text) { outcome.add_note(request.redesign, text); };
   const HeldOriginal original = grasp_original(request.redesign, progress);
   outcome.notes = original.study.notes;
-  outcome.product = std::make_shared<const Product>(original.product());
-  const Product& product = *outcome.product;
+  outcome.product = std::make_shared<const product::Product>(original.product());
+  const product::Product& product = *outcome.product;
   outcome.findings = find_regions(original, request, note, progress);
   const RegionFindings& findings = outcome.findings;
   const fs::path& out = request.redesign.out;
-  create_folder(out);
+  formats::create_folder(out);
   std::optional<RedesignedProduct> redesign;
   const Json cad = run_region_cad(request, findings, product, redesign, progress);
   if (findings.plan && !redesign) {
     // A mesh has no solid: its own triangles go back instead.
-    redesign =
-        RedesignedProduct{relieved_product(product, *findings.plan, product.name + ", reliefs"),
-                          "reliefs", (out / "redesign.stl").string()};
-    write_mesh(out / "redesign.stl", redesign->product.mesh);
+    redesign = RedesignedProduct{
+        redesign::relieved_product(product, *findings.plan, product.name + ", reliefs"), "reliefs",
+        (out / "redesign.stl").string()};
+    formats::write_mesh(out / "redesign.stl", redesign->product.mesh);
     note(product.name +
          " is a mesh: region.step has outlines and surfaces but no solid, and the redesign is a "
          "mesh, too");
@@ -239,21 +242,24 @@ RedesignRegionOutcome redesign_region(const RedesignRegionRequest& request,
                {"posture", name_of(request.redesign.posture)}};
   json.update(Json::parse(region_json(findings, product)));
   json["cad"] = cad;
-  write_file(out / "region.json", json.dump(2) + "\n");
+  formats::write_file(out / "region.json", json.dump(2) + "\n");
   if (const std::string csv = region_csv(findings, product); !csv.empty()) {
-    write_file(out / "region.csv", csv);
+    formats::write_file(out / "region.csv", csv);
   }
-  const std::vector<ContactRegion> parts(findings.regions.begin() + 1, findings.regions.end());
+  const std::vector<redesign::ContactRegion> parts(findings.regions.begin() + 1,
+                                                   findings.regions.end());
   if (findings.sheet) {
-    const Drawing drawing = region_drawing(*findings.sheet, findings.regions, product.name);
-    write_file(out / "outline.dxf", dxf_of(drawing));
-    write_file(out / "outline.svg", svg_of(drawing));
+    const formats::Drawing drawing =
+        region_drawing(*findings.sheet, findings.regions, product.name);
+    formats::write_file(out / "outline.dxf", formats::dxf_of(drawing));
+    formats::write_file(out / "outline.svg", formats::svg_of(drawing));
   }
-  write_coloured_mesh(out / "region.ply", region_surface(findings.map.mesh, parts));
+  formats::write_coloured_mesh(out / "region.ply",
+                               report::region_surface(findings.map.mesh, parts));
   if (request.draws) {
-    write_file(out / "region.png",
-               encode_png(region_picture(findings.map.mesh, parts, findings.axis,
-                                         product.name + ": contact region", {}, progress)));
+    formats::write_file(out / "region.png", report::encode_png(report::region_picture(
+                                                findings.map.mesh, parts, findings.axis,
+                                                product.name + ": contact region", {}, progress)));
   }
   if (request.on_region) request.on_region(outcome);
   outcome.json = json.dump();
@@ -263,4 +269,4 @@ RedesignRegionOutcome redesign_region(const RedesignRegionRequest& request,
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -16,14 +16,14 @@
 #include "palmar/workflow/redesign/redesign_request.h"
 #include "palmar/workflow/redesign/region_findings.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 struct RedesignRegionOutcome;
 
 /// Redesign 2: where hands touch, for CAD; ridges rounded there.
 struct RedesignRegionRequest {
   RedesignRequest redesign;
-  RegionOptions region;
+  redesign::RegionOptions region;
   double threshold = 0.0;  ///< MPa, 0 or more; a hand touches where it presses more
   /// Share of the mean imprint, 0 to 1, by which the surface is set back before simple surfaces are
   /// fitted to it.
@@ -31,7 +31,7 @@ struct RedesignRegionRequest {
   double smallest_patch = 40.0;  ///< mm^2; smaller ones are listed but get no surface
   bool relieves = true;          ///< rounds ridges; else the region is only exported
   double relief_share = 0.0;     ///< of the hands that must touch a ridge, 0 to 1; 0: any
-  ReliefOptions relief;
+  redesign::ReliefOptions relief;
   double junction_radius = 0.0;  ///< mm, 0 to 50; rounds the edges in which the cutter leaves
   bool draws = true;             ///< a picture
   bool compares = true;          ///< in the end the same hands hold original and redesign
@@ -45,7 +45,7 @@ struct RedesignRegionRequest {
 
 /// `json` is what region.json holds.
 struct RedesignRegionOutcome : RedesignOutcome {
-  std::shared_ptr<const Product> product;  ///< the original
+  std::shared_ptr<const product::Product> product;  ///< the original
   RegionFindings findings;
 };
 
@@ -57,4 +57,4 @@ struct RedesignRegionOutcome : RedesignOutcome {
 RedesignRegionOutcome redesign_region(const RedesignRegionRequest& request,
                                       const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

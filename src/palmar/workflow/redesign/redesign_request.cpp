@@ -6,7 +6,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 std::string name_of(RedesignPosture posture) {
   return posture == RedesignPosture::kKept ? "kept" : "new";
@@ -33,7 +33,7 @@ void RedesignRequest::check() const {
   if (populations.empty()) {
     throw UsageError("setting \"populations\" is empty; one or more are required");
   }
-  GraspSettings how;
+  grasp::GraspSettings how;
   how.placement.at = at;
   how.placement.axis = axis;
   how.holding = holding;
@@ -57,4 +57,4 @@ void RedesignRequest::check() const {
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

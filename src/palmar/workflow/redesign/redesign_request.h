@@ -15,7 +15,7 @@
 #include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/grasp/grip.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// How redesigns are held.
 enum class RedesignPosture {
@@ -27,18 +27,18 @@ RedesignPosture redesign_posture(const std::string& name);  ///< throws UsageErr
 
 /// What every redesign starts from: a product, the hands that hold it, where to write.
 struct RedesignRequest {
-  std::string product;             ///< file, or "made: prism width_mm=35 fillet_mm=3"
-  std::optional<LengthUnit> unit;  ///< of a file that carries none
-  std::string hand = "template";   ///< that is scaled: template, or a *.hand.glb file
-  bool is_left = false;            ///< left hands: those are mirrored
+  std::string product;                       ///< file, or "made: prism width_mm=35 fillet_mm=3"
+  std::optional<geometry::LengthUnit> unit;  ///< of a file that carries none
+  std::string hand = "template";             ///< that is scaled: template, or a *.hand.glb file
+  bool is_left = false;                      ///< left hands: those are mirrored
   /// Whose hands: names of built-in populations, population files (.toml), tables of given hands
   /// (.csv).
   std::vector<std::string> populations = {"xie2014"};
-  int hands = 30;                          ///< drawn from each population, 1 to 100 000
-  std::vector<std::optional<Grip>> grips;  ///< nothing inside: the one that suits the shape
-  std::optional<Vec3> at;                  ///< where it is held, product frame, mm
-  std::optional<Vec3> axis;                ///< of the handle there, product frame
-  HoldRequest holding;                     ///< by which part and how, in place of `at` and `axis`
+  int hands = 30;                                 ///< drawn from each population, 1 to 100 000
+  std::vector<std::optional<grasp::Grip>> grips;  ///< nothing inside: the one that suits the shape
+  std::optional<Vec3> at;                         ///< where it is held, product frame, mm
+  std::optional<Vec3> axis;                       ///< of the handle there, product frame
+  grasp::HoldRequest holding;  ///< by which part and how, in place of `at` and `axis`
   RedesignPosture posture = RedesignPosture::kNew;
   /// N, 0 to 500 (about the strongest grip measured), with which all are held; 0: the usual one. A
   /// kept posture decides the force itself and the original is held as it was closed, so it goes
@@ -61,4 +61,4 @@ struct RedesignRequest {
 /// Throws UsageError 'setting "FIELD" is VALUE; ALLOWED is allowed' unless it holds.
 void require_setting(bool holds, const char* field, double value, const char* allowed);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -15,7 +15,7 @@
 #include "palmar/workflow/redesign/redesign_press.h"
 #include "palmar/workflow/redesign/redesign_region.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using ::testing::HasSubstr;
@@ -166,4 +166,4 @@ TEST(Redesign, StopsWhenAskedToBeforeAnythingIsWritten) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

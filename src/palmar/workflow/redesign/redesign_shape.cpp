@@ -18,14 +18,14 @@
 #include "palmar/redesign/held_hand.h"
 #include "palmar/workflow/redesign/shape_files.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::vector<HandPressure> pressures_of(const HeldHand& held) {
-  std::vector<HandPressure> pressures;
+std::vector<redesign::HandPressure> pressures_of(const redesign::HeldHand& held) {
+  std::vector<redesign::HandPressure> pressures;
   for (std::size_t i = 0; i < held.pressure.size(); ++i) {
     if (held.pressure[i] > 0.0) pressures.push_back({held.skin.vertices[i], held.pressure[i]});
   }
@@ -58,22 +58,23 @@ std::vector<ShapeUse> hold_originals(const RedesignShapeRequest& request,
 
 /// How the hands lie: by the hold, which is the same for all; thumb and breadth as means over them;
 /// where they press it, in all uses.
-HandsOnHandle hands_on_handle(const std::vector<ShapeUse>& uses, const Hold& hold, double spread,
-                              const Progress& progress) {
+redesign::HandsOnHandle hands_on_handle(const std::vector<ShapeUse>& uses, const grasp::Hold& hold,
+                                        double spread, const Progress& progress) {
   const HeldOriginal& original = uses.front().original;
-  HandsOnHandle result = hands_in_hold(original, hold);
+  redesign::HandsOnHandle result = hands_in_hold(original, hold);
   result.spread = spread;
   Vec3 thumb = Vec3::Zero();
   double pressed = 0.0, breadth = 0.0;
   int hands = 0;
-  for_each_held_hand(
+  redesign::for_each_held_hand(
       original.study.plan, original.study.inputs, original.source(), {}, 0,
-      [&](const HeldHand& held) {
+      [&](const redesign::HeldHand& held) {
         breadth += held.who->dimensions.hand_width;
         ++hands;
         result.pressures.push_back(pressures_of(held));
         for (std::size_t i = 0; i < held.pressure.size(); ++i) {
-          if (!(held.pressure[i] > 0.0) || part_of(held.who->region[i]) != HandPart::kThumb) {
+          if (!(held.pressure[i] > 0.0) ||
+              redesign::part_of(held.who->region[i]) != redesign::HandPart::kThumb) {
             continue;
           }
           thumb += held.pressure[i] * held.skin.vertices[i];
@@ -82,10 +83,11 @@ HandsOnHandle hands_on_handle(const std::vector<ShapeUse>& uses, const Hold& hol
       },
       progress);
   for (std::size_t u = 1; u < uses.size(); ++u) {
-    const LoadedStudy& study = uses[u].original.study;
-    for_each_held_hand(
+    const records::LoadedStudy& study = uses[u].original.study;
+    redesign::for_each_held_hand(
         study.plan, study.inputs, uses[u].original.source(), {}, 0,
-        [&](const HeldHand& held) { result.pressures.push_back(pressures_of(held)); }, progress);
+        [&](const redesign::HeldHand& held) { result.pressures.push_back(pressures_of(held)); },
+        progress);
   }
   result.breadth = breadth / hands;
   result.thumb = pressed > 0.0 ? Vec3(thumb / pressed)
@@ -94,14 +96,14 @@ HandsOnHandle hands_on_handle(const std::vector<ShapeUse>& uses, const Hold& hol
 }
 
 /// The hold that a handle is shaped for. Throws UsageError if it is none of a whole hand round it.
-Hold hold_for_shape(const HeldOriginal& original) {
-  const std::optional<Hold> hold = original.hold();
+grasp::Hold hold_for_shape(const HeldOriginal& original) {
+  const std::optional<grasp::Hold> hold = original.hold();
   if (!hold) {
     throw UsageError(original.product().name +
                      ": held at given coordinates; a shape is made for a hold (setting \"part\", "
                      "setting \"along\" and setting \"toward\" say which)");
   }
-  if (!is_power(hold->grip) || hold->is_over_end) {
+  if (!grasp::is_power(hold->grip) || hold->is_over_end) {
     throw UsageError(fmt::format(
         "{}: held in a {} grip; a shape is made for a hand that closes round a handle (setting "
         "\"grips\" medium_wrap, for example)",
@@ -111,7 +113,7 @@ Hold hold_for_shape(const HeldOriginal& original) {
 }
 
 /// Index of the candidate that was asked for.
-int picked(int number, const SearchResult& found) {
+int picked(int number, const redesign::SearchResult& found) {
   const auto count = static_cast<int>(found.history.size());
   if (number > count ||
       !found.history[static_cast<std::size_t>(number - 1)].outcome.failure.empty()) {
@@ -123,14 +125,14 @@ int picked(int number, const SearchResult& found) {
 }
 
 std::vector<ShapeVariable> variables_of(const RedesignShapeRequest& request,
-                                        const HandleFeatures& start) {
+                                        const redesign::HandleFeatures& start) {
   std::vector<ShapeVariable> variables;
   if (!request.features.empty()) return variables;
   std::vector<std::string> words = request.vary;
   if (words.empty()) words = usual_variables(request.limits.suits_both_hands);
   for (const std::string& one : words) {
     variables.push_back(shape_variable(one, start));
-    const HandleFeature& feature = *variables.back().feature;
+    const redesign::HandleFeature& feature = *variables.back().feature;
     if (request.limits.suits_both_hands && feature.is_one_sided) {
       throw UsageError(fmt::format(
           "setting \"vary\" \"{}\": a {} suits one hand only, and setting \"suits both hands\" "
@@ -142,26 +144,30 @@ std::vector<ShapeVariable> variables_of(const RedesignShapeRequest& request,
 }
 
 /// How much of flat ends keeps its outline, mm.
-std::array<double, 2> kept_ends_of(const RedesignShapeRequest& request, const HandleBody& body) {
+std::array<double, 2> kept_ends_of(const RedesignShapeRequest& request,
+                                   const redesign::HandleBody& body) {
   if (!body.is_whole) return {0.0, 0.0};
   if (const auto asked = request.limits.kept_ends) return {*asked, *asked};
-  return kept_lengths(body);
+  return redesign::kept_lengths(body);
 }
 
 /// Where the search begins: what is `given`, or else nearest to the original, within what a search
 /// may vary.
-HandleShape start_of(const RedesignShapeRequest& request, const Product& product,
-                     const HandleBody& body, const FittedFeatures& fitted,
-                     const std::optional<HandleFile>& given) {
-  HandleShape start{.body = body, .features = fitted.features};
+redesign::HandleShape start_of(const RedesignShapeRequest& request, const product::Product& product,
+                               const redesign::HandleBody& body,
+                               const redesign::FittedFeatures& fitted,
+                               const std::optional<records::HandleFile>& given) {
+  redesign::HandleShape start{.body = body, .features = fitted.features};
   start.kept_ends = kept_ends_of(request, body);
   start.kept_boxes = request.limits.kept_boxes;
   start.kept_faces = request.limits.kept_faces;
   if (body.is_whole) {
     // Ends that are kept sharp stay so.
     const bool keeps_ends = start.kept_ends[0] > 0.0 || start.kept_ends[1] > 0.0;
-    start.end_radius = request.end_radius.value_or(
-        keeps_ends && body.end_radius == 0.0 ? 0.0 : std::max(kLeastEndRadius, body.end_radius));
+    start.end_radius =
+        request.end_radius.value_or(keeps_ends && body.end_radius == 0.0
+                                        ? 0.0
+                                        : std::max(redesign::kLeastEndRadius, body.end_radius));
   }
   if (given) {
     start.features = given->features;
@@ -170,13 +176,13 @@ HandleShape start_of(const RedesignShapeRequest& request, const Product& product
     start.kept_faces = given->kept_faces;
     if (body.is_whole) start.end_radius = given->end_radius;
   } else if (request.limits.suits_both_hands) {
-    for (const HandleFeature& one : handle_features()) {
+    for (const redesign::HandleFeature& one : redesign::handle_features()) {
       if (one.is_one_sided) start.features.*one.value = 0.0;
     }
   }
-  KeepOut faces;
+  redesign::KeepOut faces;
   for (const std::string& one : start.kept_faces) faces.add_face(one);
-  start.to_kept_faces = distances_to_faces(body, product, faces);
+  start.to_kept_faces = redesign::distances_to_faces(body, product, faces);
   return start;
 }
 
@@ -200,7 +206,7 @@ void RedesignShapeRequest::check() const {
         "allowed");
   }
   for (const std::string& words : uses) shape_use(words, redesign).asked.check();
-  for (const std::string& words : vary) handle_feature(words.substr(0, words.find('=')));
+  for (const std::string& words : vary) redesign::handle_feature(words.substr(0, words.find('=')));
   if (pick && *pick < 1) {
     throw UsageError(fmt::format("setting \"pick\" is {}; 1 or more is allowed", *pick));
   }
@@ -216,12 +222,13 @@ void RedesignShapeRequest::check() const {
 RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Progress& progress) {
   asked.check();
   RedesignShapeOutcome outcome;
-  const FeatureGoal goal = feature_goal(asked.goal);
+  const redesign::FeatureGoal goal = redesign::feature_goal(asked.goal);
   RedesignShapeRequest request = asked;
   request.redesign.goal_key = goal.key;
   // Before anything is said of the hold.
-  const std::optional<HandleFile> given =
-      request.features.empty() ? std::nullopt : std::optional(read_handle(request.features));
+  const std::optional<records::HandleFile> given =
+      request.features.empty() ? std::nullopt
+                               : std::optional(records::read_handle(request.features));
   ShapeRun run{.uses = hold_originals(request, progress),
                .goal = goal,
                .limits = request.limits,
@@ -229,25 +236,25 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
                .variables = {}};
   const HeldOriginal& original = run.uses.front().original;
   outcome.notes = original.study.notes;
-  const Product& product = original.product();
-  const Hold hold = hold_for_shape(original);
-  const HandleBody body =
-      measure_handle(product, original.part_of(hold),
-                     hands_on_handle(run.uses, hold, request.spread.along, progress),
-                     {.takes_all = request.limits.kept_ends.has_value()});
-  outcome.wall_before = thinnest_wall(body);
+  const product::Product& product = original.product();
+  const grasp::Hold hold = hold_for_shape(original);
+  const redesign::HandleBody body =
+      redesign::measure_handle(product, original.part_of(hold),
+                               hands_on_handle(run.uses, hold, request.spread.along, progress),
+                               {.takes_all = request.limits.kept_ends.has_value()});
+  outcome.wall_before = redesign::thinnest_wall(body);
   if (request.limits.smallest_wall && !outcome.wall_before) {
     throw UsageError(fmt::format(
         "setting \"smallest wall\": the handle of {} is solid; leave it out", product.name));
   }
-  const FittedFeatures fitted = fit_features(body, kept_ends_of(request, body));
+  const redesign::FittedFeatures fitted = redesign::fit_features(body, kept_ends_of(request, body));
   outcome.fit_rms = fitted.rms;
   run.start = start_of(request, product, body, fitted, given);
   run.variables = variables_of(request, run.start.features);
   run.hold_original(request.spread, progress);
   outcome.story = run.search(request.search, progress);
-  create_folder(request.redesign.out);
-  SearchResult& found = outcome.story.result;
+  formats::create_folder(request.redesign.out);
+  redesign::SearchResult& found = outcome.story.result;
   if (request.pick) found.best = picked(*request.pick, found);
   write_search(request, outcome);
   if (!found.best) {
@@ -257,9 +264,9 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
                     request.redesign.product, (request.redesign.out / "history.csv").string()));
   }
   outcome.shape = run.shape_of(found.history[static_cast<std::size_t>(*found.best)].values);
-  outcome.change = shape_change(outcome.shape);
-  outcome.wall = thinnest_wall(outcome.shape);
-  const Product redesign = write_shape(request, product, outcome, progress);
+  outcome.change = redesign::shape_change(outcome.shape);
+  outcome.wall = redesign::thinnest_wall(outcome.shape);
+  const product::Product redesign = write_shape(request, product, outcome, progress);
   outcome.add_note(request.redesign, replaced_words(outcome.shape));
   if (!is_better_than_original(outcome.story)) {
     outcome.add_note(request.redesign,
@@ -279,12 +286,12 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
   }
   Json json = json_of(request, outcome);
   if (request.draws) write_shape_pictures(request, product, redesign, outcome.shape, progress);
-  write_file(request.redesign.out / "shape.json", json.dump(2) + "\n");
+  formats::write_file(request.redesign.out / "shape.json", json.dump(2) + "\n");
   if (request.on_shape) request.on_shape(outcome);
   outcome.json = json.dump();
   if (request.compares) {
     const RedesignedProduct judged{redesign, "shaped", outcome.file.string()};
-    const std::vector<StudyFigure> figures = search_figures(outcome.story);
+    const std::vector<report::StudyFigure> figures = search_figures(outcome.story);
     outcome.judge(run.uses.front().request, original, judged, progress, figures);
     for (std::size_t u = 1; u < run.uses.size(); ++u) {
       const ShapeUse& use = run.uses[u];
@@ -294,9 +301,9 @@ RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& asked, const Pro
   }
   if (outcome.gains) {
     json["gains"] = Json::parse(gains_json(*outcome.gains));
-    write_file(request.redesign.out / "shape.json", json.dump(2) + "\n");
+    formats::write_file(request.redesign.out / "shape.json", json.dump(2) + "\n");
   }
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,7 +12,7 @@
 #include "palmar/workflow/redesign/redesign_outcome.h"
 #include "palmar/workflow/redesign/shape_run.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 struct RedesignShapeOutcome;
 
@@ -30,7 +30,7 @@ struct RedesignShapeRequest {
   /// Several uses with weights, as shape_use() reads them, in place of the one that `redesign` is.
   /// The handle is measured in the hold of the first one.
   std::vector<std::string> uses;
-  SearchOptions search{.method = SearchMethod::kSurface, .evaluations = 40};
+  redesign::SearchOptions search{.method = redesign::SearchMethod::kSurface, .evaluations = 40};
   /// Candidate of the search (from 1, as in history.csv) that is made instead of the best one.
   std::optional<int> pick;
   std::optional<double>
@@ -59,9 +59,9 @@ struct RedesignShapeOutcome : RedesignOutcome {
   /// With several uses, all but the first, which is the outcome itself; files in OUT/use-2 ...
   std::vector<JudgedUse> other_uses;
   SearchStory story;
-  HandleShape shape;
+  redesign::HandleShape shape;
   double fit_rms = 0.0;  ///< mm; of the features that are nearest to the original, to it
-  ShapeChange change;
+  redesign::ShapeChange change;
   /// Of a hollow handle: walls over the hollow as it is now, of the redesign and the original, mm.
   std::optional<double> wall, wall_before;
   std::filesystem::path file;            ///< redesign.step, or redesign.stl of a part of a product
@@ -79,4 +79,4 @@ struct RedesignShapeOutcome : RedesignOutcome {
 RedesignShapeOutcome redesign_shape(const RedesignShapeRequest& request,
                                     const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -10,27 +10,27 @@
 
 #include "palmar/report/picture/region_picture.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 Json region_vector(const Vec3& x) { return {x.x(), x.y(), x.z()}; }
 
-std::array<float, 3> cad_colour(std::optional<HandPart> part) {
-  const Rgb c = colour_of(part);
+std::array<float, 3> cad_colour(std::optional<redesign::HandPart> part) {
+  const report::Rgb c = report::colour_of(part);
   return {c.r / 255.0F, c.g / 255.0F, c.b / 255.0F};
 }
 
-Json fit_json(const SurfaceFit& fit) {
-  const SimpleSurface& s = fit.surface;
+Json fit_json(const redesign::SurfaceFit& fit) {
+  const redesign::SimpleSurface& s = fit.surface;
   Json json = {{"kind", name_of(s.kind)},
                {"title", title_of(s)},
                {"point_mm", region_vector(s.point)},
                {"axis", region_vector(s.axis)}};
-  if (s.kind != FaceKind::kPlane) json["radius_mm"] = s.radius;
-  if (s.kind == FaceKind::kTorus) json["tube_radius_mm"] = s.tube_radius;
-  if (s.kind == FaceKind::kCone) {
+  if (s.kind != product::FaceKind::kPlane) json["radius_mm"] = s.radius;
+  if (s.kind == product::FaceKind::kTorus) json["tube_radius_mm"] = s.tube_radius;
+  if (s.kind == product::FaceKind::kCone) {
     json["half_angle_deg"] = s.half_angle * 180.0 / std::numbers::pi;
   }
   json["rms_mm"] = fit.rms;
@@ -39,10 +39,10 @@ Json fit_json(const SurfaceFit& fit) {
   return json;
 }
 
-Json choice_json(const SurfaceChoice& choice) {
+Json choice_json(const redesign::SurfaceChoice& choice) {
   Json json = fit_json(choice.best());
   Json others = Json::array();
-  for (const SurfaceFit& fit : choice.fits) {
+  for (const redesign::SurfaceFit& fit : choice.fits) {
     others.push_back({{"kind", name_of(fit.surface.kind)},
                       {"rms_mm", fit.has_converged ? Json(fit.rms) : Json()},
                       {"max_mm", fit.has_converged ? Json(fit.max) : Json()}});
@@ -51,9 +51,9 @@ Json choice_json(const SurfaceChoice& choice) {
   return json;
 }
 
-Json relief_json(const ReliefPlan& plan) {
+Json relief_json(const redesign::ReliefPlan& plan) {
   Json list = Json::array();
-  for (const RidgeRelief& one : plan.reliefs) {
+  for (const redesign::RidgeRelief& one : plan.reliefs) {
     list.push_back({{"name", one.name},
                     {"radius_mm", one.radius},
                     {"radius_before_mm", one.radius_before},
@@ -70,30 +70,32 @@ Json relief_json(const ReliefPlan& plan) {
   return {{"axis", region_vector(plan.axis)}, {"reliefs", std::move(list)}, {"notes", plan.notes}};
 }
 
-std::vector<FaceShare> shares_of(const RegionFindings& findings, const ContactRegion& region,
-                                 const Product& product) {
-  return face_shares(findings.map.mesh, findings.map.face_of_triangle,
-                     static_cast<int>(product.faces->face.size()), findings.count, region);
+std::vector<redesign::FaceShare> shares_of(const RegionFindings& findings,
+                                           const redesign::ContactRegion& region,
+                                           const product::Product& product) {
+  return redesign::face_shares(findings.map.mesh, findings.map.face_of_triangle,
+                               static_cast<int>(product.faces->face.size()), findings.count,
+                               region);
 }
 
-bool has_faces(const RegionFindings& findings, const Product& product) {
+bool has_faces(const RegionFindings& findings, const product::Product& product) {
   return product.faces != nullptr && !findings.map.face_of_triangle.empty();
 }
 
 }  // namespace
 
 std::string name_of(const RegionFindings& findings, const FittedPatch& patch) {
-  const ContactRegion& region = findings.regions[static_cast<std::size_t>(patch.region)];
+  const redesign::ContactRegion& region = findings.regions[static_cast<std::size_t>(patch.region)];
   return fmt::format("contact {}, patch {}", region.title, patch.number) +
          (patch.piece > 0 ? fmt::format(", piece {}", patch.piece) : "");
 }
 
-std::vector<NamedCurve> curves_of(const RegionFindings& findings) {
-  std::vector<NamedCurve> curves;
-  for (const ContactRegion& region : findings.regions) {
+std::vector<records::NamedCurve> curves_of(const RegionFindings& findings) {
+  std::vector<records::NamedCurve> curves;
+  for (const redesign::ContactRegion& region : findings.regions) {
     int number = 0;
-    for (const RegionPatch& patch : region.patches) {
-      for (const RegionOutline& outline : patch.outline) {
+    for (const redesign::RegionPatch& patch : region.patches) {
+      for (const redesign::RegionOutline& outline : patch.outline) {
         const std::string whose = region.part ? "" : "hand, ";
         curves.push_back({.name = fmt::format("outline {}{}, {}", whose, region.title, ++number),
                           .colour = cad_colour(region.part),
@@ -104,13 +106,13 @@ std::vector<NamedCurve> curves_of(const RegionFindings& findings) {
   return curves;
 }
 
-std::vector<NamedSurface> surfaces_of(const RegionFindings& findings) {
-  std::vector<NamedSurface> surfaces;
+std::vector<records::NamedSurface> surfaces_of(const RegionFindings& findings) {
+  std::vector<records::NamedSurface> surfaces;
   for (const FittedPatch& one : findings.patches) {
-    const SurfaceFit& fit = one.target.best();
-    const ContactRegion& region = findings.regions[static_cast<std::size_t>(one.region)];
-    const RegionPatch& patch = region.patches[static_cast<std::size_t>(one.number - 1)];
-    NamedSurface surface{
+    const redesign::SurfaceFit& fit = one.target.best();
+    const redesign::ContactRegion& region = findings.regions[static_cast<std::size_t>(one.region)];
+    const redesign::RegionPatch& patch = region.patches[static_cast<std::size_t>(one.number - 1)];
+    records::NamedSurface surface{
         .name = fmt::format("{}: {}", name_of(findings, one), title_of(fit.surface)),
         .colour = cad_colour(region.part),
         .surface = fit.surface,
@@ -124,17 +126,18 @@ std::vector<NamedSurface> surfaces_of(const RegionFindings& findings) {
   return surfaces;
 }
 
-std::string region_json(const RegionFindings& findings, const Product& product) {
+std::string region_json(const RegionFindings& findings, const product::Product& product) {
   Json json = {{"hands", findings.count.hands},
                {"threshold_mpa", findings.count.threshold},
                {"regions", Json::array()}};
   for (std::size_t r = 0; r < findings.regions.size(); ++r) {
-    const ContactRegion& region = findings.regions[r];
+    const redesign::ContactRegion& region = findings.regions[r];
     Json patches = Json::array();
     for (std::size_t k = 0; k < region.patches.size(); ++k) {
-      const RegionPatch& patch = region.patches[k];
+      const redesign::RegionPatch& patch = region.patches[k];
       Json lengths = Json::array();
-      for (const RegionOutline& outline : patch.outline) lengths.push_back(outline.length);
+      for (const redesign::RegionOutline& outline : patch.outline)
+        lengths.push_back(outline.length);
       Json one = {{"patch", k + 1},
                   {"area_mm2", patch.area},
                   {"centre_mm", region_vector(patch.centre)},
@@ -163,8 +166,9 @@ std::string region_json(const RegionFindings& findings, const Product& product) 
                   {"patches", std::move(patches)}};
     if (has_faces(findings, product)) {
       Json faces = Json::array();
-      for (const FaceShare& share : shares_of(findings, region, product)) {
-        const ProductFace& face = product.faces->face[static_cast<std::size_t>(share.face)];
+      for (const redesign::FaceShare& share : shares_of(findings, region, product)) {
+        const product::ProductFace& face =
+            product.faces->face[static_cast<std::size_t>(share.face)];
         faces.push_back({{"face", face.number},
                          {"title", title_of(face)},
                          {"area_mm2", share.area},
@@ -186,12 +190,12 @@ std::string region_json(const RegionFindings& findings, const Product& product) 
   return json.dump();
 }
 
-std::string region_csv(const RegionFindings& findings, const Product& product) {
+std::string region_csv(const RegionFindings& findings, const product::Product& product) {
   if (!has_faces(findings, product)) return "";
   std::string csv = "region,face,title,area_mm2,share_of_face,most_hands_share\n";
-  for (const ContactRegion& region : findings.regions) {
-    for (const FaceShare& share : shares_of(findings, region, product)) {
-      const ProductFace& face = product.faces->face[static_cast<std::size_t>(share.face)];
+  for (const redesign::ContactRegion& region : findings.regions) {
+    for (const redesign::FaceShare& share : shares_of(findings, region, product)) {
+      const product::ProductFace& face = product.faces->face[static_cast<std::size_t>(share.face)];
       std::string title = title_of(face);
       for (std::size_t q = title.find('"'); q != std::string::npos; q = title.find('"', q + 2)) {
         title.insert(q, 1, '"');
@@ -204,9 +208,10 @@ std::string region_csv(const RegionFindings& findings, const Product& product) {
   return csv;
 }
 
-Drawing region_drawing(const UnrolledOutline& sheet, const std::vector<ContactRegion>& regions,
-                       const std::string& product) {
-  Drawing drawing;
+formats::Drawing region_drawing(const redesign::UnrolledOutline& sheet,
+                                const std::vector<redesign::ContactRegion>& regions,
+                                const std::string& product) {
+  formats::Drawing drawing;
   const double height = sheet.high - sheet.low;
   drawing.title =
       fmt::format("{}: contact region unrolled, {:.2f} x {:.2f} mm", product, sheet.width, height);
@@ -222,27 +227,27 @@ Drawing region_drawing(const UnrolledOutline& sheet, const std::vector<ContactRe
       true);
   add(1, {{0.5 * sheet.width, sheet.low - 4.0}, {0.5 * sheet.width, sheet.high + 4.0}}, false);
   for (const double x : sheet.edges) add(2, {{x, sheet.low}, {x, sheet.high}}, false);
-  for (const ContactRegion& region : regions) {
-    const Rgb c = colour_of(region.part);
-    const int dxf = region.part == HandPart::kPalm      ? 5
-                    : region.part == HandPart::kThumb   ? 30
-                    : region.part == HandPart::kFingers ? 1
-                                                        : 6;
+  for (const redesign::ContactRegion& region : regions) {
+    const report::Rgb c = report::colour_of(region.part);
+    const int dxf = region.part == redesign::HandPart::kPalm      ? 5
+                    : region.part == redesign::HandPart::kThumb   ? 30
+                    : region.part == redesign::HandPart::kFingers ? 1
+                                                                  : 6;
     drawing.layers.push_back({"outline " + (region.part ? name_of(*region.part) : "hand"),
                               {c.r, c.g, c.b},
                               dxf,
                               0.35,
                               false});
     const int layer = static_cast<int>(drawing.layers.size()) - 1;
-    for (const UnrolledLine& line : sheet.lines) {
+    for (const redesign::UnrolledLine& line : sheet.lines) {
       if (line.name == region.title) add(layer, line.points, line.is_closed);
     }
   }
   drawing.texts.push_back({3, {0.0, height + 8.0}, 3.0, drawing.title});
   std::string legend = "mm, true scale; axis upwards, seen from outside";
-  for (const ContactRegion& region : regions) legend += "; " + region.title;
+  for (const redesign::ContactRegion& region : regions) legend += "; " + region.title;
   drawing.texts.push_back({3, {0.0, -8.0}, 2.2, legend});
   return drawing;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -10,17 +10,18 @@
 #include "palmar/records/region_json.h"
 #include "palmar/workflow/redesign/region_findings.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Outlines of all regions and the fitted target surfaces, as the CAD program is given them.
-std::vector<NamedCurve> curves_of(const RegionFindings& findings);
-std::vector<NamedSurface> surfaces_of(const RegionFindings& findings);
+std::vector<records::NamedCurve> curves_of(const RegionFindings& findings);
+std::vector<records::NamedSurface> surfaces_of(const RegionFindings& findings);
 
 /// One JSON object.
-std::string region_json(const RegionFindings& findings, const Product& product);
+std::string region_json(const RegionFindings& findings, const product::Product& product);
 /// Faces with their share of area in each region; "" if the product has no faces.
-std::string region_csv(const RegionFindings& findings, const Product& product);
-Drawing region_drawing(const UnrolledOutline& sheet, const std::vector<ContactRegion>& regions,
-                       const std::string& product);
+std::string region_csv(const RegionFindings& findings, const product::Product& product);
+formats::Drawing region_drawing(const redesign::UnrolledOutline& sheet,
+                                const std::vector<redesign::ContactRegion>& regions,
+                                const std::string& product);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -13,7 +13,7 @@
 #include "palmar/report/chart/line_chart.h"
 #include "palmar/report/chart/scatter_chart.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -45,21 +45,21 @@ std::string numbers_of(const std::vector<int>& candidates) {
   return text;
 }
 
-bool may_be_chosen(const SearchTrial& trial) {
+bool may_be_chosen(const redesign::SearchTrial& trial) {
   return trial.is_feasible && !trial.outcome.is_rough();
 }
 
 }  // namespace
 
-void run_search(SearchStory& story, const CandidateJudge& judge, const SearchOptions& options,
-                const Progress& progress) {
-  SearchProblem& problem = story.problem;
+void run_search(SearchStory& story, const CandidateJudge& judge,
+                const redesign::SearchOptions& options, const Progress& progress) {
+  redesign::SearchProblem& problem = story.problem;
   problem.evaluate = [&](const std::vector<double>& values) {
     story.beside.emplace_back();
     return judge(values, story.beside.back());
   };
-  story.result =
-      problem.variables.empty() ? as_given(problem) : search_features(problem, options, progress);
+  story.result = problem.variables.empty() ? redesign::as_given(problem)
+                                           : redesign::search_features(problem, options, progress);
   problem.evaluate = nullptr;  // what they refer to ends with the search
   problem.measure = nullptr;
 }
@@ -70,14 +70,14 @@ bool is_better_than_original(const SearchStory& story) {
 }
 
 std::string history_csv(const SearchStory& story) {
-  CsvTable table;
+  records::CsvTable table;
   table.header = {"candidate"};
-  for (const SearchVariable& variable : story.problem.variables) {
+  for (const redesign::SearchVariable& variable : story.problem.variables) {
     table.header.push_back(heading(variable.name, variable.unit));
   }
   table.header.push_back(heading(story.goal.name, story.goal.unit));
   table.header.emplace_back("standard_error");
-  for (const SearchConstraint& constraint : story.problem.constraints) {
+  for (const redesign::SearchConstraint& constraint : story.problem.constraints) {
     table.header.push_back(heading(constraint.name, constraint.unit));
   }
   for (std::size_t u = 0; u < story.uses.size(); ++u) {
@@ -88,7 +88,7 @@ std::string history_csv(const SearchStory& story) {
     table.header.emplace_back(name);
   }
   for (size_t i = 0; i < story.result.history.size(); ++i) {
-    const SearchTrial& trial = story.result.history[i];
+    const redesign::SearchTrial& trial = story.result.history[i];
     const bool is_made = trial.outcome.failure.empty();
     std::vector<std::string> row = {std::to_string(i + 1)};
     for (const double value : trial.values) row.push_back(cell(value));
@@ -109,12 +109,12 @@ std::string history_csv(const SearchStory& story) {
     row.push_back(fmt::format("{:.2f}", trial.seconds));
     table.rows.push_back(std::move(row));
   }
-  return format_csv(table);
+  return records::format_csv(table);
 }
 
 std::string history_json(const SearchStory& story) {
   Json variables = Json::array(), constraints = Json::array(), history = Json::array();
-  for (const SearchVariable& one : story.problem.variables) {
+  for (const redesign::SearchVariable& one : story.problem.variables) {
     variables.push_back({{"name", one.name},
                          {"unit", one.unit},
                          {"lowest", one.lowest},
@@ -122,13 +122,13 @@ std::string history_json(const SearchStory& story) {
                          {"start", one.start},
                          {"step", one.step}});
   }
-  for (const SearchConstraint& one : story.problem.constraints) {
+  for (const redesign::SearchConstraint& one : story.problem.constraints) {
     constraints.push_back({{"name", one.name},
                            {"unit", one.unit},
                            {one.is_highest ? "highest" : "lowest", one.limit}});
   }
   for (size_t i = 0; i < story.result.history.size(); ++i) {
-    const SearchTrial& trial = story.result.history[i];
+    const redesign::SearchTrial& trial = story.result.history[i];
     Json one = {{"values", trial.values}, {"is_feasible", trial.is_feasible}};
     if (trial.outcome.failure.empty()) {
       one["goal"] = trial.outcome.goal;
@@ -163,11 +163,12 @@ std::string history_json(const SearchStory& story) {
 }
 
 std::string history_svg(const SearchStory& story) {
-  LineSeries all{.name = "candidate", .points = {}};
-  LineSeries best{.name = "best within the constraints", .points = {}, .colour = {190, 80, 60}};
+  report::LineSeries all{.name = "candidate", .points = {}};
+  report::LineSeries best{
+      .name = "best within the constraints", .points = {}, .colour = {190, 80, 60}};
   std::optional<double> lead;
   for (size_t i = 0; i < story.result.history.size(); ++i) {
-    const SearchTrial& trial = story.result.history[i];
+    const redesign::SearchTrial& trial = story.result.history[i];
     const double x = static_cast<double>(i + 1);
     if (trial.outcome.failure.empty()) all.points.emplace_back(x, trial.outcome.goal);
     if (may_be_chosen(trial) &&
@@ -177,14 +178,14 @@ std::string history_svg(const SearchStory& story) {
     }
     if (lead) best.points.emplace_back(x, *lead);
   }
-  std::vector<LineChart> charts = {{.title = "Search: " + story.goal.name,
-                                    .x_label = "Candidate",
-                                    .y_label = with_unit("Goal", story.goal.unit),
-                                    .series = {all, best}}};
+  std::vector<report::LineChart> charts = {{.title = "Search: " + story.goal.name,
+                                            .x_label = "Candidate",
+                                            .y_label = with_unit("Goal", story.goal.unit),
+                                            .series = {all, best}}};
   if (story.problem.variables.size() == 1) {
-    const SearchVariable& variable = story.problem.variables.front();
-    LineSeries over{.name = "", .points = {}};
-    for (const SearchTrial& trial : story.result.history) {
+    const redesign::SearchVariable& variable = story.problem.variables.front();
+    report::LineSeries over{.name = "", .points = {}};
+    for (const redesign::SearchTrial& trial : story.result.history) {
       if (trial.outcome.failure.empty()) {
         over.points.emplace_back(trial.values.front(), trial.outcome.goal);
       }
@@ -194,7 +195,7 @@ std::string history_svg(const SearchStory& story) {
                       .y_label = with_unit("Goal", story.goal.unit),
                       .series = {over}});
   }
-  return svg_stack(charts);
+  return report::svg_stack(charts);
 }
 
 std::vector<int> fair_choices(const SearchStory& story) {
@@ -251,21 +252,22 @@ std::vector<int> fair_uses(const SearchStory& story) {
   return fair;
 }
 
-std::vector<Figure> uses_figures(const SearchStory& story) {
-  std::vector<Figure> figures;
+std::vector<report::Figure> uses_figures(const SearchStory& story) {
+  std::vector<report::Figure> figures;
   const std::vector<int> fair = fair_uses(story);
   for (std::size_t u = 1; u < story.uses.size(); ++u) {
     const auto point = [&](std::size_t i) {
       const std::vector<double>& by_use = story.beside[i].by_use;
       return Eigen::Vector2d(100.0 * by_use.front(), 100.0 * by_use[u]);
     };
-    ScatterSeries all{.name = "candidates", .points = {}, .line = {}, .colour = {150, 150, 150}};
-    ScatterSeries front{.name = "none is better in every use", .points = {}, .line = {}};
-    ScatterSeries best{.name = "the redesign", .points = {}, .line = {}};
-    ScatterSeries original{.name = "the original", .points = {{100.0, 100.0}}, .line = {}};
-    front.colour = series_colour(1);
-    original.colour = series_colour(2);
-    best.colour = series_colour(3);
+    report::ScatterSeries all{
+        .name = "candidates", .points = {}, .line = {}, .colour = {150, 150, 150}};
+    report::ScatterSeries front{.name = "none is better in every use", .points = {}, .line = {}};
+    report::ScatterSeries best{.name = "the redesign", .points = {}, .line = {}};
+    report::ScatterSeries original{.name = "the original", .points = {{100.0, 100.0}}, .line = {}};
+    front.colour = report::series_colour(1);
+    original.colour = report::series_colour(2);
+    best.colour = report::series_colour(3);
     // Every candidate once, as points that lie on one another take each other's colour.
     for (std::size_t i = 0; i < story.result.history.size(); ++i) {
       if (!may_be_chosen(story.result.history[i]) || story.beside[i].by_use.empty()) continue;
@@ -280,24 +282,26 @@ std::vector<Figure> uses_figures(const SearchStory& story) {
       front.line.x.push_back(at.x());
       front.line.value.push_back(at.y());
     }
-    figures.push_back(scatter_chart({.title = "What one use costs the other",
-                                     .x_label = story.uses.front() + ": goal, % of the original's",
-                                     .y_label = story.uses[u] + ": goal, % of the original's",
-                                     .series = {all, front, original, best},
-                                     .notes = {"candidates of the front: " + numbers_of(fair)}}));
+    figures.push_back(
+        report::scatter_chart({.title = "What one use costs the other",
+                               .x_label = story.uses.front() + ": goal, % of the original's",
+                               .y_label = story.uses[u] + ": goal, % of the original's",
+                               .series = {all, front, original, best},
+                               .notes = {"candidates of the front: " + numbers_of(fair)}}));
   }
   return figures;
 }
 
-std::string choices_svg(const SearchStory& story) { return to_svg(choices_figure(story)); }
+std::string choices_svg(const SearchStory& story) { return report::to_svg(choices_figure(story)); }
 
-Figure choices_figure(const SearchStory& story) {
-  ScatterSeries all{.name = "candidates", .points = {}, .line = {}, .colour = {150, 150, 150}};
-  ScatterSeries fair{.name = "none moves less and is better", .points = {}, .line = {}};
-  ScatterSeries original{
+report::Figure choices_figure(const SearchStory& story) {
+  report::ScatterSeries all{
+      .name = "candidates", .points = {}, .line = {}, .colour = {150, 150, 150}};
+  report::ScatterSeries fair{.name = "none moves less and is better", .points = {}, .line = {}};
+  report::ScatterSeries original{
       .name = "the original", .points = {{0.0, story.original.value}}, .line = {}};
-  fair.colour = series_colour(1);
-  original.colour = series_colour(2);
+  fair.colour = report::series_colour(1);
+  original.colour = report::series_colour(2);
   const auto point = [&](std::size_t i) {
     return Eigen::Vector2d(story.beside[i].largest_change, story.result.history[i].outcome.goal);
   };
@@ -310,11 +314,12 @@ Figure choices_figure(const SearchStory& story) {
     fair.line.x.push_back(fair.points.back().x());
     fair.line.value.push_back(fair.points.back().y());
   }
-  return scatter_chart({.title = "What a gain costs",
-                        .x_label = "largest change of the surface, mm",
-                        .y_label = with_unit(story.goal.name, story.goal.unit),
-                        .series = {all, fair, original},
-                        .notes = {"joined, from the left: candidates " + numbers_of(choices)}});
+  return report::scatter_chart(
+      {.title = "What a gain costs",
+       .x_label = "largest change of the surface, mm",
+       .y_label = with_unit(story.goal.name, story.goal.unit),
+       .series = {all, fair, original},
+       .notes = {"joined, from the left: candidates " + numbers_of(choices)}});
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,22 +12,22 @@
 #include "palmar/report/chart/figure.h"
 #include "palmar/workflow/redesign/feature_settings.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A search with what is to be said of it.
 struct SearchStory {
   std::vector<FeatureSetting> settings;
-  SearchProblem problem;
-  FeatureGoal goal;
-  SearchResult result;
-  GoalFigure original;  ///< in the same hands
+  redesign::SearchProblem problem;
+  redesign::FeatureGoal goal;
+  redesign::SearchResult result;
+  redesign::GoalFigure original;  ///< in the same hands
   /// One per trial that could be made: hands that lost hold, grip force by the original's.
   struct Beside {
     int hands = 0, lost = 0;
     double grip_force_ratio = 0.0;
     double volume_ratio = 0.0;
     double largest_change = 0.0;  ///< mm, of the surface
-    GoalFigure figure;
+    redesign::GoalFigure figure;
     std::vector<double> by_use = {};  ///< goal by the original's, by `uses`; none if broken off
   };
   std::vector<Beside> beside;
@@ -37,12 +37,12 @@ struct SearchStory {
 /// Makes a candidate from the values of its variables, assesses it and says what is beside the
 /// goal.
 using CandidateJudge =
-    std::function<SearchOutcome(const std::vector<double>&, SearchStory::Beside&)>;
+    std::function<redesign::SearchOutcome(const std::vector<double>&, SearchStory::Beside&)>;
 
 /// Searches the problem of a story, or assesses the one candidate if nothing varies: `result` and
 /// `beside`. Throws as search_features().
-void run_search(SearchStory& story, const CandidateJudge& judge, const SearchOptions& options,
-                const Progress& progress);
+void run_search(SearchStory& story, const CandidateJudge& judge,
+                const redesign::SearchOptions& options, const Progress& progress);
 
 /// Whether the goal of the best candidate, which there must be, is better than the original's.
 bool is_better_than_original(const SearchStory& story);
@@ -63,11 +63,11 @@ std::string choices_svg(const SearchStory& story);
 std::vector<int> fair_uses(const SearchStory& story);
 /// The same candidates drawn: of every use but the first its goal over that of the first, as shares
 /// of the original's, with the fair ones and the best one marked.
-std::vector<Figure> uses_figures(const SearchStory& story);
+std::vector<report::Figure> uses_figures(const SearchStory& story);
 /// The picture of choices_svg().
-Figure choices_figure(const SearchStory& story);
+report::Figure choices_figure(const SearchStory& story);
 
 /// The goal over the candidates, and the best feasible one so far.
 std::string history_svg(const SearchStory& story);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -15,7 +15,7 @@
 #include "palmar/records/product/cad_handle.h"
 #include "palmar/report/picture/depth_pictures.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace fs = std::filesystem;
 namespace {
 
@@ -23,10 +23,10 @@ using Json = nlohmann::ordered_json;
 
 }  // namespace
 
-Deviation kept_deviation(const HandleShape& shape, const TriangleMesh& solid,
-                         const Product& product) {
+Deviation kept_deviation(const redesign::HandleShape& shape, const geometry::TriangleMesh& solid,
+                         const product::Product& product) {
   constexpr double kFar = 20.0, kBeside = 0.05;  // mm
-  const Rigid3 to_handle = shape.body.product_from_handle.inverse();
+  const geometry::Rigid3 to_handle = shape.body.product_from_handle.inverse();
   // Roundings of the ends are made anew with the end radius.
   const double margin = std::max({shape.end_radius, shape.body.end_radius, kBeside});
   std::vector<Vec3> kept;
@@ -36,11 +36,11 @@ Deviation kept_deviation(const HandleShape& shape, const TriangleMesh& solid,
     const Eigen::Vector2d across = p.head<2>() - shape.body.centre_at(p.z());
     if (shape.share_at(p.z(), std::atan2(across.y(), across.x())) == 0.0) kept.push_back(x);
   }
-  std::vector<DistanceSample> samples(kept.size());
+  std::vector<geometry::DistanceSample> samples(kept.size());
   product.distance->sample(kept, kFar, samples);
   Deviation deviation;
   double sum = 0.0;
-  for (const DistanceSample& one : samples) {
+  for (const geometry::DistanceSample& one : samples) {
     deviation.largest = std::max(deviation.largest, std::abs(one.distance));
     sum += one.distance * one.distance;
   }
@@ -48,8 +48,8 @@ Deviation kept_deviation(const HandleShape& shape, const TriangleMesh& solid,
   return deviation;
 }
 
-std::string replaced_words(const HandleShape& shape) {
-  const HandleBody& body = shape.body;
+std::string replaced_words(const redesign::HandleShape& shape) {
+  const redesign::HandleBody& body = shape.body;
   const auto at = [&](double z) { return fmt::format("{:.0f}", z - body.bottom); };
   if (!body.is_whole) {
     return fmt::format(
@@ -79,15 +79,16 @@ std::string hollow_words(const std::string& product, double wall_before, double 
       product, wall_before, now);
 }
 
-Product write_shape(const RedesignShapeRequest& request, const Product& original,
-                    RedesignShapeOutcome& outcome, const Progress& progress) {
+product::Product write_shape(const RedesignShapeRequest& request, const product::Product& original,
+                             RedesignShapeOutcome& outcome, const Progress& progress) {
   const fs::path& folder = request.redesign.out;
-  const HandleShape& shape = outcome.shape;
+  const redesign::HandleShape& shape = outcome.shape;
   const bool is_whole = shape.body.is_whole;
-  std::optional<CadSource> source;
+  std::optional<records::CadSource> source;
   if (!is_whole && original.faces != nullptr) source = cad_source_of(request.redesign);
-  const MadeHandle made = make_handle(shape, original.name, source, 0.01, {}, progress);
-  const HandleSolid& solid = made.handle;
+  const records::MadeHandle made =
+      records::make_handle(shape, original.name, source, 0.01, {}, progress);
+  const records::HandleSolid& solid = made.handle;
   outcome.solid_volume = solid.volume;
   outcome.faces = solid.faces;
   outcome.poles = solid.poles;
@@ -97,53 +98,55 @@ Product write_shape(const RedesignShapeRequest& request, const Product& original
         original.name +
             ": the product with its new handle is written as a mesh only: " + made.failure);
   }
-  UnitDecision unit;
-  unit.unit = LengthUnit::kMillimetre;
-  unit.source = UnitSource::kMade;
+  product::UnitDecision unit;
+  unit.unit = geometry::LengthUnit::kMillimetre;
+  unit.source = product::UnitSource::kMade;
   if (is_whole && shape.keeps()) {
     outcome.kept_deviation = kept_deviation(shape, solid.mesh.mesh, original).largest;
   }
   const std::string name = original.name + " shaped";
-  const HandleSolid* const step = is_whole ? &solid : made.whole ? &*made.whole : nullptr;
-  Product product = step != nullptr ? make_product(name, step->mesh.mesh, unit, "redesign.step",
-                                                   &step->mesh.faces)
-                                    : shaped_product(original, shape, name);
+  const records::HandleSolid* const step = is_whole ? &solid : made.whole ? &*made.whole : nullptr;
+  product::Product product =
+      step != nullptr
+          ? product::make_product(name, step->mesh.mesh, unit, "redesign.step", &step->mesh.faces)
+          : redesign::shaped_product(original, shape, name);
   outcome.file = folder / (step != nullptr ? "redesign.step" : "redesign.stl");
-  if (step != nullptr) write_file(folder / "redesign.step", step->step);
-  if (!is_whole) write_file(folder / "handle.step", solid.step);
-  write_mesh(folder / "redesign.stl", product.mesh);
-  write_file(folder / "handle.toml", handle_toml(shape, original.name));
-  write_file(folder / "handle.FCMacro", freecad_macro(shape, original.name));
+  if (step != nullptr) formats::write_file(folder / "redesign.step", step->step);
+  if (!is_whole) formats::write_file(folder / "handle.step", solid.step);
+  formats::write_mesh(folder / "redesign.stl", product.mesh);
+  formats::write_file(folder / "handle.toml", records::handle_toml(shape, original.name));
+  formats::write_file(folder / "handle.FCMacro", records::freecad_macro(shape, original.name));
   return product;
 }
 
 void write_search(const RedesignShapeRequest& request, const RedesignShapeOutcome& outcome) {
   const fs::path& folder = request.redesign.out;
-  write_file(folder / "history.csv", history_csv(outcome.story));
-  write_file(folder / "history.svg", history_svg(outcome.story));
-  write_file(folder / "choices.svg", choices_svg(outcome.story));
+  formats::write_file(folder / "history.csv", history_csv(outcome.story));
+  formats::write_file(folder / "history.svg", history_svg(outcome.story));
+  formats::write_file(folder / "choices.svg", choices_svg(outcome.story));
   int use = 2;
-  for (const Figure& one : uses_figures(outcome.story)) {
-    write_file(folder / fmt::format("uses-{}.svg", use++), to_svg(one));
+  for (const report::Figure& one : uses_figures(outcome.story)) {
+    formats::write_file(folder / fmt::format("uses-{}.svg", use++), report::to_svg(one));
   }
 }
 
-void write_shape_pictures(const RedesignShapeRequest& request, const Product& original,
-                          const Product& redesign, const HandleShape& shape,
+void write_shape_pictures(const RedesignShapeRequest& request, const product::Product& original,
+                          const product::Product& redesign, const redesign::HandleShape& shape,
                           const Progress& progress) {
-  DepthScene scene;
+  report::DepthScene scene;
   // The map's even triangles show shading better than a tessellation's long ones.
-  scene.mesh = shape.body.is_whole ? handle_mesh(shape) : redesign.mesh;
-  std::vector<DistanceSample> samples(scene.mesh.vertices.size());
+  scene.mesh = shape.body.is_whole ? redesign::handle_mesh(shape) : redesign.mesh;
+  std::vector<geometry::DistanceSample> samples(scene.mesh.vertices.size());
   constexpr double kFar = 100.0;  // mm
   original.distance->sample(scene.mesh.vertices, kFar, samples);
-  for (const DistanceSample& one : samples) scene.depth.push_back(std::abs(one.distance));
+  for (const geometry::DistanceSample& one : samples) scene.depth.push_back(std::abs(one.distance));
   scene.title = original.name + ", shaped anew";
   scene.subtitle = "colours: distance from the original's surface";
   scene.axis = shape.body.product_from_handle.rotation * Vec3::UnitZ();
   scene.palm = -(shape.body.product_from_handle.rotation * Vec3::UnitY());
-  for (const Picture& picture : depth_pictures(scene, {}, progress)) {
-    write_file(request.redesign.out / (picture.name + ".png"), encode_png(picture.image));
+  for (const report::Picture& picture : report::depth_pictures(scene, {}, progress)) {
+    formats::write_file(request.redesign.out / (picture.name + ".png"),
+                        report::encode_png(picture.image));
   }
 }
 
@@ -157,8 +160,8 @@ Json json_of(const RedesignShapeRequest& request, const RedesignShapeOutcome& ou
       {"spread",
        {{"places", request.spread.places},
         {"along_mm", request.spread.along},
-        {"turn_deg", handle_feature("turn").scale * request.spread.turn}}},
-      {"features", features_json(outcome.shape.features)},
+        {"turn_deg", redesign::handle_feature("turn").scale * request.spread.turn}}},
+      {"features", records::features_json(outcome.shape.features)},
       {"is_whole", outcome.shape.body.is_whole},
       {"gripped_mm", outcome.shape.body.gripped},
       {"length_mm", {outcome.shape.body.bottom, outcome.shape.body.top}},
@@ -178,10 +181,10 @@ Json json_of(const RedesignShapeRequest& request, const RedesignShapeOutcome& ou
   return json;
 }
 
-std::vector<StudyFigure> search_figures(const SearchStory& story) {
+std::vector<report::StudyFigure> search_figures(const SearchStory& story) {
   if (story.result.history.size() < 2) return {};
-  std::vector<StudyFigure> figures;
-  for (Figure& one : uses_figures(story)) {
+  std::vector<report::StudyFigure> figures;
+  for (report::Figure& one : uses_figures(story)) {
     figures.push_back({.name = fmt::format("uses_{}", figures.size() + 2),
                        .description =
                            "Candidates of the search in two uses, and those that no other "
@@ -195,4 +198,4 @@ std::vector<StudyFigure> search_figures(const SearchStory& story) {
   return figures;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

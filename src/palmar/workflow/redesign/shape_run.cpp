@@ -15,7 +15,7 @@
 #include "palmar/redesign/handle_wall.h"
 #include "palmar/redesign/mould_release.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 /// Ranges of features that a search looks through unless it is told otherwise, in their units; of
@@ -33,7 +33,7 @@ constexpr UsualRange kUsual[] = {
     {"turn", -30.0, 30.0},      {"twist", -20.0, 20.0}};
 
 double read_number(const std::string& text, const std::string& words) {
-  const std::optional<double> value = parse_double(text);
+  const std::optional<double> value = formats::parse_double(text);
   if (value && std::isfinite(*value)) return *value;
   throw UsageError(fmt::format(
       "setting \"vary\" \"{}\": \"{}\" is no number; a feature as width, with a range as "
@@ -57,7 +57,8 @@ void ShapeLimits::check() const {
                     *smallest_wall, "0 to 50 mm");
   }
   constexpr double kMostDraft = 0.5236;  // 30 degrees
-  require_setting(draft >= 0.0 && draft <= kMostDraft, "draft", draft / kDegree, "0 to 30 degrees");
+  require_setting(draft >= 0.0 && draft <= kMostDraft, "draft", draft / geometry::kDegree,
+                  "0 to 30 degrees");
   require_setting(land >= 0.0, "draft land", land, "0 mm or more");
   require_setting(smallest_radius >= 0.0, "smallest radius", smallest_radius, "0 mm or more");
   if (kept_ends) {
@@ -72,10 +73,10 @@ void HoldSpread::check() const {
   require_setting(turn >= 0.0 && turn <= 1.0, "spread of the turn", turn, "0 to 1 rad");
 }
 
-ShapeVariable shape_variable(const std::string& words, const HandleFeatures& start) {
+ShapeVariable shape_variable(const std::string& words, const redesign::HandleFeatures& start) {
   const std::size_t equals = words.find('=');
-  ShapeVariable variable{.feature = &handle_feature(words.substr(0, equals))};
-  const HandleFeature& feature = *variable.feature;
+  ShapeVariable variable{.feature = &redesign::handle_feature(words.substr(0, equals))};
+  const redesign::HandleFeature& feature = *variable.feature;
   if (equals == std::string::npos) {
     const double now = feature.scale * start.*feature.value;
     variable.lowest = kThinnestShare * now;
@@ -108,19 +109,19 @@ void ShapeRun::hold_original(const HoldSpread& spread, const Progress& progress)
   }
 }
 
-HandleShape ShapeRun::shape_of(const std::vector<double>& varying) const {
-  HandleShape shape = start;
+redesign::HandleShape ShapeRun::shape_of(const std::vector<double>& varying) const {
+  redesign::HandleShape shape = start;
   std::size_t next = 0;
   for (const ShapeVariable& one : variables) {
     const double value = one.lowest < one.highest ? varying.at(next++) : one.lowest;
     shape.features.*one.feature->value = value / one.feature->scale;
   }
-  check(shape.features);
+  redesign::check(shape.features);
   return shape;
 }
 
-std::vector<SearchConstraint> ShapeRun::constraints() const {
-  std::vector<SearchConstraint> all = {
+std::vector<redesign::SearchConstraint> ShapeRun::constraints() const {
+  std::vector<redesign::SearchConstraint> all = {
       {"smallest radius round the handle", "mm", limits.smallest_radius, false}};
   if (limits.largest_change) {
     all.push_back({"largest change of the surface", "mm", *limits.largest_change, true});
@@ -132,20 +133,23 @@ std::vector<SearchConstraint> ShapeRun::constraints() const {
     all.push_back({"undercut against the mould's pull", "mm", kLeastUndercut, true});
     all.push_back({"height that leans less than the draft angle", "mm", limits.land, true});
   }
-  for (const SearchConstraint& one : limits.on_volume()) all.push_back(one);
+  for (const redesign::SearchConstraint& one : limits.on_volume()) all.push_back(one);
   all.push_back(limits.on_lost_hands());
   return all;
 }
 
-std::vector<double> ShapeRun::values_of(const HandleShape& shape, const ShapeChange& change,
+std::vector<double> ShapeRun::values_of(const redesign::HandleShape& shape,
+                                        const redesign::ShapeChange& change,
                                         double lost_share) const {
   std::vector<double> values = {change.smallest_radius};
   if (limits.largest_change) values.push_back(change.largest);
   if (limits.smallest_wall) {
-    values.push_back(thinnest_wall(shape).value_or(std::numeric_limits<double>::infinity()));
+    values.push_back(
+        redesign::thinnest_wall(shape).value_or(std::numeric_limits<double>::infinity()));
   }
   if (limits.pull) {
-    const MouldRelease release = mould_release(shape, *limits.pull, limits.draft);
+    const redesign::MouldRelease release =
+        redesign::mould_release(shape, *limits.pull, limits.draft);
     values.push_back(release.undercut);
     values.push_back(release.steep_height);
   }
@@ -154,14 +158,17 @@ std::vector<double> ShapeRun::values_of(const HandleShape& shape, const ShapeCha
   return values;
 }
 
-SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigure>& lead,
-                               SearchStory::Beside& beside, const Progress& progress) const {
-  const Product candidate = shaped_product(uses.front().original.product(), shape, "candidate");
+redesign::SearchOutcome ShapeRun::assess(const redesign::HandleShape& shape,
+                                         std::optional<redesign::GoalFigure>& lead,
+                                         SearchStory::Beside& beside,
+                                         const Progress& progress) const {
+  const product::Product candidate =
+      redesign::shaped_product(uses.front().original.product(), shape, "candidate");
   const Progress quiet = silent(progress);
   /// One use's hands on the candidate.
   struct Held {
     OffsetGrasps grasps;
-    std::vector<StudyRecord> after = {};
+    std::vector<study::StudyRecord> after = {};
   };
   std::vector<std::unique_ptr<Held>> held;
   int all = 0, first = 0;
@@ -170,11 +177,11 @@ SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigur
         new Held{.grasps = OffsetGrasps({.original = use.original,
                                          .shapes = {{candidate, 1}},
                                          .offsets = use.offsets,
-                                         .with_indices = needs_indices(goal)})}));
+                                         .with_indices = redesign::needs_indices(goal)})}));
     all += use.hand_count();
     first += std::min(use.first_hands(), use.hand_count());
   }
-  std::vector<GoalFigure> figures(uses.size());
+  std::vector<redesign::GoalFigure> figures(uses.size());
   double grip_force = 0.0;
   const auto take = [&](bool only_first, bool goes_on) {
     grip_force = 0.0;
@@ -184,21 +191,22 @@ SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigur
           only_first ? std::min(use.first_hands(), use.hand_count()) : use.hand_count();
       const int from = goes_on ? std::min(use.first_hands(), use.hand_count()) : 0;
       use.grasp(held[u]->grasps, from, hands, held[u]->after, quiet);
-      const StudyResults results = use.results_with(held[u]->after, hands);
-      figures[u] = goal_of(results, goal, 1);
-      grip_force += use.weight * mean_ratio(results, "grip_force_n", 1);
+      const study::StudyResults results = use.results_with(held[u]->after, hands);
+      figures[u] = redesign::goal_of(results, goal, 1);
+      grip_force += use.weight * redesign::mean_ratio(results, "grip_force_n", 1);
     }
     return figure_of_uses(uses, figures);
   };
-  const bool may_stop =
-      lead && goal.statistic == FeatureGoal::Statistic::kMean && all >= kWorthStopping * first;
-  GoalFigure figure = take(may_stop, false);
-  SearchOutcome outcome;
+  const bool may_stop = lead && goal.statistic == redesign::FeatureGoal::Statistic::kMean &&
+                        all >= kWorthStopping * first;
+  redesign::GoalFigure figure = take(may_stop, false);
+  redesign::SearchOutcome outcome;
   if (may_stop) {
     const std::size_t count = figure.values.size();
-    const GoalFigure of_lead = first_of(*lead, count), now = first_of(figure, count);
-    if (is_worse(goal, of_lead, now, kSure)) {
-      const GoalChange change = goal_change(of_lead, now);
+    const redesign::GoalFigure of_lead = redesign::first_of(*lead, count),
+                               now = redesign::first_of(figure, count);
+    if (redesign::is_worse(goal, of_lead, now, kSure)) {
+      const redesign::GoalChange change = redesign::goal_change(of_lead, now);
       outcome.goal = lead->value * (1.0 + change.share);
       outcome.goal_error = std::abs(lead->value) * change.error;
       outcome.roughness = static_cast<double>(all) / first;
@@ -210,7 +218,7 @@ SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigur
     outcome.goal = figure.value;
     outcome.goal_error = figure.error;
   }
-  const ShapeChange change = shape_change(shape);
+  const redesign::ShapeChange change = redesign::shape_change(shape);
   beside = {.hands = figure.hands,
             .lost = figure.lost,
             .grip_force_ratio = grip_force,
@@ -231,7 +239,8 @@ SearchOutcome ShapeRun::assess(const HandleShape& shape, std::optional<GoalFigur
   return outcome;
 }
 
-SearchStory ShapeRun::search(const SearchOptions& options, const Progress& progress) const {
+SearchStory ShapeRun::search(const redesign::SearchOptions& options,
+                             const Progress& progress) const {
   SearchStory story{.settings = {},
                     .problem = {},
                     .goal = goal_of_uses(goal, uses.size()),
@@ -257,15 +266,16 @@ SearchStory ShapeRun::search(const SearchOptions& options, const Progress& progr
   story.problem.constraints = constraints();
   story.problem.is_lower_better = goal.is_lower_better;
   story.problem.measure = [&](const std::vector<double>& values) {
-    const HandleShape shape = shape_of(values);
-    return SearchOutcome{.failure = "",
-                         .constraint = values_of(shape, shape_change(shape),
-                                                 std::numeric_limits<double>::quiet_NaN())};
+    const redesign::HandleShape shape = shape_of(values);
+    return redesign::SearchOutcome{
+        .failure = "",
+        .constraint = values_of(shape, redesign::shape_change(shape),
+                                std::numeric_limits<double>::quiet_NaN())};
   };
-  std::vector<GoalFigure> originals;
+  std::vector<redesign::GoalFigure> originals;
   for (const ShapeUse& one : uses) originals.push_back(one.figure);
   story.original = figure_of_uses(uses, originals);
-  std::optional<GoalFigure> lead;
+  std::optional<redesign::GoalFigure> lead;
   run_search(
       story,
       [&](const std::vector<double>& values, SearchStory::Beside& beside) {
@@ -275,4 +285,4 @@ SearchStory ShapeRun::search(const SearchOptions& options, const Progress& progr
   return story;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,7 +12,7 @@
 #include "palmar/workflow/redesign/search_story.h"
 #include "palmar/workflow/redesign/shape_use.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// What a shape must keep to; volumes are those of the handle.
 struct ShapeLimits : CandidateLimits {
@@ -44,12 +44,12 @@ struct HoldSpread {
 
 /// A feature that may vary, or one that is set.
 struct ShapeVariable {
-  const HandleFeature* feature = nullptr;
+  const redesign::HandleFeature* feature = nullptr;
   double lowest = 0.0, highest = 0.0;  ///< in the feature's unit; equal: set
 };
 /// "width", "width=28:40" or "width=34"; without values from a range about `start` that suits the
 /// feature. Throws UsageError naming `vary`.
-ShapeVariable shape_variable(const std::string& words, const HandleFeatures& start);
+ShapeVariable shape_variable(const std::string& words, const redesign::HandleFeatures& start);
 
 /// Making and judging shapes of a handle in hands that lie at different places on it, in one use or
 /// several (figure_of_uses()).
@@ -59,25 +59,26 @@ ShapeVariable shape_variable(const std::string& words, const HandleFeatures& sta
 /// best one times the ratio in these hands (SearchOutcome::roughness).
 struct ShapeRun {
   std::vector<ShapeUse> uses;  ///< at least one
-  FeatureGoal goal;            ///< of each of them
+  redesign::FeatureGoal goal;  ///< of each of them
   ShapeLimits limits;
-  HandleShape start;  ///< nearest to what there is
+  redesign::HandleShape start;  ///< nearest to what there is
   std::vector<ShapeVariable> variables;
 
   /// Of every use: where hands lie, and the original there.
   void hold_original(const HoldSpread& spread, const Progress& progress);
   /// All features; `varying` are those of the variables that vary, in their units.
-  HandleShape shape_of(const std::vector<double>& varying) const;
-  SearchStory search(const SearchOptions& options, const Progress& progress) const;
+  redesign::HandleShape shape_of(const std::vector<double>& varying) const;
+  SearchStory search(const redesign::SearchOptions& options, const Progress& progress) const;
 
  private:
-  std::vector<SearchConstraint> constraints() const;
+  std::vector<redesign::SearchConstraint> constraints() const;
   /// `lead`: the best candidate so far, which this one may take the place of.
-  SearchOutcome assess(const HandleShape& shape, std::optional<GoalFigure>& lead,
-                       SearchStory::Beside& beside, const Progress& progress) const;
+  redesign::SearchOutcome assess(const redesign::HandleShape& shape,
+                                 std::optional<redesign::GoalFigure>& lead,
+                                 SearchStory::Beside& beside, const Progress& progress) const;
   /// By constraints().
-  std::vector<double> values_of(const HandleShape& shape, const ShapeChange& change,
-                                double lost_share) const;
+  std::vector<double> values_of(const redesign::HandleShape& shape,
+                                const redesign::ShapeChange& change, double lost_share) const;
 };
 
-}  // namespace palmar
+}  // namespace palmar::workflow

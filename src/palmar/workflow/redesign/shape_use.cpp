@@ -13,7 +13,7 @@
 #include "palmar/records/study/study_file.h"
 #include "palmar/statistics/summary.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 constexpr int kFirstOfPlace = 2;  // hands that hold a candidate before it may be given up
@@ -24,7 +24,7 @@ constexpr int kFirstOfPlace = 2;  // hands that hold a candidate before it may b
 
 double number_of_use(const std::string& words, const std::string& key, const std::string& value,
                      double lowest, double highest) {
-  const std::optional<double> number = parse_double(value);
+  const std::optional<double> number = formats::parse_double(value);
   if (!number || !(*number >= lowest && *number <= highest)) {
     refuse(words,
            fmt::format("{} is \"{}\"; {:g} to {:g} is allowed", key, value, lowest, highest));
@@ -52,7 +52,7 @@ ShapeUseRequest shape_use(const std::string& words, const RedesignRequest& usual
     } else if (key == "population" && !value.empty()) {
       populations.push_back(value);
     } else if (key == "grip" && !value.empty()) {
-      use.asked.grips = {asked_grip_named(value)};
+      use.asked.grips = {records::asked_grip_named(value)};
     } else if (key == "hand" && (value == "left" || value == "right")) {
       use.asked.is_left = value == "left";
     } else {
@@ -67,20 +67,20 @@ ShapeUseRequest shape_use(const std::string& words, const RedesignRequest& usual
 
 int ShapeUse::first_hands() const { return kFirstOfPlace * static_cast<int>(offsets.size()); }
 
-void ShapeUse::hold_original(const FeatureGoal& goal, const Progress& progress) {
+void ShapeUse::hold_original(const redesign::FeatureGoal& goal, const Progress& progress) {
   OffsetGrasps grasps({.original = original,
                        .shapes = {{original.product(), 0}},
                        .offsets = offsets,
-                       .with_indices = needs_indices(goal)});
+                       .with_indices = redesign::needs_indices(goal)});
   before.clear();
   grasp(grasps, 0, hand_count(), before, progress);
-  figure = goal_of(results_with({}, hand_count()), goal, 0);
+  figure = redesign::goal_of(results_with({}, hand_count()), goal, 0);
   const int first = std::min(first_hands(), hand_count());
-  first_values = goal_of(results_with({}, first), goal, 0).values.size();
+  first_values = redesign::goal_of(results_with({}, first), goal, 0).values.size();
 }
 
-void ShapeUse::grasp(OffsetGrasps& grasps, int from, int to, std::vector<StudyRecord>& records,
-                     const Progress& progress) const {
+void ShapeUse::grasp(OffsetGrasps& grasps, int from, int to,
+                     std::vector<study::StudyRecord>& records, const Progress& progress) const {
   const auto is_wanted = [&](int hand, std::size_t offset) {
     return hand >= from && hand < to && static_cast<std::size_t>(hand) % offsets.size() == offset;
   };
@@ -89,25 +89,28 @@ void ShapeUse::grasp(OffsetGrasps& grasps, int from, int to, std::vector<StudyRe
   }
 }
 
-StudyResults ShapeUse::results_with(const std::vector<StudyRecord>& after, int hands) const {
-  StudyResults results{.plan = plan_of_two(original), .records = {}};
+study::StudyResults ShapeUse::results_with(const std::vector<study::StudyRecord>& after,
+                                           int hands) const {
+  study::StudyResults results{.plan = plan_of_two(original), .records = {}};
   for (const auto* const those : {&before, &after}) {
-    for (const StudyRecord& record : *those) {
-      if (task_at(results.plan, record.number).hand < hands) results.records.push_back(record);
+    for (const study::StudyRecord& record : *those) {
+      if (study::task_at(results.plan, record.number).hand < hands)
+        results.records.push_back(record);
     }
   }
-  std::sort(results.records.begin(), results.records.end(),
-            [](const StudyRecord& a, const StudyRecord& b) { return a.number < b.number; });
+  std::sort(
+      results.records.begin(), results.records.end(),
+      [](const study::StudyRecord& a, const study::StudyRecord& b) { return a.number < b.number; });
   return results;
 }
 
-GoalFigure figure_of_uses(const std::vector<ShapeUse>& uses,
-                          const std::vector<GoalFigure>& figures) {
+redesign::GoalFigure figure_of_uses(const std::vector<ShapeUse>& uses,
+                                    const std::vector<redesign::GoalFigure>& figures) {
   if (figures.size() == 1) return figures.front();
-  GoalFigure all;
+  redesign::GoalFigure all;
   std::vector<double> others;
   for (std::size_t u = 0; u < figures.size(); ++u) {
-    const GoalFigure& one = figures[u];
+    const redesign::GoalFigure& one = figures[u];
     const double original = uses[u].figure.value;
     if (original == 0.0) {
       throw UsageError(fmt::format(
@@ -128,12 +131,12 @@ GoalFigure figure_of_uses(const std::vector<ShapeUse>& uses,
   return all;
 }
 
-FeatureGoal goal_of_uses(const FeatureGoal& goal, std::size_t uses) {
+redesign::FeatureGoal goal_of_uses(const redesign::FeatureGoal& goal, std::size_t uses) {
   if (uses == 1) return goal;
-  FeatureGoal all = goal;
+  redesign::FeatureGoal all = goal;
   all.name = goal.name + " over the original's, by the weights of all uses";
   all.unit = "";
   return all;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -9,7 +9,7 @@
 #include "palmar/redesign/feature_goal.h"
 #include "palmar/workflow/redesign/hold_offsets.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// One of several ways in which a handle is used, as it is asked for: by whom, how firmly, with
 /// which hand and grip. What isn't said is as in the redesign's request.
@@ -31,8 +31,8 @@ struct ShapeUse {
   RedesignRequest request;
   HeldOriginal original;
   std::vector<HoldOffset> offsets = {};  ///< hand h lies at the one number h modulo their count
-  std::vector<StudyRecord> before = {};  ///< of the original, one per hand, there
-  GoalFigure figure = {};                ///< of the original
+  std::vector<study::StudyRecord> before = {};  ///< of the original, one per hand, there
+  redesign::GoalFigure figure = {};             ///< of the original
   std::size_t first_values =
       0;  ///< values of it in those hands that hold a candidate before others
 
@@ -41,12 +41,12 @@ struct ShapeUse {
   int first_hands() const;
 
   /// Fills in `before`, `figure` and `first_values`.
-  void hold_original(const FeatureGoal& goal, const Progress& progress);
+  void hold_original(const redesign::FeatureGoal& goal, const Progress& progress);
   /// Grasps of hands `from` to before `to`, each at its own place, added to `records`.
-  void grasp(OffsetGrasps& grasps, int from, int to, std::vector<StudyRecord>& records,
+  void grasp(OffsetGrasps& grasps, int from, int to, std::vector<study::StudyRecord>& records,
              const Progress& progress) const;
   /// In the first `hands` hands, with `after` of the candidate.
-  StudyResults results_with(const std::vector<StudyRecord>& after, int hands) const;
+  study::StudyResults results_with(const std::vector<study::StudyRecord>& after, int hands) const;
 };
 
 /// Figures of one candidate (or the original) in all uses as one. Of one use it is that figure. Of
@@ -54,10 +54,10 @@ struct ShapeUse {
 /// are those of all hands, the first hands of all uses before the others, weighted so that their
 /// mean is this one where uses have equally many hands. Throws UsageError if the original's figure
 /// of a use is 0.
-GoalFigure figure_of_uses(const std::vector<ShapeUse>& uses,
-                          const std::vector<GoalFigure>& figures);
+redesign::GoalFigure figure_of_uses(const std::vector<ShapeUse>& uses,
+                                    const std::vector<redesign::GoalFigure>& figures);
 
 /// What the figure of several uses is called.
-FeatureGoal goal_of_uses(const FeatureGoal& goal, std::size_t uses);
+redesign::FeatureGoal goal_of_uses(const redesign::FeatureGoal& goal, std::size_t uses);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

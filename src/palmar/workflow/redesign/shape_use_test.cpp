@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/workflow/redesign/search_story.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using ::testing::ElementsAre;
@@ -36,7 +36,7 @@ TEST(ShapeUse, WhatIsNotSaidIsAsUsual) {
   EXPECT_THAT(other.asked.populations, ElementsAre("ansur2_women", "ansur2_men"));
   EXPECT_EQ(other.asked.hands, 7);
   ASSERT_EQ(other.asked.grips.size(), 1U);
-  EXPECT_EQ(other.asked.grips.front(), Grip::kMediumWrap);
+  EXPECT_EQ(other.asked.grips.front(), grasp::Grip::kMediumWrap);
 }
 
 TEST(ShapeUse, WhatIsNotUnderstoodIsNamed) {
@@ -63,8 +63,9 @@ ShapeUse use_of(double weight, double original, std::size_t first) {
 TEST(FigureOfUses, OfOneUseIsItsFigure) {
   std::vector<ShapeUse> uses;
   uses.push_back(use_of(1.0, 4.0, 1));
-  const GoalFigure one{.value = 3.0, .error = 0.5, .hands = 2, .lost = 1, .values = {2.0, 4.0}};
-  const GoalFigure all = figure_of_uses(uses, {one});
+  const redesign::GoalFigure one{
+      .value = 3.0, .error = 0.5, .hands = 2, .lost = 1, .values = {2.0, 4.0}};
+  const redesign::GoalFigure all = figure_of_uses(uses, {one});
   EXPECT_EQ(all.value, 3.0);
   EXPECT_EQ(all.values, one.values);
 }
@@ -73,9 +74,11 @@ TEST(FigureOfUses, OfSeveralIsTheMeanOfTheSharesByTheirWeights) {
   std::vector<ShapeUse> uses;
   uses.push_back(use_of(0.75, 4.0, 1));
   uses.push_back(use_of(0.25, 0.5, 1));
-  const GoalFigure firm{.value = 3.0, .error = 0.4, .hands = 2, .lost = 0, .values = {2.0, 4.0}};
-  const GoalFigure light{.value = 0.6, .error = 0.1, .hands = 2, .lost = 1, .values = {0.5, 0.7}};
-  const GoalFigure all = figure_of_uses(uses, {firm, light});
+  const redesign::GoalFigure firm{
+      .value = 3.0, .error = 0.4, .hands = 2, .lost = 0, .values = {2.0, 4.0}};
+  const redesign::GoalFigure light{
+      .value = 0.6, .error = 0.1, .hands = 2, .lost = 1, .values = {0.5, 0.7}};
+  const redesign::GoalFigure all = figure_of_uses(uses, {firm, light});
   EXPECT_NEAR(all.value, 0.75 * 3.0 / 4.0 + 0.25 * 0.6 / 0.5, 1e-12);
   EXPECT_EQ(all.hands, 4);
   EXPECT_EQ(all.lost, 1);
@@ -104,7 +107,7 @@ TEST(FairUses, AreThoseThatNoOtherCandidateBeatsInEveryUse) {
   const std::vector<std::vector<double>> shares = {{1.0, 1.0},  {0.8, 0.95}, {0.9, 0.85},
                                                    {0.9, 0.96}, {0.7, 1.1},  {0.8, 0.95}};
   for (const std::vector<double>& one : shares) {
-    SearchTrial trial;
+    redesign::SearchTrial trial;
     trial.is_feasible = true;
     story.result.history.push_back(trial);
     story.beside.emplace_back();
@@ -116,9 +119,9 @@ TEST(FairUses, AreThoseThatNoOtherCandidateBeatsInEveryUse) {
   EXPECT_THAT(fair_uses(story), ElementsAre(1, 5, 2));
   story.result.best = 1;
   ASSERT_EQ(uses_figures(story).size(), 1U);
-  const std::string svg = to_svg(uses_figures(story).front());
+  const std::string svg = report::to_svg(uses_figures(story).front());
   EXPECT_THAT(svg, HasSubstr("candidates of the front: 2, 6, 3"));
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace palmar {
+namespace palmar::workflow {
 
 std::string missing_grasps(const std::vector<std::int64_t>& numbers) {
   constexpr std::size_t kMost = 10;
@@ -19,4 +19,4 @@ std::string missing_grasps(const std::vector<std::int64_t>& numbers) {
                      numbers.size() > kMost ? " ..." : "");
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

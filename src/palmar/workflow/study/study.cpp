@@ -22,7 +22,7 @@
 #include "palmar/workflow/hand/tissue_on_bone.h"
 #include "palmar/workflow/study/missing_grasps.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -33,36 +33,36 @@ constexpr double kNoteInterval = 2.0;  // s between two notes of how far a study
 /// Keeps finished grasps and writes from time to time how far the study is.
 class Keeper {
  public:
-  Keeper(StudyStore& store, std::size_t rest) : store_(store) {
+  Keeper(records::StudyStore& store, std::size_t rest) : store_(store) {
     note_.shard = store.shard();
-    note_.total = static_cast<std::int64_t>(tasks_of(store.plan(), store.shard()).size());
+    note_.total = static_cast<std::int64_t>(study::tasks_of(store.plan(), store.shard()).size());
     note_.done = note_.done_before = note_.total - static_cast<std::int64_t>(rest);
-    write_study_progress(store.path(), note_);
+    records::write_study_progress(store.path(), note_);
   }
-  void keep(const StudyRecord& record) {
+  void keep(const study::StudyRecord& record) {
     store_.keep(record);
     ++note_.done;
     ++note_.outcomes[name_of(record.outcome)];
-    if (record.outcome == StudyOutcome::kFailed) ++note_.reasons[record.reason];
+    if (record.outcome == study::StudyOutcome::kFailed) ++note_.reasons[record.reason];
     note_.seconds = seconds();
     const bool is_first = note_.done == note_.done_before + 1;
     if (!is_first && note_.seconds - last_ < kNoteInterval) return;
     last_ = note_.seconds;
-    write_study_progress(store_.path(), note_);
+    records::write_study_progress(store_.path(), note_);
   }
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  const StudyProgressNote& note() const { return note_; }
+  const records::StudyProgressNote& note() const { return note_; }
 
  private:
-  StudyStore& store_;
-  StudyProgressNote note_;
+  records::StudyStore& store_;
+  records::StudyProgressNote note_;
   Clock::time_point start_ = Clock::now();
   double last_ = 0.0;
 };
 
 /// Runs what is missing, finishes the store and says what came of it.
-StudyRunOutcome run_rest(StudyStore& store, StudyInputs inputs, const NoteSink& note,
-                         const Progress& progress) {
+StudyRunOutcome run_rest(records::StudyStore& store, study::StudyInputs inputs,
+                         const NoteSink& note, const Progress& progress) {
   if (inputs.base != nullptr) inputs.compliance = tissue_on_bone(*inputs.base, store.plan(), note);
   const std::vector<std::int64_t> rest = store.missing();
   if (store.is_finished() && !rest.empty()) {
@@ -73,21 +73,21 @@ StudyRunOutcome run_rest(StudyStore& store, StudyInputs inputs, const NoteSink& 
   try {
     run_study(
         store.plan(), inputs, {.tasks = rest},
-        [&](const StudyRecord& record) { keeper.keep(record); }, progress);
+        [&](const study::StudyRecord& record) { keeper.keep(record); }, progress);
   } catch (const Cancelled&) {
-    remove_study_progress(store.path());
+    records::remove_study_progress(store.path());
     throw Cancelled(
         fmt::format("cancelled; {} of {} grasps are kept; `palmar study resume {}` continues",
                     keeper.note().done, keeper.note().total, store.path().string()));
   } catch (...) {
-    remove_study_progress(store.path());
+    records::remove_study_progress(store.path());
     throw;
   }
   StudyRunOutcome outcome;
   outcome.seconds = keeper.seconds();
   if (progress.report) progress.report(1.0, "closing the study");
   store.finish();
-  remove_study_progress(store.path());
+  records::remove_study_progress(store.path());
 
   outcome.plan = store.plan();
   outcome.store = store.path();
@@ -95,14 +95,14 @@ StudyRunOutcome run_rest(StudyStore& store, StudyInputs inputs, const NoteSink& 
   outcome.grasps = keeper.note().total;
   outcome.run_now = static_cast<std::int64_t>(rest.size());
   outcome.digest = store.digest();
-  store.for_each(false, [&](const StudyRecord& record) {
+  store.for_each(false, [&](const study::StudyRecord& record) {
     ++outcome.outcomes[record.outcome];
-    if (record.outcome == StudyOutcome::kFailed) ++outcome.reasons[record.reason];
+    if (record.outcome == study::StudyOutcome::kFailed) ++outcome.reasons[record.reason];
   });
   return outcome;
 }
 
-std::string default_store(const StudyPlan& plan, StudyShard shard) {
+std::string default_store(const study::StudyPlan& plan, study::StudyShard shard) {
   std::string name = plan.name;
   std::replace(name.begin(), name.end(), '/', '_');
   if (shard.n > 1) name += fmt::format("-{}-of-{}", shard.k, shard.n);
@@ -110,20 +110,21 @@ std::string default_store(const StudyPlan& plan, StudyShard shard) {
 }
 
 /// Refuses to go on with a store that is of something else.
-void check_same(const StudyStore& store, const StudyPlan& plan, StudyShard shard) {
+void check_same(const records::StudyStore& store, const study::StudyPlan& plan,
+                study::StudyShard shard) {
   const std::string name = store.path().string();
   if (store.shard() != shard) {
     throw UsageError(
         fmt::format("{}: holds shard {}, not {}", name, name_of(store.shard()), name_of(shard)));
   }
-  const std::vector<std::string> differences = plan_differences(store.plan(), plan);
+  const std::vector<std::string> differences = records::plan_differences(store.plan(), plan);
   if (differences.empty()) return;
   std::string text = name + ": holds another study than the requested one:";
   for (const std::string& one : differences) text += "\n  " + one;
   throw UsageError(text + "\nGive another setting \"out\", or delete the file to start again.");
 }
 
-void check_program(const StudyStore& store) {
+void check_program(const records::StudyStore& store) {
   if (store.program() == version()) return;
   throw UsageError(fmt::format("{}: was begun by Palmar {}; this is {}, whose results may differ",
                                store.path().string(), store.program(), version()));
@@ -158,12 +159,12 @@ void QuickStudy::check() const {
   }
 }
 
-StudyRequest study_of(const QuickStudy& quick) {
+records::StudyRequest study_of(const QuickStudy& quick) {
   quick.check();
-  StudyRequest request;
+  records::StudyRequest request;
   request.name = fs::path(quick.products.front()).stem().string();
   for (const std::string& name : quick.products) {
-    ProductRequest product;
+    records::ProductRequest product;
     product.file = name;
     product.unit = quick.unit;
     product.held.holding = quick.holding;
@@ -171,24 +172,26 @@ StudyRequest study_of(const QuickStudy& quick) {
     request.products.push_back(std::move(product));
   }
   for (const std::string& name : quick.populations) {
-    if (quick.hands > 0 && is_people_range(name)) {
+    if (quick.hands > 0 && records::is_people_range(name)) {
       throw UsageError("setting \"hands\" has no meaning with the given people \"" + name + "\"");
     }
-    for (PopulationRequest& one : population_requests(name)) {
+    for (records::PopulationRequest& one : records::population_requests(name)) {
       request.populations.push_back(std::move(one));
     }
   }
-  for (PopulationRequest& one : request.populations) {
+  for (records::PopulationRequest& one : request.populations) {
     if (quick.hands > 0 && !one.table.empty()) {
       throw UsageError("setting \"hands\" has no meaning with the given hands of " + one.table);
     }
     if (quick.hands > 0) one.sampling.hands = quick.hands;
   }
-  for (const std::string& name : quick.profiles) request.profiles.push_back(profile_named(name));
-  for (const std::string& name : quick.grips) request.grips.push_back(asked_grip_named(name));
+  for (const std::string& name : quick.profiles)
+    request.profiles.push_back(population::profile_named(name));
+  for (const std::string& name : quick.grips)
+    request.grips.push_back(records::asked_grip_named(name));
   if (!quick.hand.empty()) request.hand = quick.hand;
   if (quick.grip_force || quick.strength_share || quick.limit_depths) {
-    StudySetting setting;
+    study::StudySetting setting;
     setting.grip_force = quick.grip_force;
     setting.strength_share = quick.strength_share;
     setting.limit_depths = quick.limit_depths;
@@ -197,14 +200,14 @@ StudyRequest study_of(const QuickStudy& quick) {
   return request;
 }
 
-LoadedStudy load_study(const StudyRequest& request, const NoteSink& note) {
-  LoadedStudy study = load_study(request, load_hand(request.hand));
+records::LoadedStudy load_study(const records::StudyRequest& request, const NoteSink& note) {
+  records::LoadedStudy study = load_study(request, load_hand(request.hand));
   for (const std::string& text : study.notes) note_to(note, text);
   return study;
 }
 
 StudyPlanOutcome plan_study(const StudyPlanRequest& request, const Progress& progress) {
-  const LoadedStudy study = load_study(request.study, request.note);
+  const records::LoadedStudy study = load_study(request.study, request.note);
   progress.throw_if_cancelled();
   StudyPlanOutcome outcome;
   outcome.plan = study.plan;
@@ -217,15 +220,16 @@ void StudyRunRequest::check() const { shard.check(); }
 
 StudyRunOutcome run_study(const StudyRunRequest& request, const Progress& progress) {
   request.check();
-  const StudyShard shard = request.shard;
-  const LoadedStudy study = load_study(request.study, request.note);
-  tasks_of(study.plan, shard);  // more shards than hands are refused before anything is written
+  const study::StudyShard shard = request.shard;
+  const records::LoadedStudy study = load_study(request.study, request.note);
+  study::tasks_of(study.plan,
+                  shard);  // more shards than hands are refused before anything is written
   progress.throw_if_cancelled();
   const fs::path path =
       request.out.empty() ? fs::path(default_store(study.plan, shard)) : request.out;
-  if (path.has_parent_path()) create_folder(path.parent_path());
-  if (!fs::exists(path)) StudyStore::create(path, study.plan, study.inputs, shard);
-  StudyStore store(path, StudyAccess::kWrite);
+  if (path.has_parent_path()) formats::create_folder(path.parent_path());
+  if (!fs::exists(path)) records::StudyStore::create(path, study.plan, study.inputs, shard);
+  records::StudyStore store(path, records::StudyAccess::kWrite);
   check_same(store, study.plan, shard);
   if (!store.is_finished()) check_program(store);
   const std::size_t done = store.done().size();
@@ -236,14 +240,14 @@ StudyRunOutcome run_study(const StudyRunRequest& request, const Progress& progre
 }
 
 StudyRunOutcome resume_study(const fs::path& path, const NoteSink& note, const Progress& progress) {
-  StudyStore store(path, StudyAccess::kWrite);
+  records::StudyStore store(path, records::StudyAccess::kWrite);
   if (store.is_finished()) {
     note_to(note, path.string() + ": is finished; nothing to do");
     return run_rest(store, {}, note, progress);
   }
   check_program(store);
-  check_products(store.plan(), path.parent_path());
+  records::check_products(store.plan(), path.parent_path());
   return run_rest(store, store.inputs(), note, progress);
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -16,20 +16,20 @@
 #include "palmar/workflow/note/note.h"
 #include "palmar/workflow/study/study_estimate.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A study without a study file: products and who holds them, by name.
 struct QuickStudy {
   static constexpr int kMostHands = 1'000'000;
 
-  std::vector<std::string> products;  ///< mesh or CAD files; at least one
-  std::optional<LengthUnit> unit;     ///< of files that carry none
+  std::vector<std::string> products;         ///< mesh or CAD files; at least one
+  std::optional<geometry::LengthUnit> unit;  ///< of files that carry none
   /// Built-in populations, population files (.toml) or tables of given hands.
   std::vector<std::string> populations = {"xie2014"};
   int hands = 0;                      ///< to draw from each population; 0: 30
   std::vector<std::string> profiles;  ///< "none", "reduced_range", ...; empty: none
   std::vector<std::string> grips;     ///< "auto", "tripod", ...; empty: auto
-  HoldRequest holding;                ///< by which part and how all products are held
+  grasp::HoldRequest holding;         ///< by which part and how all products are held
   std::string hand;                   ///< that is scaled; "": the template
   double mass = 0.0;                  ///< of every product, kg, up to 100; 0: no load
   // How firmly; at most one. None: the usual grip force, the same for all hands and products.
@@ -39,19 +39,19 @@ struct QuickStudy {
   void check() const;                    ///< throws UsageError: setting, value, what is allowed
 };
 /// Throws UsageError also for names that aren't known. read_study_file() reads one from a file.
-StudyRequest study_of(const QuickStudy& quick);
+records::StudyRequest study_of(const QuickStudy& quick);
 
 /// Draws the hands, reads hand and products. Throws UsageError, InputError naming the file.
-LoadedStudy load_study(const StudyRequest& request, const NoteSink& note);
+records::LoadedStudy load_study(const records::StudyRequest& request, const NoteSink& note);
 
 /// What would run.
 struct StudyPlanRequest {
-  StudyRequest study;
+  records::StudyRequest study;
   bool has_sample = true;  ///< a few grasps are measured for the estimate
   NoteSink note = {};      ///< proposed units, cautions of populations
 };
 struct StudyPlanOutcome {
-  StudyPlan plan;
+  study::StudyPlan plan;
   int threads = 1;                        ///< that would run it here
   std::optional<StudyEstimate> estimate;  ///< with `has_sample`
 };
@@ -59,19 +59,19 @@ StudyPlanOutcome plan_study(const StudyPlanRequest& request, const Progress& pro
 
 /// A study, or one shard of it, to be run into a store.
 struct StudyRunRequest {
-  StudyRequest study;
+  records::StudyRequest study;
   std::filesystem::path out;  ///< store; "": the study's name in the working folder
-  StudyShard shard;
+  study::StudyShard shard;
   NoteSink note = {};  ///< as above, and where a store goes on
   void check() const;  ///< throws UsageError: setting, value, what is allowed
 };
 struct StudyRunOutcome {
-  StudyPlan plan;
+  study::StudyPlan plan;
   std::filesystem::path store;
-  StudyShard shard;
+  study::StudyShard shard;
   std::int64_t grasps = 0;   ///< of the shard
   std::int64_t run_now = 0;  ///< the others were in the store already
-  std::map<StudyOutcome, std::int64_t> outcomes;
+  std::map<study::StudyOutcome, std::int64_t> outcomes;
   std::map<std::string, std::int64_t> reasons;  ///< of failed grasps
   std::string digest;                           ///< of all results
   double seconds = 0.0;                         ///< spent on what was run now
@@ -86,4 +86,4 @@ StudyRunOutcome run_study(const StudyRunRequest& request, const Progress& progre
 StudyRunOutcome resume_study(const std::filesystem::path& store, const NoteSink& note = {},
                              const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

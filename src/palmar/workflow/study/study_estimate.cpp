@@ -12,7 +12,7 @@
 
 #include "palmar/study/study_task.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -49,9 +49,9 @@ double StudyEstimate::memory(int threads) const {
   return memory_once + threads * memory_per_thread;
 }
 
-StudyEstimate estimate_study(const LoadedStudy& study, const Progress& progress) {
-  const StudyPlan& plan = study.plan;
-  const std::vector<std::int64_t> all = tasks_of(plan);
+StudyEstimate estimate_study(const records::LoadedStudy& study, const Progress& progress) {
+  const study::StudyPlan& plan = study.plan;
+  const std::vector<std::int64_t> all = study::tasks_of(plan);
   const std::size_t per_hand = all.size() / plan.hands.size();
   std::vector<std::int64_t> tasks(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(per_hand));
   StudyEstimate estimate;
@@ -60,9 +60,9 @@ StudyEstimate estimate_study(const LoadedStudy& study, const Progress& progress)
 
   const auto start = Clock::now();
   progress.update(0.1, "measuring a few grasps");
-  StudyInputs inputs = study.inputs;
+  study::StudyInputs inputs = study.inputs;
   inputs.compliance = tissue_on_bone(*inputs.base, plan);
-  StudyBench bench(plan, inputs);
+  study::StudyBench bench(plan, inputs);
   bench.prepare(tasks, progress);
   estimate.seconds_once = seconds_since(start);
   estimate.memory_once = resident_memory();
@@ -70,7 +70,7 @@ StudyEstimate estimate_study(const LoadedStudy& study, const Progress& progress)
   int done = 0;
   bench.run_hand(
       0, tasks,
-      [&](const StudyRecord&) {
+      [&](const study::StudyRecord&) {
         progress.update(0.1 + 0.9 * ++done / estimate.sample, "measuring a few grasps");
       },
       progress);
@@ -83,4 +83,4 @@ StudyEstimate estimate_study(const LoadedStudy& study, const Progress& progress)
   return estimate;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

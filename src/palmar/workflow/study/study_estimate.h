@@ -7,7 +7,7 @@
 #include "palmar/core/progress.h"
 #include "palmar/records/study/study_file.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// What a few grasps of a study took here, on one thread, and what the whole will take.
 struct StudyEstimate {
@@ -21,6 +21,6 @@ struct StudyEstimate {
   double memory(int threads) const;  ///< MB
 };
 /// Runs the first grasps of the study's first hand. Throws Cancelled.
-StudyEstimate estimate_study(const LoadedStudy& study, const Progress& progress = {});
+StudyEstimate estimate_study(const records::LoadedStudy& study, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -5,10 +5,10 @@
 #include "palmar/records/study/study_export.h"
 #include "palmar/records/study/study_store.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 StudyExportOutcome export_study(const StudyExportRequest& request, const Progress& progress) {
-  const StudyStore store(request.store);
+  const records::StudyStore store(request.store);
   StudyExportOutcome outcome;
   outcome.files = export_study(store, request.folder, request.with_fields, progress);
   outcome.missing = store.missing().size();
@@ -16,4 +16,4 @@ StudyExportOutcome export_study(const StudyExportRequest& request, const Progres
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -8,7 +8,7 @@
 
 #include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 struct StudyExportRequest {
   std::filesystem::path store;
@@ -23,4 +23,4 @@ struct StudyExportOutcome {
 /// Every table of a study as CSV. Throws InputError, OutputError, Cancelled.
 StudyExportOutcome export_study(const StudyExportRequest& request, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

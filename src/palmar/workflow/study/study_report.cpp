@@ -11,12 +11,13 @@
 #include "palmar/core/error.h"
 #include "palmar/records/study/study_store.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
-StudyResults results_of(const StudyStore& store) {
-  StudyResults results{store.plan(), {}};
-  store.for_each(false, [&](const StudyRecord& record) { results.records.push_back(record); });
+study::StudyResults results_of(const records::StudyStore& store) {
+  study::StudyResults results{store.plan(), {}};
+  store.for_each(false,
+                 [&](const study::StudyRecord& record) { results.records.push_back(record); });
   if (results.records.empty()) {
     throw UsageError(store.path().string() +
                      ": no grasp was run yet; palmar study run or resume does");
@@ -24,12 +25,12 @@ StudyResults results_of(const StudyStore& store) {
   return results;
 }
 
-std::vector<StudyQuantity> quantities_named(const StudyResults& results,
-                                            const std::vector<std::string>& keys) {
-  std::vector<StudyQuantity> quantities;
+std::vector<study::StudyQuantity> quantities_named(const study::StudyResults& results,
+                                                   const std::vector<std::string>& keys) {
+  std::vector<study::StudyQuantity> quantities;
   for (const std::string& key : keys) {
-    if (key == "all") return quantities_of(results);
-    quantities.push_back(quantity_named(results, key));
+    if (key == "all") return study::quantities_of(results);
+    quantities.push_back(study::quantity_named(results, key));
   }
   return quantities;
 }
@@ -48,18 +49,19 @@ void StudyReportRequest::check() const {
 
 std::filesystem::path report_study(const StudyReportRequest& request, const Progress& progress) {
   request.check();
-  const StudyStore store(request.store);
-  const StudyResults results = results_of(store);
-  const StudyInputs inputs = store.inputs();
-  const StudyReportInput input{results, inputs,
-                               [&store](const std::function<void(const StudyRecord&)>& visit) {
-                                 store.for_each(true, visit);
-                               },
-                               store.program(), store.digest()};
-  write_study_report(request.folder, input, request.report, progress);
+  const records::StudyStore store(request.store);
+  const study::StudyResults results = results_of(store);
+  const study::StudyInputs inputs = store.inputs();
+  const report::StudyReportInput input{
+      results, inputs,
+      [&store](const std::function<void(const study::StudyRecord&)>& visit) {
+        store.for_each(true, visit);
+      },
+      store.program(), store.digest()};
+  report::write_study_report(request.folder, input, request.report, progress);
   const std::filesystem::path page = std::filesystem::path(request.folder) / "report.html";
-  if (request.pdf) print_pdf(page, *request.pdf, progress);
-  if (request.report.extras.slides) take_slides(page, progress);
+  if (request.pdf) report::print_pdf(page, *request.pdf, progress);
+  if (request.report.extras.slides) report::take_slides(page, progress);
   return page;
 }
 
@@ -68,34 +70,35 @@ void StudyCompareRequest::check() const {
   comparison.check();
 }
 
-StudyCompareOutcome compare_results(StudyResults compared_results,
-                                    const std::vector<StudyQuantity>& quantities,
-                                    const StudyAnswerOptions& options) {
+StudyCompareOutcome compare_results(study::StudyResults compared_results,
+                                    const std::vector<study::StudyQuantity>& quantities,
+                                    const report::StudyAnswerOptions& options) {
   StudyCompareOutcome outcome{std::move(compared_results), {}, {}};
-  const StudyResults& results = outcome.results;
-  for (const StudyCondition& condition : conditions_of(results.plan)) {
+  const study::StudyResults& results = outcome.results;
+  for (const study::StudyCondition& condition : study::conditions_of(results.plan)) {
     ComparedCondition compared{condition, {}};
-    for (const StudyQuantity& quantity : quantities) {
+    for (const study::StudyQuantity& quantity : quantities) {
       ComparedQuantity one{quantity, {}, {}};
       for (int p = 0; p < static_cast<int>(results.plan.products.size()); ++p) {
-        one.products.push_back(product_statistics(results, {quantity}, condition, p));
+        one.products.push_back(study::product_statistics(results, {quantity}, condition, p));
       }
-      const QuantityComparison comparison =
-          compare_products(results, condition, quantity, options.comparison);
-      for (const ProductPair& pair : comparison.pairs) {
-        one.pairs.push_back({pair, grip_forces(results, condition, pair.first, pair.second)});
+      const study::QuantityComparison comparison =
+          study::compare_products(results, condition, quantity, options.comparison);
+      for (const study::ProductPair& pair : comparison.pairs) {
+        one.pairs.push_back(
+            {pair, study::grip_forces(results, condition, pair.first, pair.second)});
       }
       compared.quantities.push_back(std::move(one));
     }
     outcome.conditions.push_back(std::move(compared));
   }
-  outcome.answer = study_answer(results, options);
+  outcome.answer = report::study_answer(results, options);
   return outcome;
 }
 
 StudyCompareOutcome compare_study(const StudyCompareRequest& request) {
   request.check();
-  StudyResults results = results_of(StudyStore(request.store));
+  study::StudyResults results = results_of(records::StudyStore(request.store));
   const auto quantities = quantities_named(results, request.quantities);
   return compare_results(std::move(results), quantities,
                          {.language = request.language,
@@ -104,4 +107,4 @@ StudyCompareOutcome compare_study(const StudyCompareRequest& request) {
                           .command = ""});
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

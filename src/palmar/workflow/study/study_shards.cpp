@@ -13,7 +13,7 @@
 #include "palmar/records/study/study_store.h"
 #include "palmar/workflow/study/missing_grasps.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,7 +39,7 @@ std::vector<fs::path> stores_of(const std::vector<fs::path>& names) {
   return paths;
 }
 
-void take_note(const StudyProgressNote& note, StudyStoreState& state) {
+void take_note(const records::StudyProgressNote& note, StudyStoreState& state) {
   state.state = "running";
   state.shard = note.shard;
   state.done = note.done;
@@ -59,23 +59,23 @@ StudyStoreState state_of(const fs::path& path) {
   StudyStoreState state;
   state.path = path;
   try {
-    const StudyStore store(path);
+    const records::StudyStore store(path);
     state.shard = store.shard();
-    state.total = static_cast<std::int64_t>(tasks_of(store.plan(), store.shard()).size());
+    state.total = static_cast<std::int64_t>(study::tasks_of(store.plan(), store.shard()).size());
     state.state = store.is_finished() ? "finished" : "stopped";
-    store.for_each(false, [&](const StudyRecord& record) {
+    store.for_each(false, [&](const study::StudyRecord& record) {
       ++state.done;
       ++state.outcomes[name_of(record.outcome)];
-      if (record.outcome == StudyOutcome::kFailed) ++state.reasons[record.reason];
+      if (record.outcome == study::StudyOutcome::kFailed) ++state.reasons[record.reason];
     });
     const std::vector<std::int64_t> rest = store.missing();
     if (store.is_finished() && !rest.empty()) {
       state.state = "damaged";
       state.detail = missing_grasps(rest);
     }
-  } catch (const StudyBusy&) {
+  } catch (const records::StudyBusy&) {
     state.state = "running";
-    if (const auto note = read_study_progress(path)) take_note(*note, state);
+    if (const auto note = records::read_study_progress(path)) take_note(*note, state);
   } catch (const Error& error) {
     state.state = "unreadable";
     state.detail = error.what();
@@ -92,7 +92,7 @@ std::vector<std::string> absent_shards(const std::vector<StudyStoreState>& state
   std::vector<std::string> absent;
   for (const auto& [count, known] : seen) {
     for (int k = 1; k <= count; ++k) {
-      if (known.count(k) == 0) absent.push_back(name_of(StudyShard{k, count}));
+      if (known.count(k) == 0) absent.push_back(name_of(study::StudyShard{k, count}));
     }
   }
   return absent;
@@ -103,8 +103,8 @@ std::vector<std::string> absent_shards(const std::vector<StudyStoreState>& state
 StudyMergeOutcome merge_shards(const std::vector<fs::path>& shards, const fs::path& out,
                                const Progress& progress) {
   const std::vector<fs::path> stores = stores_of(shards);
-  merge_studies(stores, out, progress);
-  const StudyStore store(out);
+  records::merge_studies(stores, out, progress);
+  const records::StudyStore store(out);
   return {.plan = store.plan(), .shards = stores.size(), .digest = store.digest()};
 }
 
@@ -130,4 +130,4 @@ StudyStatus study_status(const std::vector<fs::path>& stores) {
   return status;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,10 +12,10 @@
 #include "palmar/core/progress.h"
 #include "palmar/study/study_plan.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 struct StudyMergeOutcome {
-  StudyPlan plan;
+  study::StudyPlan plan;
   std::size_t shards = 0;
   std::string digest;  ///< of all results
 };
@@ -30,7 +30,7 @@ struct StudyStoreState {
   std::filesystem::path path;
   std::string state;   ///< "finished", "running", "stopped", "damaged", "unreadable"
   std::string detail;  ///< who runs it, or what is wrong with it; may be empty
-  StudyShard shard;
+  study::StudyShard shard;
   std::int64_t done = 0, total = 0;
   std::map<std::string, std::int64_t> outcomes;  ///< by name
   std::map<std::string, std::int64_t> reasons;   ///< of failed grasps
@@ -48,4 +48,4 @@ struct StudyStatus {
 /// reported in its state. Throws InputError if there is none.
 StudyStatus study_status(const std::vector<std::filesystem::path>& stores);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

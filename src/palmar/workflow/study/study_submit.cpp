@@ -8,7 +8,7 @@
 #include "palmar/records/study/study_file.h"
 #include "palmar/workflow/study/study.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,14 +22,14 @@ constexpr double kLeastMemory = 300.0;  // MB
 }  // namespace
 
 StudySubmitOutcome submit_study(const StudySubmitRequest& request, const Progress& progress) {
-  StudyRequest asked = read_study_file(request.file.string());
+  records::StudyRequest asked = records::read_study_file(request.file.string());
   if (request.seed != 0) asked.seed = request.seed;
-  const LoadedStudy study = load_study(asked, request.note);
-  tasks_of(study.plan, {1, request.shards});  // refuses more shards than hands
+  const records::LoadedStudy study = load_study(asked, request.note);
+  study::tasks_of(study.plan, {1, request.shards});  // refuses more shards than hands
   progress.throw_if_cancelled();
   StudySubmitOutcome outcome;
   outcome.plan = study.plan;
-  SlurmArray& array = outcome.array;
+  records::SlurmArray& array = outcome.array;
   array.name = study.plan.name;
   array.program = request.program;
   array.file = fs::absolute(request.file);
@@ -50,13 +50,13 @@ StudySubmitOutcome submit_study(const StudySubmitRequest& request, const Progres
   array.memory = request.memory
                      ? *request.memory
                      : std::max(kLeastMemory, kMemoryReserve * estimate.memory(array.cores));
-  outcome.script = slurm_script(array);
+  outcome.script = records::slurm_script(array);
   if (request.is_dry) return outcome;
   const fs::path path = array.folder / "submit.sh";
-  create_folder(array.folder);
-  write_file(path, outcome.script);
-  outcome.job = submit_to_slurm(path);
+  formats::create_folder(array.folder);
+  formats::write_file(path, outcome.script);
+  outcome.job = records::submit_to_slurm(path);
   return outcome;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,7 +12,7 @@
 #include "palmar/study/study_plan.h"
 #include "palmar/workflow/note/note.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// A study's shards as a Slurm job array.
 struct StudySubmitRequest {
@@ -32,8 +32,8 @@ struct StudySubmitRequest {
 };
 
 struct StudySubmitOutcome {
-  StudyPlan plan;
-  SlurmArray array;               ///< with the time and memory asked for
+  study::StudyPlan plan;
+  records::SlurmArray array;      ///< with the time and memory asked for
   double seconds_expected = 0.0;  ///< of one shard; 0 if nothing was measured
   std::string script;
   std::string job;  ///< its number; "" of a dry run
@@ -42,4 +42,4 @@ struct StudySubmitOutcome {
 /// Throws UsageError (more shards than hands, options that can't be), InputError, OutputError.
 StudySubmitOutcome submit_study(const StudySubmitRequest& request, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -14,7 +14,7 @@
 #include "palmar/workflow/study/study_report.h"
 #include "palmar/workflow/study/study_shards.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ class StudyWorkflow : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     hand_ = (*folder_ / "coarse.hand.glb").string();
-    write_hand(hand_, *workflow_test::coarse_hand());
+    records::write_hand(hand_, *workflow_test::coarse_hand());
     whole_ = new StudyRunOutcome(run_study(run_into("whole.palmar")));
   }
   static void TearDownTestSuite() {
@@ -36,7 +36,7 @@ class StudyWorkflow : public testing::Test {
     delete folder_;
   }
 
-  static StudyRunRequest run_into(const std::string& file, StudyShard shard = {}) {
+  static StudyRunRequest run_into(const std::string& file, study::StudyShard shard = {}) {
     QuickStudy quick;
     quick.products = {"made: cylinder diameter_mm=42"};
     quick.hands = 3;
@@ -68,7 +68,7 @@ TEST_F(StudyWorkflow, EveryGraspIsRunAndCounted) {
 }
 
 TEST_F(StudyWorkflow, HandsOfAllSizesGripWithOneForce) {
-  const StudySetting& setting = whole_->plan.settings.front();
+  const study::StudySetting& setting = whole_->plan.settings.front();
   EXPECT_EQ(setting.strength_share, 0.25);
   // 53.0 and 34.1 kg (Steiber 2016, men and women of 45 to 49 years).
   const double strength = 0.5 * (53.0 + 34.1) * 9.80665;
@@ -77,7 +77,7 @@ TEST_F(StudyWorkflow, HandsOfAllSizesGripWithOneForce) {
   const StudyCompareOutcome outcome = compare_study(
       {.store = *folder_ / "whole.palmar", .quantities = {"grip_force_n"}, .comparison = {}});
   int at_rest = 0;
-  for (const StudyRecord& record : outcome.results.records) {
+  for (const study::StudyRecord& record : outcome.results.records) {
     if (!record.is_balanced) continue;
     ++at_rest;
     EXPECT_NEAR(record.grip_force, 0.25 * strength, 0.01 * 0.25 * strength);
@@ -90,14 +90,15 @@ TEST_F(StudyWorkflow, GripForceIsRaisedForAllByTheHeaviestProduct) {
   quick.products = {"made: cylinder diameter_mm=42", "made: cylinder diameter_mm=30"};
   quick.hands = 2;
   quick.hand = hand_;
-  StudyRequest study = study_of(quick);
+  records::StudyRequest study = study_of(quick);
   study.products.front().held.mass = 9.0;  // kg
-  const LoadedStudy loaded = load_study(study, NoteSink());
+  const records::LoadedStudy loaded = load_study(study, NoteSink());
   ASSERT_EQ(loaded.plan.settings.size(), 1U);
-  const StudySetting& setting = loaded.plan.settings.front();
+  const study::StudySetting& setting = loaded.plan.settings.front();
   // 1.4 times what two sides with mu 0.5 hold.
   EXPECT_NEAR(setting.least_grip_force, 1.4 * 9.0 * 9.80665, 1e-9);
-  EXPECT_NEAR(share_of_strength(setting, 0.0).force(Grip::kMediumWrap), 1.4 * 9.0 * 9.80665, 1e-9);
+  EXPECT_NEAR(study::share_of_strength(setting, 0.0).force(grasp::Grip::kMediumWrap),
+              1.4 * 9.0 * 9.80665, 1e-9);
   EXPECT_THAT(loaded.notes,
               testing::Contains(HasSubstr("raised from 107 N to hold the 88.3 N of")));
   study.settings.emplace_back();
@@ -159,7 +160,7 @@ TEST_F(StudyWorkflow, PageNamesTheResultsThatItIsMadeOf) {
   request.report.pictures = request.report.figure_files = false;
   const fs::path page = report_study(request);
   EXPECT_EQ(page, *folder_ / "report" / "report.html");
-  EXPECT_THAT(read_file(page), HasSubstr(whole_->digest));
+  EXPECT_THAT(formats::read_file(page), HasSubstr(whole_->digest));
   request.report.threshold = -0.001;
   try {
     report_study(request);
@@ -177,12 +178,12 @@ TEST_F(StudyWorkflow, ComparisonCountsTheHandsThatHold) {
   EXPECT_EQ(force.quantity.unit, "N");
   EXPECT_TRUE(force.pairs.empty());  // of one product
   ASSERT_EQ(force.products.size(), 1U);
-  const QuantitySummary* summary = summary_of(force.products.front(), "force_n");
+  const study::QuantitySummary* summary = study::summary_of(force.products.front(), "force_n");
   ASSERT_NE(summary, nullptr);
   double sum = 0.0;
   int held = 0;
-  for (const StudyRecord& record : outcome.results.records) {
-    if (!is_in_hand(record)) continue;
+  for (const study::StudyRecord& record : outcome.results.records) {
+    if (!study::is_in_hand(record)) continue;
     sum += record.force;
     ++held;
   }
@@ -237,7 +238,7 @@ TEST(StudyOf, HowFirmlyIsSaidOnce) {
 TEST(StudyOf, FirstProductNamesTheStudyAndTheUsualPopulationHoldsIt) {
   QuickStudy quick;
   quick.products = {"parts/mug.stl", "jug.stl"};
-  const StudyRequest study = study_of(quick);
+  const records::StudyRequest study = study_of(quick);
   EXPECT_EQ(study.name, "mug");
   ASSERT_EQ(study.populations.size(), 1U);
   EXPECT_EQ(study.populations.front().preset, "xie2014");
@@ -255,4 +256,4 @@ TEST(StudyStatus, FolderWithoutStoresIsNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::workflow

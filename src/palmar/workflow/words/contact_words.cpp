@@ -5,18 +5,18 @@
 #include "palmar/core/error.h"
 #include "palmar/workflow/words/number_words.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
-Kernel parse_kernel(const std::string& text) {
-  for (const Kernel kernel : kKernels) {
+contact::Kernel parse_kernel(const std::string& text) {
+  for (const contact::Kernel kernel : contact::kKernels) {
     if (name_of(kernel) == text) return kernel;
   }
   throw UsageError("setting \"kernel\": \"" + text + "\" is not known; patch or point is allowed");
 }
 
-RegionCoupling parse_coupling(const std::string& text) {
-  for (const RegionCoupling coupling : kRegionCouplings) {
+contact::RegionCoupling parse_coupling(const std::string& text) {
+  for (const contact::RegionCoupling coupling : contact::kRegionCouplings) {
     if (name_of(coupling) == text) return coupling;
   }
   throw UsageError("setting \"coupling\": \"" + text +
@@ -25,28 +25,28 @@ RegionCoupling parse_coupling(const std::string& text) {
 
 }  // namespace
 
-TissueModel parse_tissue_model(const std::string& text) {
-  for (const TissueModel tissue : kTissueModels) {
+contact::TissueModel parse_tissue_model(const std::string& text) {
+  for (const contact::TissueModel tissue : contact::kTissueModels) {
     if (name_of(tissue) == text) return tissue;
   }
   throw UsageError("setting \"tissue model\": \"" + text +
                    "\" is not known; halfspace, layered or bone is allowed");
 }
 
-ContactModel contact_model(const ContactModelWords& words) {
-  const auto named = contact_model_named(words.preset);
+contact::ContactModel contact_model(const ContactModelWords& words) {
+  const auto named = contact::contact_model_named(words.preset);
   if (!named) {
     throw UsageError("setting \"preset\": \"" + words.preset +
                      "\" is not known; palmar or xie2014 is allowed");
   }
-  ContactModel result = *named;
+  contact::ContactModel result = *named;
   if (!words.kernel.empty()) result.kernel = parse_kernel(words.kernel);
   if (!words.tissue_model.empty()) result.tissue = parse_tissue_model(words.tissue_model);
   if (!words.coupling.empty()) result.coupling = parse_coupling(words.coupling);
-  return words.tissue_model.empty() ? with_permitted_tissue(result) : result;
+  return words.tissue_model.empty() ? contact::with_permitted_tissue(result) : result;
 }
 
-Coating parse_coating(const std::string& text) {
+contact::Coating parse_coating(const std::string& text) {
   const std::string what = "setting \"coating\"";
   const std::vector<double> values = parse_list(what, text);
   const std::size_t count = values.size();
@@ -56,7 +56,7 @@ Coating parse_coating(const std::string& text) {
                      "; thickness in mm and shear modulus in kPa are needed, then "
                      "Poisson's ratio, then the two corners of a box in mm (2, 3 or 9 numbers)");
   }
-  Coating result;
+  contact::Coating result;
   result.thickness = values[0];
   result.shear_modulus = values[1] / 1000.0;
   if (count > 2) result.poisson = values[2];
@@ -70,7 +70,7 @@ Coating parse_coating(const std::string& text) {
     }
   }
   try {
-    ContactOptions only_this;
+    contact::ContactOptions only_this;
     only_this.coatings = {result};
     only_this.check();
   } catch (const UsageError& error) {
@@ -81,4 +81,4 @@ Coating parse_coating(const std::string& text) {
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

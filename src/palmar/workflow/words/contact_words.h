@@ -6,7 +6,7 @@
 
 #include "palmar/contact/contact.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// The equations of the skin by their names; "": as in the preset.
 struct ContactModelWords {
@@ -18,13 +18,13 @@ struct ContactModelWords {
 
 /// Throws UsageError naming setting and name. Where no tissue model is named, tissue on bone gives
 /// way to what the rest asks for (with_permitted_tissue()).
-ContactModel contact_model(const ContactModelWords& words);
+contact::ContactModel contact_model(const ContactModelWords& words);
 
 /// "halfspace", "layered" or "bone". Throws UsageError.
-TissueModel parse_tissue_model(const std::string& text);
+contact::TissueModel parse_tissue_model(const std::string& text);
 
 /// THICKNESS_MM,SHEAR_MODULUS_KPA[,POISSON[,X0,Y0,Z0,X1,Y1,Z1]]: two opposite corners of a box.
 /// Throws UsageError.
-Coating parse_coating(const std::string& text);
+contact::Coating parse_coating(const std::string& text);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

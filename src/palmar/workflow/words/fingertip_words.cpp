@@ -12,7 +12,7 @@
 #include "palmar/formats/text_scan.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -26,7 +26,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 double parse_angle(const std::string& item, const std::string& value) {
-  const std::optional<double> angle = parse_double(value);
+  const std::optional<double> angle = formats::parse_double(value);
   if (!angle || !std::isfinite(*angle)) {
     throw UsageError(fmt::format(
         "setting \"posture\": \"{}\" is not understood; NAME=DEGREES is required", item));
@@ -36,7 +36,7 @@ double parse_angle(const std::string& item, const std::string& value) {
 
 }  // namespace
 
-std::vector<DigitAngle> parse_digit_posture(Finger finger, const std::string& text) {
+std::vector<DigitAngle> parse_digit_posture(hand::Finger finger, const std::string& text) {
   if (text.empty()) return {};
   const std::vector<DigitAngleName> known = angle_names_of(finger);
   std::vector<DigitAngle> angles;
@@ -58,24 +58,24 @@ std::vector<DigitAngle> parse_digit_posture(Finger finger, const std::string& te
       throw UsageError(fmt::format("setting \"posture\": {} is given twice", name));
     }
     const double angle = parse_angle(item, equals == item.npos ? "" : item.substr(equals + 1));
-    angles.push_back({own->dof, angle * kDegree});
+    angles.push_back({own->dof, angle * geometry::kDegree});
   }
   return angles;
 }
 
-Finger parse_finger(const std::string& text) {
-  if (const auto finger = finger_named(text)) return *finger;
+hand::Finger parse_finger(const std::string& text) {
+  if (const auto finger = hand::finger_named(text)) return *finger;
   throw UsageError(fmt::format(
       "setting \"finger\": \"{}\" is not known; thumb, index, middle, ring or little is allowed",
       text));
 }
 
-std::vector<Tendon> parse_tendons(Finger finger, const std::string& text) {
+std::vector<hand::Tendon> parse_tendons(hand::Finger finger, const std::string& text) {
   if (text == "all") return {};
-  const auto own = tendons_of(finger);
+  const auto own = hand::tendons_of(finger);
   std::vector<std::string> names;
-  for (const Tendon tendon : own) names.emplace_back(name_of(tendon));
-  const auto tendon = tendon_named(text);
+  for (const hand::Tendon tendon : own) names.emplace_back(name_of(tendon));
+  const auto tendon = hand::tendon_named(text);
   if (tendon && std::find(own.begin(), own.end(), *tendon) != own.end()) return {*tendon};
   const std::string nearest = nearest_name(text, names);
   throw UsageError(fmt::format(
@@ -83,16 +83,16 @@ std::vector<Tendon> parse_tendons(Finger finger, const std::string& text) {
       text, nearest.empty() ? "" : ", did you mean " + nearest + "?", fmt::join(names, ", ")));
 }
 
-TendonModel parse_tendon_model(const std::string& points, const std::string& hood) {
-  TendonModel model;
+hand::TendonModel parse_tendon_model(const std::string& points, const std::string& hood) {
+  hand::TendonModel model;
   if (points == "an1979") {
-    model.points = FingerPoints::kAn1979;
+    model.points = hand::FingerPoints::kAn1979;
   } else if (points != "synek2019") {
     throw UsageError(fmt::format(
         "setting \"tendon points\": \"{}\" is not known; synek2019 or an1979 is allowed", points));
   }
   if (hood == "chao1989") {
-    model.hood = chao1989_hood();
+    model.hood = hand::chao1989_hood();
   } else if (hood != "synek2019") {
     throw UsageError(fmt::format(
         "setting \"hood\": \"{}\" is not known; synek2019 or chao1989 is allowed", hood));
@@ -100,4 +100,4 @@ TendonModel parse_tendon_model(const std::string& points, const std::string& hoo
   return model;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -7,16 +7,16 @@
 
 #include "palmar/workflow/effort/effort_fingertip.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// Throws UsageError.
-Finger parse_finger(const std::string& text);
+hand::Finger parse_finger(const std::string& text);
 /// "mcp=40,pip=55,dip=35" (degrees) as angles of that finger. Throws UsageError.
-std::vector<DigitAngle> parse_digit_posture(Finger finger, const std::string& text);
+std::vector<DigitAngle> parse_digit_posture(hand::Finger finger, const std::string& text);
 /// One tendon, or none for "all". Throws UsageError.
-std::vector<Tendon> parse_tendons(Finger finger, const std::string& text);
+std::vector<hand::Tendon> parse_tendons(hand::Finger finger, const std::string& text);
 /// Where the fingers' tendons run ("synek2019", "an1979") and the shares of the extensor hood
 /// ("synek2019", "chao1989"). Throws UsageError.
-TendonModel parse_tendon_model(const std::string& points, const std::string& hood);
+hand::TendonModel parse_tendon_model(const std::string& points, const std::string& hood);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,14 +12,14 @@
 #include "palmar/records/hold/hold_file.h"
 #include "palmar/workflow/words/number_words.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 constexpr int kMostNumber = 100'000;
 
 /// The text as a whole number; nothing if it is none. Throws UsageError out of range.
 std::optional<int> whole_number(const std::string& what, const std::string& text) {
-  const auto value = parse_integer(text);
+  const auto value = formats::parse_integer(text);
   if (!value) return std::nullopt;
   if (*value < 1 || *value > kMostNumber) {
     throw UsageError(fmt::format("{} is {}; a number from 1 is required", what, text));
@@ -27,20 +27,20 @@ std::optional<int> whole_number(const std::string& what, const std::string& text
   return static_cast<int>(*value);
 }
 
-HoldPurpose parse_purpose(const std::string& text) {
-  if (text == "use") return HoldPurpose::kUse;
-  if (text == "hand-over" || text == "hand_over") return HoldPurpose::kHandOver;
+grasp::HoldPurpose parse_purpose(const std::string& text) {
+  if (text == "use") return grasp::HoldPurpose::kUse;
+  if (text == "hand-over" || text == "hand_over") return grasp::HoldPurpose::kHandOver;
   throw UsageError("setting \"purpose\": \"" + text +
                    "\" is not known; use or hand-over is allowed");
 }
 
 }  // namespace
 
-HoldRequest hold_request(const HoldWords& words) {
-  HoldRequest result;
+grasp::HoldRequest hold_request(const HoldWords& words) {
+  grasp::HoldRequest result;
   if (!words.hold.empty()) {
     result.number = whole_number("setting \"hold\"", words.hold);
-    if (!result.number) result.hold = read_hold(words.hold).hold;
+    if (!result.number) result.hold = records::read_hold(words.hold).hold;
   }
   if (!words.part.empty()) {
     result.part = whole_number("setting \"part\"", words.part);
@@ -60,19 +60,21 @@ HoldRequest hold_request(const HoldWords& words) {
 
 std::string grip_list() {
   std::string list = "any, power";
-  for (int g = 0; g < kGripCount; ++g) list += fmt::format(", {}", name_of(static_cast<Grip>(g)));
+  for (int g = 0; g < grasp::kGripCount; ++g)
+    list += fmt::format(", {}", name_of(static_cast<grasp::Grip>(g)));
   return list;
 }
 
-std::optional<Grip> parse_grip(const std::string& text) {
+std::optional<grasp::Grip> parse_grip(const std::string& text) {
   if (text == "any" || text == "auto" || text == "power") return std::nullopt;
-  if (const std::optional<Grip> grip = grip_named(text)) return grip;
+  if (const std::optional<grasp::Grip> grip = grasp::grip_named(text)) return grip;
   std::vector<std::string> known = {"any", "power"};
-  for (int g = 0; g < kGripCount; ++g) known.emplace_back(name_of(static_cast<Grip>(g)));
+  for (int g = 0; g < grasp::kGripCount; ++g)
+    known.emplace_back(name_of(static_cast<grasp::Grip>(g)));
   const std::string nearest = nearest_name(text, known);
   throw UsageError(fmt::format("setting \"grip\": \"{}\" is not known{}; {} is allowed", text,
                                nearest.empty() ? "" : fmt::format(", did you mean {}?", nearest),
                                grip_list()));
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

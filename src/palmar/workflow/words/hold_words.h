@@ -7,7 +7,7 @@
 
 #include "palmar/grasp/find/grasp_settings.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 /// By which part of the product and how it is held, in words; "" and unset: not said.
 struct HoldWords {
@@ -20,12 +20,12 @@ struct HoldWords {
 };
 
 /// The file of a hold is read. Throws UsageError, InputError naming the file.
-HoldRequest hold_request(const HoldWords& words);
+grasp::HoldRequest hold_request(const HoldWords& words);
 
 /// "any" (as people would choose) and "power" have no grip; else the grip of that name. Throws
 /// UsageError with the nearest grip and those that are allowed.
-std::optional<Grip> parse_grip(const std::string& text);
+std::optional<grasp::Grip> parse_grip(const std::string& text);
 /// "any, power, medium_wrap, ...".
 std::string grip_list();
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -7,7 +7,7 @@
 
 #include "palmar/core/error.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 double parse_number(const std::string& what, const std::string& text) {
@@ -62,4 +62,4 @@ Vec3 parse_direction(const std::string& what, const std::string& text) {
   return direction;
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::workflow {
 
 // Numbers and directions as people write them in one word. `what` is what messages call it:
 // "--at", or "setting \"at\"" (core/setting_names.h).
@@ -20,4 +20,4 @@ Vec3 parse_vector(const std::string& what, const std::string& text);
 /// UsageError.
 Vec3 parse_direction(const std::string& what, const std::string& text);
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -8,7 +8,7 @@
 #include "palmar/core/error.h"
 #include "palmar/workflow/words/number_words.h"
 
-namespace palmar {
+namespace palmar::workflow {
 namespace {
 
 const std::string kSpecimen = "setting \"specimen\"";
@@ -35,8 +35,8 @@ double one_radius(const std::string& kind, const std::string& text) {
 
 }  // namespace
 
-PressSpecimen parse_specimen(const std::string& text, std::string& hand) {
-  PressSpecimen specimen;
+contact::PressSpecimen parse_specimen(const std::string& text, std::string& hand) {
+  contact::PressSpecimen specimen;
   const auto [kind, rest] = split_kind(text);
   if (text == "plane") return specimen;
   if (kind == "ellipsoid") {
@@ -45,34 +45,34 @@ PressSpecimen parse_specimen(const std::string& text, std::string& hand) {
       throw UsageError(kSpecimen + ": \"" + text +
                        "\"; ellipsoid:RX,RY with two radii in mm is needed");
     }
-    specimen.kind = PressSpecimen::Kind::kEllipsoid;
+    specimen.kind = contact::PressSpecimen::Kind::kEllipsoid;
     specimen.radius_x = radii[0];
     specimen.radius_y = radii[1];
     return specimen;
   }
   const std::size_t colon = text.rfind(':');
   const auto region =
-      colon == std::string::npos ? std::nullopt : region_named(text.substr(colon + 1));
+      colon == std::string::npos ? std::nullopt : hand::region_named(text.substr(colon + 1));
   if (!region) {
     throw UsageError(kSpecimen + ": \"" + text +
                      "\" is not known; plane, ellipsoid:RX,RY or HAND:REGION "
                      "(template:middle_distal) is allowed");
   }
-  specimen.kind = PressSpecimen::Kind::kHandRegion;
+  specimen.kind = contact::PressSpecimen::Kind::kHandRegion;
   specimen.region = *region;
   hand = text.substr(0, colon);
   return specimen;
 }
 
-PressIndenter parse_indenter(const std::string& text) {
-  PressIndenter indenter;
+contact::PressIndenter parse_indenter(const std::string& text) {
+  contact::PressIndenter indenter;
   const auto [kind, rest] = split_kind(text);
   if (text == "plane") {
-    indenter.kind = PressIndenter::Kind::kPlane;
+    indenter.kind = contact::PressIndenter::Kind::kPlane;
   } else if (kind == "sphere" || kind == "punch" || kind == "cylinder") {
-    indenter.kind = kind == "sphere"  ? PressIndenter::Kind::kSphere
-                    : kind == "punch" ? PressIndenter::Kind::kPunch
-                                      : PressIndenter::Kind::kCylinder;
+    indenter.kind = kind == "sphere"  ? contact::PressIndenter::Kind::kSphere
+                    : kind == "punch" ? contact::PressIndenter::Kind::kPunch
+                                      : contact::PressIndenter::Kind::kCylinder;
     indenter.radius = one_radius(kind, rest);
   } else if (kind == "punches") {
     const std::vector<double> values = numbers_in(kIndenter, rest);
@@ -80,7 +80,7 @@ PressIndenter parse_indenter(const std::string& text) {
       throw UsageError(kIndenter +
                        ": punches needs a radius and a distance in mm, as in punches:2,10");
     }
-    indenter.kind = PressIndenter::Kind::kTwoPunches;
+    indenter.kind = contact::PressIndenter::Kind::kTwoPunches;
     indenter.radius = values[0];
     indenter.distance = values[1];
   } else {
@@ -91,24 +91,24 @@ PressIndenter parse_indenter(const std::string& text) {
   return indenter;
 }
 
-TissueLevel parse_tissue_level(const std::string& text) {
-  if (const auto level = tissue_level_named(text)) return *level;
+hand::TissueLevel parse_tissue_level(const std::string& text) {
+  if (const auto level = contact::tissue_level_named(text)) return *level;
   throw UsageError("setting \"tissue level\": \"" + text +
                    "\" is not known; low, nominal or high is allowed");
 }
 
-ContactModel press_model(const ContactModelWords& words, std::optional<double> layer,
-                         bool is_hand) {
+contact::ContactModel press_model(const ContactModelWords& words, std::optional<double> layer,
+                                  bool is_hand) {
   if (is_hand) return contact_model(words);
   ContactModelWords flat = words;
   if (flat.tissue_model.empty()) flat.tissue_model = "halfspace";
-  ContactModel model = contact_model(flat);
-  if (model.tissue == TissueModel::kBone) {
+  contact::ContactModel model = contact_model(flat);
+  if (model.tissue == contact::TissueModel::kBone) {
     throw UsageError(
         "setting \"tissue model\" bone: a plane or ellipsoid has no bones; "
         "setting \"specimen\" template:REGION is needed");
   }
-  const bool is_layered = model.tissue == TissueModel::kLayered;
+  const bool is_layered = model.tissue == contact::TissueModel::kLayered;
   if (layer && !is_layered && !words.tissue_model.empty()) {
     throw UsageError("setting \"layer\" and setting \"tissue model\" halfspace exclude each other");
   }
@@ -116,16 +116,16 @@ ContactModel press_model(const ContactModelWords& words, std::optional<double> l
     throw UsageError(
         "setting \"tissue model\" layered: a plane or ellipsoid needs setting \"layer\" as well");
   }
-  if (layer) model.tissue = TissueModel::kLayered;
+  if (layer) model.tissue = contact::TissueModel::kLayered;
   return model;
 }
 
-Coating parse_cover(const std::string& text) {
-  Coating cover = parse_coating(text);
+contact::Coating parse_cover(const std::string& text) {
+  contact::Coating cover = parse_coating(text);
   if (cover.where.isEmpty()) return cover;
   throw UsageError("setting \"coating\": \"" + text +
                    "\": the cover of an indenter is all round it; thickness in mm, shear modulus "
                    "in kPa and Poisson's ratio are allowed (2 or 3 numbers)");
 }
 
-}  // namespace palmar
+}  // namespace palmar::workflow

@@ -12,7 +12,7 @@
 #include "palmar/geometry/rotation.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr std::array<std::string_view, 8> kCarpals = {
@@ -20,16 +20,16 @@ constexpr std::array<std::string_view, 8> kCarpals = {
 
 }  // namespace
 
-std::vector<std::string> ray_of(Finger finger) {
+std::vector<std::string> ray_of(hand::Finger finger) {
   std::vector<std::string> names = {std::string(name_of(finger)) + "_metacarpal"};
-  for (const std::optional<Segment>& segment : segments_of(finger)) {
+  for (const std::optional<hand::Segment>& segment : hand::segments_of(finger)) {
     if (segment) names.push_back(phalanx_name(*segment));
   }
   return names;
 }
 
-std::string phalanx_name(Segment segment) {
-  if (!finger_of(segment)) throw UsageError("phalanx: the palm is none");
+std::string phalanx_name(hand::Segment segment) {
+  if (!hand::finger_of(segment)) throw UsageError("phalanx: the palm is none");
   return std::string(name_of(segment)) + "_phalanx";
 }
 
@@ -47,12 +47,13 @@ const ScannedBone* bone_named(const ScanSurfaces& surfaces, std::string_view nam
   return nullptr;
 }
 
-Vec3 joint_surface_point(const TriangleMesh& distal, const TriangleMesh& proximal) {
-  const ClosestPointQuery query(proximal);
+Vec3 joint_surface_point(const geometry::TriangleMesh& distal,
+                         const geometry::TriangleMesh& proximal) {
+  const geometry::ClosestPointQuery query(proximal);
   std::vector<double> distance;
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& v : distal.vertices) {
-    const std::optional<ClosestPoint> found = query.closest(v);
+    const std::optional<geometry::ClosestPoint> found = query.closest(v);
     distance.push_back(found ? found->distance : std::numeric_limits<double>::infinity());
     least = std::min(least, distance.back());
   }
@@ -68,8 +69,8 @@ Vec3 joint_surface_point(const TriangleMesh& distal, const TriangleMesh& proxima
   return sum / count;
 }
 
-Rigid3 align_points(std::span<const Vec3> a, std::span<const Vec3> b,
-                    std::span<const double> weight) {
+geometry::Rigid3 align_points(std::span<const Vec3> a, std::span<const Vec3> b,
+                              std::span<const double> weight) {
   if (a.empty() || a.size() != b.size() || (!weight.empty() && weight.size() != a.size())) {
     throw UsageError("alignment of points: the lists are empty or not equally long");
   }
@@ -87,26 +88,27 @@ Rigid3 align_points(std::span<const Vec3> a, std::span<const Vec3> b,
   for (std::size_t i = 0; i < a.size(); ++i) {
     cross += w(i) * (b[i] - middle_b) * (a[i] - middle_a).transpose();
   }
-  const Quat q = Quat(fit_rotation(cross)).normalized();
+  const Quat q = Quat(geometry::fit_rotation(cross)).normalized();
   return {q, middle_b - q * middle_a};
 }
 
-Rigid3 align_points_robustly(std::span<const Vec3> a, std::span<const Vec3> b, double tolerance) {
+geometry::Rigid3 align_points_robustly(std::span<const Vec3> a, std::span<const Vec3> b,
+                                       double tolerance) {
   // Start from the triple that most other pairs agree with: a few wrong pairs would pull a mean.
-  Rigid3 best = align_points(a, b);
-  const auto distances = [&](const Rigid3& motion) {
+  geometry::Rigid3 best = align_points(a, b);
+  const auto distances = [&](const geometry::Rigid3& motion) {
     std::vector<double> d;
     for (std::size_t i = 0; i < a.size(); ++i) d.push_back((motion * a[i] - b[i]).norm());
     return d;
   };
   if (a.size() > 3) {
-    double least = median(distances(best));
+    double least = statistics::median(distances(best));
     for (std::size_t i = 0; i < a.size(); ++i) {
       for (std::size_t j = i + 1; j < a.size(); ++j) {
         for (std::size_t k = j + 1; k < a.size(); ++k) {
           const std::array<Vec3, 3> from = {a[i], a[j], a[k]}, to = {b[i], b[j], b[k]};
-          const Rigid3 motion = align_points(from, to);
-          const double middle = median(distances(motion));
+          const geometry::Rigid3 motion = align_points(from, to);
+          const double middle = statistics::median(distances(motion));
           if (middle >= least) continue;
           least = middle;
           best = motion;
@@ -116,7 +118,7 @@ Rigid3 align_points_robustly(std::span<const Vec3> a, std::span<const Vec3> b, d
   }
   for (int pass = 0; pass < 5; ++pass) {
     const std::vector<double> d = distances(best);
-    const double limit = std::max(tolerance, 3.0 * median(d));
+    const double limit = std::max(tolerance, 3.0 * statistics::median(d));
     std::vector<double> weight;
     for (const double one : d) weight.push_back(one <= limit ? 1.0 : 0.0);
     if (std::count(weight.begin(), weight.end(), 1.0) < 3) break;
@@ -125,4 +127,4 @@ Rigid3 align_points_robustly(std::span<const Vec3> a, std::span<const Vec3> b, d
   return best;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

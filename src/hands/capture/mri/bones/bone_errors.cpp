@@ -8,15 +8,15 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/distance/closest_point.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-double mean_distance(const TriangleMesh& mesh, const Rigid3& motion,
-                     const ClosestPointQuery& surface) {
+double mean_distance(const geometry::TriangleMesh& mesh, const geometry::Rigid3& motion,
+                     const geometry::ClosestPointQuery& surface) {
   double sum = 0.0;
   std::optional<int> hint;
   for (const Vec3& v : mesh.vertices) {
-    const ClosestPoint found = *surface.closest(motion * v, 1e6, hint);
+    const geometry::ClosestPoint found = *surface.closest(motion * v, 1e6, hint);
     hint = found.triangle;
     sum += found.distance;
   }
@@ -27,14 +27,14 @@ double mean_distance(const TriangleMesh& mesh, const Rigid3& motion,
 struct Task {
   BoneError error;
   const ReferenceBone* bone = nullptr;
-  const TriangleMesh* seen = nullptr;
-  Rigid3 patient_from_hand;  ///< of the posture
-  Rigid3 registered, fixed_axis;
-  std::optional<Rigid3> interpolated;
+  const geometry::TriangleMesh* seen = nullptr;
+  geometry::Rigid3 patient_from_hand;  ///< of the posture
+  geometry::Rigid3 registered, fixed_axis;
+  std::optional<geometry::Rigid3> interpolated;
 };
 
-const TriangleMesh* counterpart(const std::vector<BoneMotion>& tracked, const ScanSurfaces& scan,
-                                const std::string& name) {
+const geometry::TriangleMesh* counterpart(const std::vector<BoneMotion>& tracked,
+                                          const ScanSurfaces& scan, const std::string& name) {
   for (const BoneMotion& motion : tracked) {
     if (motion.bone != name) continue;
     if (!motion.is_cut_out) return nullptr;
@@ -47,25 +47,24 @@ const TriangleMesh* counterpart(const std::vector<BoneMotion>& tracked, const Sc
 
 }  // namespace
 
-std::vector<BoneError> bone_errors(const ReferenceHand& hand,
-                                   const std::map<ScanPosture, ScanSurfaces>& scans,
-                                   const std::map<ScanPosture, std::vector<BoneMotion>>& tracked,
-                                   const MotionsByPosture& motions,
-                                   const std::map<ScanPosture, Posture>& postures,
-                                   const Skeleton& skeleton, const FixedAxisCmc& fixed_cmc) {
+std::vector<BoneError> bone_errors(
+    const ReferenceHand& hand, const std::map<hand::ScanPosture, ScanSurfaces>& scans,
+    const std::map<hand::ScanPosture, std::vector<BoneMotion>>& tracked,
+    const MotionsByPosture& motions, const std::map<hand::ScanPosture, hand::Posture>& postures,
+    const hand::Skeleton& skeleton, const FixedAxisCmc& fixed_cmc) {
   std::vector<Task> tasks;
   for (const auto& [posture, moved] : motions) {
     const auto scan = scans.find(posture);
     const auto angles = postures.find(posture);
     const auto found = tracked.find(posture);
     if (scan == scans.end() || angles == postures.end() || found == tracked.end()) continue;
-    const PosedSkeleton posed = pose_skeleton(skeleton, angles->second);
-    const std::map<std::string, Rigid3> fixed_thumb =
+    const hand::PosedSkeleton posed = hand::pose_skeleton(skeleton, angles->second);
+    const std::map<std::string, geometry::Rigid3> fixed_thumb =
         fit_fixed_axis_thumb(skeleton, fixed_cmc, hand, moved, posture);
-    for (int f = 0; f < kFingerCount; ++f) {
-      const auto finger = static_cast<Finger>(f);
-      const bool is_thumb = finger == Finger::kThumb;
-      const std::map<std::string, Rigid3> placed = bones_of_finger(posed, finger);
+    for (int f = 0; f < hand::kFingerCount; ++f) {
+      const auto finger = static_cast<hand::Finger>(f);
+      const bool is_thumb = finger == hand::Finger::kThumb;
+      const std::map<std::string, geometry::Rigid3> placed = bones_of_finger(posed, finger);
       for (const std::string& name : ray_of(finger)) {
         const auto model = placed.find(name);
         const auto motion = moved.bone.find(name);
@@ -73,7 +72,7 @@ std::vector<BoneError> bone_errors(const ReferenceHand& hand,
         if (model == placed.end() || motion == moved.bone.end() || bone == hand.bones.end()) {
           continue;
         }
-        const TriangleMesh* seen = counterpart(found->second, scan->second, name);
+        const geometry::TriangleMesh* seen = counterpart(found->second, scan->second, name);
         if (seen == nullptr) continue;
         Task task;
         task.error.posture = posture;
@@ -90,8 +89,8 @@ std::vector<BoneError> bone_errors(const ReferenceHand& hand,
   }
   parallel_for(static_cast<int>(tasks.size()), [&](int k) {
     Task& task = tasks[k];
-    const ClosestPointQuery surface(*task.seen);
-    const auto error = [&](const Rigid3& motion) {
+    const geometry::ClosestPointQuery surface(*task.seen);
+    const auto error = [&](const geometry::Rigid3& motion) {
       return mean_distance(task.bone->mesh, task.patient_from_hand * motion, surface);
     };
     task.error.icp = error(task.registered);
@@ -103,4 +102,4 @@ std::vector<BoneError> bone_errors(const ReferenceHand& hand,
   return errors;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

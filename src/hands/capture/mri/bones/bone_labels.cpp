@@ -11,7 +11,7 @@
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/distance/winding_number.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kReach = 3.0;  // mm
@@ -20,11 +20,11 @@ std::string text_of(const Vec3& p) {
   return fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", p.x(), p.y(), p.z());
 }
 
-void check_names(const std::vector<BoneLabel>& labels, const Hand& model) {
+void check_names(const std::vector<hand::BoneLabel>& labels, const hand::Hand& model) {
   std::vector<std::string> known;
-  for (const Bone& bone : model.bones) known.push_back(bone.name);
+  for (const hand::Bone& bone : model.bones) known.push_back(bone.name);
   for (std::size_t k = 0; k < labels.size(); ++k) {
-    const BoneLabel& label = labels[k];
+    const hand::BoneLabel& label = labels[k];
     if (std::find(known.begin(), known.end(), label.name) == known.end()) {
       throw InputError(
           label.place + ": \"" + label.name + "\" is no bone of the hand; " +
@@ -41,11 +41,11 @@ void check_names(const std::vector<BoneLabel>& labels, const Hand& model) {
 
 }  // namespace
 
-void apply_bone_labels(ScanSurfaces& surfaces, const std::vector<BoneLabel>& labels,
-                       const Hand& model) {
+void apply_bone_labels(ScanSurfaces& surfaces, const std::vector<hand::BoneLabel>& labels,
+                       const hand::Hand& model) {
   check_names(labels, model);
   if (labels.empty()) return;
-  std::vector<ClosestPointQuery> near;
+  std::vector<geometry::ClosestPointQuery> near;
   for (const ScannedBone& bone : surfaces.bones) near.emplace_back(bone.mesh);
   std::vector<int> label_of(surfaces.bones.size(), -1);
   for (std::size_t k = 0; k < labels.size(); ++k) {
@@ -54,7 +54,8 @@ void apply_bone_labels(ScanSurfaces& surfaces, const std::vector<BoneLabel>& lab
     for (std::size_t b = 0; b < surfaces.bones.size(); ++b) {
       const auto hit = near[b].closest(labels[k].point);
       if (!hit) continue;
-      const bool is_inside = exact_winding_number(surfaces.bones[b].mesh, labels[k].point) > 0.5;
+      const bool is_inside =
+          geometry::exact_winding_number(surfaces.bones[b].mesh, labels[k].point) > 0.5;
       const double distance = is_inside ? 0.0 : hit->distance;
       if (distance < least || (is_inside && best < 0)) {
         least = distance;
@@ -78,11 +79,11 @@ void apply_bone_labels(ScanSurfaces& surfaces, const std::vector<BoneLabel>& lab
       surfaces.bones[b].name = labels[label_of[b]].name;
       continue;
     }
-    const bool is_given_away =
-        std::any_of(labels.begin(), labels.end(),
-                    [&](const BoneLabel& label) { return label.name == surfaces.bones[b].name; });
+    const bool is_given_away = std::any_of(
+        labels.begin(), labels.end(),
+        [&](const hand::BoneLabel& label) { return label.name == surfaces.bones[b].name; });
     if (is_given_away) surfaces.bones[b].name.clear();
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -14,7 +14,7 @@
 #include "palmar/hand/posture/posture_from_mesh.h"
 #include "palmar/hand/skin/skinning.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kLargestUnnamed = 5.0e3;  // mm^3
@@ -27,11 +27,12 @@ struct Expected {
   Vec3 along = Vec3::UnitY();  ///< the hand, towards the fingers
 };
 
-Expected expected_bones(const TriangleMesh& skin, const Hand& model, const Progress& progress) {
-  const MeshFit fit = fit_posture_to_mesh(model, skin, {.fits_scale = true}, progress);
+Expected expected_bones(const geometry::TriangleMesh& skin, const hand::Hand& model,
+                        const Progress& progress) {
+  const hand::MeshFit fit = hand::fit_posture_to_mesh(model, skin, {.fits_scale = true}, progress);
   Expected expected;
   expected.along = fit.mesh_from_hand.rotation * Vec3::UnitY();
-  for (const TriangleMesh& mesh : pose_bones(model, fit.posture)) {
+  for (const geometry::TriangleMesh& mesh : hand::pose_bones(model, fit.posture)) {
     BoneOutline outline = outline_of(mesh);
     outline.centre = fit.mesh_from_hand * (fit.scale * outline.centre);
     outline.axis = fit.mesh_from_hand.rotation * outline.axis;
@@ -70,9 +71,9 @@ std::vector<std::vector<BoneOutline>> guesses(const Expected& expected) {
 }  // namespace
 
 BoneNames name_bones(const std::vector<MarrowRegion>& candidates, const ScanLevels& levels,
-                     const TriangleMesh& skin, const Hand& model, const KnownSide& known,
-                     const Progress& progress) {
-  const Hand other = mirrored(model);
+                     const geometry::TriangleMesh& skin, const hand::Hand& model,
+                     const KnownSide& known, const Progress& progress) {
+  const hand::Hand other = hand::mirrored(model);
   const Expected as_model = expected_bones(skin, model, progress),
                  as_other = expected_bones(skin, other, progress);
   double longest = 0.0;
@@ -120,7 +121,7 @@ BoneNames name_bones(const std::vector<MarrowRegion>& candidates, const ScanLeve
   }
   if (!missing.empty()) {
     names.notes.push_back(fmt::format("{} of {} bones not found: {}", missing.size(),
-                                      model.bones.size(), joined(missing, ", ")));
+                                      model.bones.size(), palmar::joined(missing, ", ")));
   }
   if (!known.side && names.other_misfit < 1.2 * names.misfit) {
     names.notes.push_back(fmt::format(
@@ -131,4 +132,4 @@ BoneNames name_bones(const std::vector<MarrowRegion>& candidates, const ScanLeve
   return names;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -10,13 +10,13 @@
 #include "hands/capture/mri/bones/bone_outline.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Which bone is which.
 struct BoneNames {
   std::vector<MarrowRegion> bones;  ///< those with a name, in the model's order, then the others
   std::vector<std::string> name;    ///< per bone; "" for none
-  Side side = Side::kRight;
+  hand::Side side = hand::Side::kRight;
   double misfit = 0.0;        ///< mean cost of a bone of the model; 1 is that of a good guess
   double other_misfit = 0.0;  ///< the same as the other hand
   std::vector<std::string> notes;
@@ -24,7 +24,7 @@ struct BoneNames {
 
 /// What is known of the side beforehand (see SurfaceOptions).
 struct KnownSide {
-  std::optional<Side> side = {};
+  std::optional<hand::Side> side = {};
   double doubted_below = 0.0;
 };
 
@@ -39,7 +39,7 @@ struct KnownSide {
 /// Regions that no bone of the model wants are left out unless they are larger than 150 mm^3 and
 /// darkly enclosed.
 BoneNames name_bones(const std::vector<MarrowRegion>& candidates, const ScanLevels& levels,
-                     const TriangleMesh& skin, const Hand& model, const KnownSide& known = {},
-                     const Progress& progress = {});
+                     const geometry::TriangleMesh& skin, const hand::Hand& model,
+                     const KnownSide& known = {}, const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

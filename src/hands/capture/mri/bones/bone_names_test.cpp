@@ -9,11 +9,11 @@
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 TEST(OutlineOf, ReportsAnEllipsoidsAxisAndLength) {
-  TriangleMesh mesh = make_icosphere(1.0, 3);
+  geometry::TriangleMesh mesh = geometry::make_icosphere(1.0, 3);
   for (Vec3& v : mesh.vertices) v = Vec3(4.0 * v.x() + 10.0, 20.0 * v.y(), 5.0 * v.z());
   const BoneOutline outline = outline_of(mesh);
   EXPECT_NEAR(outline.length, 40.0, 0.3);  // mm; the icosphere's corners
@@ -23,19 +23,19 @@ TEST(OutlineOf, ReportsAnEllipsoidsAxisAndLength) {
 }
 
 TEST(FindSurfaces, RefusesAnImageThatIsTooCoarseOrShowsNoHand) {
-  Volume image;
+  imaging::Volume image;
   image.grid.size = {20, 20, 20};
   image.grid.spacing = {3.0, 3.0, 3.0};
   image.value.assign(image.grid.count(), 0.0F);
   try {
-    find_surfaces(image, "series 4", Hand{});
+    find_surfaces(image, "series 4", hand::Hand{});
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("series 4: voxels of 3.00 x 3.00 x 3.00 mm"));
   }
   image.grid.spacing = {1.0, 1.0, 1.0};
-  EXPECT_THROW(find_surfaces(image, "series 4", Hand{}), InputError);
+  EXPECT_THROW(find_surfaces(image, "series 4", hand::Hand{}), InputError);
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

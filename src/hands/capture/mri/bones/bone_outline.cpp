@@ -8,7 +8,7 @@
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 BoneOutline outline_along(const std::vector<Vec3>& points, const Vec3& centre,
@@ -39,10 +39,10 @@ BoneOutline outline_along(const std::vector<Vec3>& points, const Vec3& centre,
 
 }  // namespace
 
-BoneOutline outline_of(const TriangleMesh& mesh) {
+BoneOutline outline_of(const geometry::TriangleMesh& mesh) {
   if (mesh.vertices.empty()) return {};
-  const Vec3 centre = centre_of_volume(mesh);
-  const std::vector<double> area = vertex_areas(mesh);
+  const Vec3 centre = geometry::centre_of_volume(mesh);
+  const std::vector<double> area = geometry::vertex_areas(mesh);
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3 d = mesh.vertices[v] - centre;
@@ -64,4 +64,4 @@ BoneOutline outline_of(const MarrowRegion& marrow) {
   return outline;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

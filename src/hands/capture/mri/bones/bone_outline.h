@@ -6,7 +6,7 @@
 
 #include "hands/capture/mri/bones/bone_regions.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 inline constexpr double kCorticalShell = 0.8;  ///< mm of cortical bone round marrow
 
@@ -18,8 +18,8 @@ struct BoneOutline {
   double width = 0.0;          ///< mean extent across, mm
   std::array<Vec3, 2> ends = {Vec3::Zero(), Vec3::Zero()};  ///< where the axis leaves the bone
 };
-BoneOutline outline_of(const TriangleMesh& mesh);
+BoneOutline outline_of(const geometry::TriangleMesh& mesh);
 /// Of the bone round a marrow: by the cortical shell longer at each end, and wider all round.
 BoneOutline outline_of(const MarrowRegion& marrow);
 
-}  // namespace palmar
+}  // namespace palmar::capture

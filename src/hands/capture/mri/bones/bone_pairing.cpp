@@ -16,7 +16,7 @@
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kAlone = 16.0;      // of a bone that isn't found: 4 standard deviations
@@ -69,7 +69,7 @@ double pair_cost(const BoneOutline& found, const BoneOutline& expected, bool is_
 }
 
 /// Bones of the model next to each other in a finger: pairs of indices, proximal first.
-std::vector<std::array<int, 2>> chain_links(const Hand& model) {
+std::vector<std::array<int, 2>> chain_links(const hand::Hand& model) {
   std::vector<std::array<int, 2>> links;
   for (int b = 0; b + 1 < static_cast<int>(model.bones.size()); ++b) {
     const std::string& name = model.bones[b].name;
@@ -111,12 +111,12 @@ bool is_in_a_row(const BoneOutline& both, const BoneOutline& a, const BoneOutlin
 /// From where a bone's marrow ends, along it, to the skin: what lies beyond the last phalanx of a
 /// finger that points to `ahead`, mm. Not so if it's only the near part of it, or of the bone
 /// before.
-double beyond_tip(const BoneOutline& found, const Vec3& ahead, const RayQuery& skin) {
+double beyond_tip(const BoneOutline& found, const Vec3& ahead, const geometry::RayQuery& skin) {
   Vec3 way = ahead;
   if (is_long(found)) way = found.axis.dot(ahead) < 0.0 ? Vec3(-found.axis) : found.axis;
   const double far =
       std::max(way.dot(found.ends[0] - found.centre), way.dot(found.ends[1] - found.centre));
-  const std::optional<RayHit> hit = skin.first_hit(found.centre, way);
+  const std::optional<geometry::RayHit> hit = skin.first_hit(found.centre, way);
   return hit ? hit->distance - far - kCorticalShell : std::numeric_limits<double>::infinity();
 }
 
@@ -244,12 +244,12 @@ void choose_along(const std::vector<std::vector<int>>& rays,
 /// Costs of hypotheses for bones that are expected somewhere, and what they are recognised by.
 class Pairer {
  public:
-  Pairer(BoneHypotheses hypotheses, const ScanLevels& levels, const TriangleMesh& skin,
-         const Hand& model, std::vector<BoneOutline> expected)
+  Pairer(BoneHypotheses hypotheses, const ScanLevels& levels, const geometry::TriangleMesh& skin,
+         const hand::Hand& model, std::vector<BoneOutline> expected)
       : all_(std::move(hypotheses)),
         levels_(levels),
         skin_(skin),
-        seen_(bounding_box(skin)),
+        seen_(geometry::bounding_box(skin)),
         expected_(std::move(expected)),
         count_(static_cast<int>(expected_.size())),
         links_(chain_links(model)),
@@ -436,7 +436,7 @@ class Pairer {
 
   BoneHypotheses all_;
   const ScanLevels& levels_;
-  RayQuery skin_;
+  geometry::RayQuery skin_;
   Box3 seen_;
   std::vector<BoneOutline> expected_;
   int count_;
@@ -506,7 +506,7 @@ BoneHypotheses bone_hypotheses(const std::vector<MarrowRegion>& candidates,
 }
 
 BonePairing pair_bones(const BoneHypotheses& hypotheses, const ScanLevels& levels,
-                       const TriangleMesh& skin, const Hand& model,
+                       const geometry::TriangleMesh& skin, const hand::Hand& model,
                        const std::vector<std::vector<BoneOutline>>& expected) {
   std::vector<std::optional<Pairer>> pairers(expected.size());
   std::vector<double> cost(expected.size(), 0.0);
@@ -520,4 +520,4 @@ BonePairing pair_bones(const BoneHypotheses& hypotheses, const ScanLevels& level
   return pairing;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

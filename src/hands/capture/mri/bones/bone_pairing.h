@@ -7,7 +7,7 @@
 #include "hands/capture/mri/bones/bone_outline.h"
 #include "palmar/hand/hand.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// What may be a bone of the model: a region of bright tissue, or two or three in a row, as a shaft
 /// leaves whose marrow is too thin to be seen.
@@ -46,7 +46,7 @@ struct BonePairing {
 ///    the pairs and those of their neighbours were off; 1 and 2 are repeated.
 /// 4. Regions without a name are joined to a bone in the same row if that lowers its cost by 1.
 BonePairing pair_bones(const BoneHypotheses& hypotheses, const ScanLevels& levels,
-                       const TriangleMesh& skin, const Hand& model,
+                       const geometry::TriangleMesh& skin, const hand::Hand& model,
                        const std::vector<std::vector<BoneOutline>>& expected);
 
-}  // namespace palmar
+}  // namespace palmar::capture

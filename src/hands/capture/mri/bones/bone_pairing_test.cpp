@@ -6,7 +6,7 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::ElementsAre;
@@ -15,15 +15,15 @@ using ::testing::UnorderedElementsAre;
 constexpr double kTip = 162.6;  // skin of the fingertip, 4.6 mm beyond the last bone
 
 /// A box along y from `from` to `to`, mm.
-TriangleMesh bar(double from, double to, double wide) {
-  TriangleMesh mesh = make_box({wide, to - from, wide}, 4);
+geometry::TriangleMesh bar(double from, double to, double wide) {
+  geometry::TriangleMesh mesh = geometry::make_box({wide, to - from, wide}, 4);
   for (Vec3& v : mesh.vertices) v.y() += 0.5 * (from + to);
   return mesh;
 }
 
 /// One finger, straight, of four bones.
-Hand one_finger() {
-  Hand hand;
+hand::Hand one_finger() {
+  hand::Hand hand;
   hand.bones.resize(4);
   hand.bones[0].name = "index_metacarpal";
   hand.bones[0].mesh = bar(0.0, 70.0, 9.0);
@@ -57,15 +57,15 @@ class OneFinger : public ::testing::Test {
   /// What is found for each bone of the model: regions it holds.
   std::vector<std::vector<std::int32_t>> pair(double longer = 1.0) {
     const ScanLevels levels{.dark = 0.0, .bright = 100.0};
-    const Hand model = one_finger();
+    const hand::Hand model = one_finger();
     std::vector<std::vector<BoneOutline>> expected(1);
-    for (const Bone& bone : model.bones) expected.front().push_back(outline_of(bone.mesh));
+    for (const hand::Bone& bone : model.bones) expected.front().push_back(outline_of(bone.mesh));
     expected.push_back(expected.front());
     for (BoneOutline& bone : expected.back()) {
       bone.centre.y() *= longer;
       bone.length *= longer;
     }
-    TriangleMesh skin = bar(-10.0, longer * kTip, 20.0);
+    geometry::TriangleMesh skin = bar(-10.0, longer * kTip, 20.0);
     const BonePairing pairing =
         pair_bones(bone_hypotheses(candidates_, levels, 100.0), levels, skin, model, expected);
     std::vector<std::vector<std::int32_t>> found;
@@ -134,4 +134,4 @@ TEST_F(OneFinger, TheBetterGuessOfTheHandsLengthIsTaken) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

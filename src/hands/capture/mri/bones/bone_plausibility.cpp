@@ -13,7 +13,7 @@
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 struct SizedBone {
@@ -29,9 +29,9 @@ constexpr double kScaphoid = 26.0;         // mm
 constexpr double kThirdMetacarpal = 64.6;  // mm; Buryanov, Kotiuk 2010, Table I
 
 /// Length that a bone of the model's hand should have, mm.
-double expected_length(const Bone& bone, const Hand& model) {
+double expected_length(const hand::Bone& bone, const hand::Hand& model) {
   if (bone.name == "scaphoid") {
-    for (const Bone& other : model.bones) {
+    for (const hand::Bone& other : model.bones) {
       if (other.name != "middle_metacarpal") continue;
       return kScaphoid / kThirdMetacarpal * outline_of(other.mesh).length;
     }
@@ -39,8 +39,8 @@ double expected_length(const Bone& bone, const Hand& model) {
   return outline_of(bone.mesh).length;
 }
 
-double gap(const TriangleMesh& a, const TriangleMesh& b) {
-  const ClosestPointQuery query(a);
+double gap(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b) {
+  const geometry::ClosestPointQuery query(a);
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3& vertex : b.vertices) {
     if (const auto at = query.closest(vertex, least)) least = at->distance;
@@ -50,10 +50,10 @@ double gap(const TriangleMesh& a, const TriangleMesh& b) {
 
 }  // namespace
 
-std::vector<std::string> doubtful_bones(const ScanSurfaces& surfaces, const Hand& model) {
+std::vector<std::string> doubtful_bones(const ScanSurfaces& surfaces, const hand::Hand& model) {
   std::vector<SizedBone> sized;
   std::vector<double> ratios;
-  for (const Bone& expected : model.bones) {
+  for (const hand::Bone& expected : model.bones) {
     // Of the forearm an image shows more or less, the model a stump.
     if (expected.name == "radius" || expected.name == "ulna") continue;
     const ScannedBone* bone = bone_named(surfaces, expected.name);
@@ -62,7 +62,7 @@ std::vector<std::string> doubtful_bones(const ScanSurfaces& surfaces, const Hand
     ratios.push_back(sized.back().length / sized.back().expected);
   }
   if (ratios.empty()) return {};
-  const double scale = median(std::move(ratios));
+  const double scale = statistics::median(std::move(ratios));
 
   std::vector<std::string> doubts;
   for (const SizedBone& one : sized) {
@@ -76,11 +76,11 @@ std::vector<std::string> doubtful_bones(const ScanSurfaces& surfaces, const Hand
   constexpr double kFar = 8.0;  // mm
   constexpr std::array<const char*, 4> kChain = {"_metacarpal", "_proximal_phalanx",
                                                  "_middle_phalanx", "_distal_phalanx"};
-  for (int f = 0; f < kFingerCount; ++f) {
-    const auto finger = static_cast<Finger>(f);
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
     const ScannedBone* last = nullptr;
     for (const char* kind : kChain) {
-      if (finger == Finger::kThumb && std::string_view(kind) == "_middle_phalanx") continue;
+      if (finger == hand::Finger::kThumb && std::string_view(kind) == "_middle_phalanx") continue;
       const ScannedBone* bone = bone_named(surfaces, std::string(name_of(finger)) + kind);
       if (last != nullptr && bone != nullptr) {
         const double apart = gap(last->mesh, bone->mesh);
@@ -95,4 +95,4 @@ std::vector<std::string> doubtful_bones(const ScanSurfaces& surfaces, const Hand
   return doubts;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -6,28 +6,28 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
 /// A rod along y from `from` to `to`, mm.
-TriangleMesh rod(double from, double to) {
-  TriangleMesh mesh = make_box({8.0, to - from, 8.0}, 8);
+geometry::TriangleMesh rod(double from, double to) {
+  geometry::TriangleMesh mesh = geometry::make_box({8.0, to - from, 8.0}, 8);
   for (Vec3& v : mesh.vertices) v.y() += 0.5 * (from + to);
   return mesh;
 }
 
-Bone named(const std::string& name, TriangleMesh mesh) {
-  Bone bone;
+hand::Bone named(const std::string& name, geometry::TriangleMesh mesh) {
+  hand::Bone bone;
   bone.name = name;
   bone.mesh = std::move(mesh);
   return bone;
 }
 
-Hand model() {
-  Hand hand;
+hand::Hand model() {
+  hand::Hand hand;
   hand.bones.resize(4);
   hand.bones[0].name = "index_metacarpal";
   hand.bones[0].mesh = rod(0.0, 70.0);
@@ -43,7 +43,7 @@ Hand model() {
 /// The model's bones, all larger by a fifth: a larger hand.
 ScanSurfaces larger_hand() {
   ScanSurfaces surfaces;
-  for (const Bone& bone : model().bones) {
+  for (const hand::Bone& bone : model().bones) {
     surfaces.bones.push_back({bone.name, bone.mesh, false});
     for (Vec3& v : surfaces.bones.back().mesh.vertices) v *= 1.2;
   }
@@ -68,12 +68,13 @@ TEST(BonePlausibility, HalfABoneIsReported) {
 }
 
 TEST(BonePlausibility, AScaphoidIsAsLongAsPeoplesAreWhateverTheModelsIs) {
-  Hand short_one = model();
+  hand::Hand short_one = model();
   short_one.bones.push_back(named("middle_metacarpal", rod(0.0, 64.6)));
   short_one.bones.push_back(named("scaphoid", rod(-20.0, -4.0)));
   ScanSurfaces surfaces;
-  for (const Bone& bone : short_one.bones) surfaces.bones.push_back({bone.name, bone.mesh, false});
-  TriangleMesh& scaphoid = surfaces.bones.back().mesh;
+  for (const hand::Bone& bone : short_one.bones)
+    surfaces.bones.push_back({bone.name, bone.mesh, false});
+  geometry::TriangleMesh& scaphoid = surfaces.bones.back().mesh;
   for (const double length : {24.5, 26.0, 27.6}) {  // women, all, men
     scaphoid = rod(0.0, length);
     EXPECT_THAT(doubtful_bones(surfaces, short_one), IsEmpty()) << length;
@@ -87,7 +88,7 @@ TEST(BonePlausibility, AScaphoidIsAsLongAsPeoplesAreWhateverTheModelsIs) {
 }
 
 TEST(BonePlausibility, OfTheForearmAnyLengthWillDo) {
-  Hand stump = model();
+  hand::Hand stump = model();
   stump.bones.push_back(named("radius", rod(-60.0, -40.0)));
   ScanSurfaces surfaces = larger_hand();
   surfaces.bones.push_back({"radius", rod(-150.0, -48.0), false});
@@ -95,4 +96,4 @@ TEST(BonePlausibility, OfTheForearmAnyLengthWillDo) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

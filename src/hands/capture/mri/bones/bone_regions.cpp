@@ -8,16 +8,16 @@
 #include <map>
 #include <unordered_set>
 
+#include "hands/imaging/bright_regions.h"
+#include "hands/imaging/gaussian_filter.h"
+#include "hands/imaging/iso_surface.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/geometry/remesh/remesh.h"
 #include "palmar/geometry/remesh/smooth.h"
-#include "hands/imaging/bright_regions.h"
-#include "hands/imaging/gaussian_filter.h"
-#include "hands/imaging/iso_surface.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 // Films that separate regions, from thin ones on: one bone may be separated by a film that is
@@ -63,12 +63,12 @@ Nearest nearest_voxels(const MarrowRegion& a, const MarrowRegion& b) {
 }
 
 /// Leaks through a shell are thinner than the bone.
-VoxelMask without_leaks(const VolumeGrid& grid, const VoxelMask& mask) {
-  const VoxelMask thick = opened(grid, mask, 2.0);
-  const auto count = [](const VoxelMask& m) { return std::count(m.begin(), m.end(), 1); };
+imaging::VoxelMask without_leaks(const imaging::VolumeGrid& grid, const imaging::VoxelMask& mask) {
+  const imaging::VoxelMask thick = imaging::opened(grid, mask, 2.0);
+  const auto count = [](const imaging::VoxelMask& m) { return std::count(m.begin(), m.end(), 1); };
   if (count(thick) < 6 * count(mask) / 10) return mask;
-  const std::vector<float> away = distance_transform(grid, thick);
-  VoxelMask kept(mask.size());
+  const std::vector<float> away = imaging::distance_transform(grid, thick);
+  imaging::VoxelMask kept(mask.size());
   for (std::size_t v = 0; v < mask.size(); ++v) kept[v] = mask[v] != 0 && away[v] < 2.5F ? 1 : 0;
   return kept;
 }
@@ -77,7 +77,7 @@ VoxelMask without_leaks(const VolumeGrid& grid, const VoxelMask& mask) {
 
 namespace {
 
-double convexity_of(const VolumeGrid& grid, const std::vector<std::size_t>& voxels) {
+double convexity_of(const imaging::VolumeGrid& grid, const std::vector<std::size_t>& voxels) {
   constexpr int kPairs = 400;
   const auto nx = static_cast<std::size_t>(grid.size[0]),
              ny = static_cast<std::size_t>(grid.size[1]);
@@ -97,8 +97,9 @@ double convexity_of(const VolumeGrid& grid, const std::vector<std::size_t>& voxe
   return static_cast<double>(count) / kPairs;
 }
 
-std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRegions& regions) {
-  const VolumeGrid& grid = scan.image.grid;
+std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan,
+                                           const imaging::BrightRegions& regions) {
+  const imaging::VolumeGrid& grid = scan.image.grid;
   struct Sums {
     double bright = 0.0, voxels = 0.0, shell = 0.0, faces = 0.0, border = 0.0, open = 0.0,
            shallow = 0.0, core = 0.0;
@@ -199,16 +200,16 @@ std::vector<MarrowRegion> enclosed_regions(const ScanImage& scan, const BrightRe
 
 }  // namespace
 
-MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner) {
+MarrowRegions marrow_regions(const ScanImage& scan, const imaging::VoxelMask& inner) {
   const double dark = scan.levels.dark, contrast = scan.levels.bright - dark;
   const auto regions_at = [&](double depth) {
-    return bright_regions(scan.smooth, inner,
-                          {.dark = dark,
-                           .floor = dark + kFloor * contrast,
-                           .core = dark + 0.5 * contrast,
-                           .depth = depth});
+    return imaging::bright_regions(scan.smooth, inner,
+                                   {.dark = dark,
+                                    .floor = dark + kFloor * contrast,
+                                    .core = dark + 0.5 * contrast,
+                                    .depth = depth});
   };
-  std::array<BrightRegions, kFilmDepths.size()> at_depth;
+  std::array<imaging::BrightRegions, kFilmDepths.size()> at_depth;
   std::array<std::vector<MarrowRegion>, kFilmDepths.size()> enclosed;
   parallel_for(static_cast<int>(at_depth.size()), [&](int d) {
     at_depth[d] = regions_at(kFilmDepths[d]);
@@ -216,7 +217,7 @@ MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner) {
   });
   MarrowRegions found;
   found.candidates = std::move(enclosed.front());
-  BrightRegions& fine = at_depth.front();
+  imaging::BrightRegions& fine = at_depth.front();
   for (std::size_t d = 1; d < at_depth.size(); ++d) {
     // Each fine region lies in a coarser one, but for some that merged with another neighbour.
     std::vector<std::map<std::int32_t, std::size_t>> share(fine.voxels.size());
@@ -270,8 +271,9 @@ double gap_between(const MarrowRegion& a, const MarrowRegion& b) {
   return nearest_voxels(a, b).distance;
 }
 
-TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow, double edge_length) {
-  const VolumeGrid& grid = scan.image.grid;
+geometry::TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow,
+                                      double edge_length) {
+  const imaging::VolumeGrid& grid = scan.image.grid;
   std::array<int, 3> low = grid.size, high = {-1, -1, -1};
   const auto voxel_of = [&](std::size_t v) {
     const auto nx = static_cast<std::size_t>(grid.size[0]),
@@ -290,11 +292,11 @@ TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow, d
     low[a] = std::max(0, low[a] - 4);
     high[a] = std::min(grid.size[a] - 1, high[a] + 4);
   }
-  Volume part;
+  imaging::Volume part;
   part.grid = grid;
   part.grid.size = {high[0] - low[0] + 1, high[1] - low[1] + 1, high[2] - low[2] + 1};
   part.grid.origin = grid.to_patient(Vec3(low[0], low[1], low[2]));
-  VoxelMask own(part.grid.count(), 0);
+  imaging::VoxelMask own(part.grid.count(), 0);
   for (const std::size_t v : marrow.index) {
     const std::array<int, 3> here = voxel_of(v);
     own[part.grid.at(here[0] - low[0], here[1] - low[1], here[2] - low[2])] = 1;
@@ -314,18 +316,19 @@ TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow, d
     }
   }
   // Out to where the shell's outside may be expected.
-  own = dilated(part.grid, closed(part.grid, own, 1.6), kUsualShell);
+  own = imaging::dilated(part.grid, imaging::closed(part.grid, own, 1.6), kUsualShell);
   part.value.resize(own.size());
   for (std::size_t v = 0; v < own.size(); ++v) part.value[v] = own[v] != 0 ? 1.0F : 0.0F;
-  part = gaussian_filtered(part, 0.6);
-  TriangleMesh mesh = largest_piece(iso_surface(part, 0.45));
+  part = imaging::gaussian_filtered(part, 0.6);
+  geometry::TriangleMesh mesh = largest_piece(imaging::iso_surface(part, 0.45));
   if (mesh.triangles.empty()) return mesh;
-  mesh = smooth_taubin(mesh, {.rounds = 10});
-  return remesh(mesh, {.edge_length = edge_length, .rounds = 6}).mesh;
+  mesh = geometry::smooth_taubin(mesh, {.rounds = 10});
+  return geometry::remesh(mesh, {.edge_length = edge_length, .rounds = 6}).mesh;
 }
 
-TriangleMesh largest_piece(const TriangleMesh& mesh) {
-  const std::vector<int> piece = triangle_components(mesh, build_topology(mesh));
+geometry::TriangleMesh largest_piece(const geometry::TriangleMesh& mesh) {
+  const std::vector<int> piece =
+      geometry::triangle_components(mesh, geometry::build_topology(mesh));
   const int pieces = piece.empty() ? 0 : 1 + *std::max_element(piece.begin(), piece.end());
   if (pieces <= 1) return mesh;
   std::vector<double> volume(pieces, 0.0);
@@ -335,7 +338,7 @@ TriangleMesh largest_piece(const TriangleMesh& mesh) {
   }
   const int largest =
       static_cast<int>(std::max_element(volume.begin(), volume.end()) - volume.begin());
-  TriangleMesh kept;
+  geometry::TriangleMesh kept;
   std::vector<int> number(mesh.vertices.size(), -1);
   for (std::size_t t = 0; t < piece.size(); ++t) {
     if (piece[t] != largest) continue;
@@ -353,4 +356,4 @@ TriangleMesh largest_piece(const TriangleMesh& mesh) {
   return kept;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,7 +8,7 @@
 
 #include "hands/capture/mri/scan_image.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// A bright region that may be the marrow of a bone, or a part of it.
 struct MarrowRegion {
@@ -40,7 +40,7 @@ struct MarrowRegions {
 /// less as ScanLevels::bone_share() is above or below a half. Regions are separated by films of two
 /// depths: those that only deep films separate hold several of the others, and overlap with them as
 /// candidates.
-MarrowRegions marrow_regions(const ScanImage& scan, const VoxelMask& inner);
+MarrowRegions marrow_regions(const ScanImage& scan, const imaging::VoxelMask& inner);
 
 /// Whether two candidates hold the same region.
 bool overlap(const MarrowRegion& a, const MarrowRegion& b);
@@ -52,9 +52,10 @@ MarrowRegion joined(const MarrowRegion& a, const MarrowRegion& b);
 double gap_between(const MarrowRegion& a, const MarrowRegion& b);
 
 /// Smooth closed surface 0.8 mm round the marrow, mean edge `edge_length` [mm].
-TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow, double edge_length);
+geometry::TriangleMesh marrow_surface(const ScanImage& scan, const MarrowRegion& marrow,
+                                      double edge_length);
 
 /// The piece of a surface that encloses most.
-TriangleMesh largest_piece(const TriangleMesh& mesh);
+geometry::TriangleMesh largest_piece(const geometry::TriangleMesh& mesh);
 
-}  // namespace palmar
+}  // namespace palmar::capture

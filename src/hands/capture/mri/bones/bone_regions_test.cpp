@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 // Signals of T1-weighted images: cortical bone 20, muscle 90, marrow and fat 200.
@@ -16,7 +16,7 @@ constexpr double kDark = 20.0, kMuscle = 90.0, kBright = 200.0;
 /// fat round it, in muscle. `rim`: signal of the rim.
 ScanImage phalanx(double rim, double threshold) {
   ScanImage scan;
-  VolumeGrid& grid = scan.image.grid;
+  imaging::VolumeGrid& grid = scan.image.grid;
   grid.size = {40, 40, 40};
   grid.spacing = Vec3::Constant(0.6);
   for (int k = 0; k < 40; ++k) {
@@ -43,7 +43,7 @@ ScanImage phalanx(double rim, double threshold) {
 
 /// Volume of the largest candidate in the rim, mm^3; 0: none.
 double found(const ScanImage& scan) {
-  const MarrowRegions regions = marrow_regions(scan, VoxelMask(scan.depth.size(), 1));
+  const MarrowRegions regions = marrow_regions(scan, imaging::VoxelMask(scan.depth.size(), 1));
   double most = 0.0;
   for (const MarrowRegion& region : regions.candidates) {
     bool is_marrow = true;
@@ -77,4 +77,4 @@ TEST(MarrowRegions, FatWithoutARimIsNoMarrowAtAnyThreshold) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -20,7 +20,7 @@
 #include "palmar/geometry/remesh/smooth.h"
 #include "palmar/geometry/rotation.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 // A bone that is the right one fits within a few tenths of a millimetre and stays in its joint.
@@ -38,13 +38,13 @@ constexpr double kLeastCorrelation = 0.8;
 constexpr double kLeastOverlap = 0.7;  // share of a bone that the other image shows
 
 /// Size of a bone: root mean square extents along its principal axes, ascending.
-Vec3 extents_of(const TriangleMesh& mesh) {
+Vec3 extents_of(const geometry::TriangleMesh& mesh) {
   const std::array<Vec3, 6> p = moment_points(mesh);
   return 0.5 * Vec3((p[0] - p[1]).norm(), (p[2] - p[3]).norm(), (p[4] - p[5]).norm());
 }
 
 /// Direction of a bone's greatest extent, either way.
-Vec3 long_axis(const TriangleMesh& mesh) {
+Vec3 long_axis(const geometry::TriangleMesh& mesh) {
   const std::array<Vec3, 6> p = moment_points(mesh);
   return (p[4] - p[5]).normalized();
 }
@@ -56,19 +56,22 @@ bool has_size_of(const Vec3& a, const Vec3& b) {
 /// A bone of the posture's scan that may be the one looked for.
 struct Target {
   const ScannedBone* bone = nullptr;
-  TriangleMesh mesh;  ///< without the roughness of noise, which registration would lock into
+  geometry::TriangleMesh mesh;  ///< without the roughness of noise, which registration would lock
+                                ///< into
   Vec3 centre = Vec3::Zero();
   Vec3 extents = Vec3::Zero();
 };
 
 struct Found {
-  IcpResult fit;
+  geometry::IcpResult fit;
   const Target* target = nullptr;  ///< null: no surface, the image alone shows it
   double gap = 0.0;  ///< how far the joint came apart, or the bone shifted in the palm, mm
   bool is_plausible = false;
   std::optional<ImageFit> image;
 
-  const Rigid3& motion() const { return image ? image->fixed_from_moving : fit.fixed_from_moving; }
+  const geometry::Rigid3& motion() const {
+    return image ? image->fixed_from_moving : fit.fixed_from_moving;
+  }
   double cost() const { return fit.mean + 0.1 * gap; }
 };
 
@@ -77,11 +80,11 @@ class BoneTracker {
   BoneTracker(const ScanSurfaces& reference, const ScanSurfaces& posture,
               const TrackedImages& images, const Progress& progress)
       : reference_(reference), images_(images), progress_(progress) {
-    for (ScannedBone& bone : reference_.bones) bone.mesh = smooth_taubin(bone.mesh);
+    for (ScannedBone& bone : reference_.bones) bone.mesh = geometry::smooth_taubin(bone.mesh);
     for (const ScannedBone& bone : posture.bones) {
-      if (!(surface_area(bone.mesh) > 0.0)) continue;
-      TriangleMesh mesh = smooth_taubin(bone.mesh);
-      const Vec3 centre = centre_of_volume(mesh), extents = extents_of(mesh);
+      if (!(geometry::surface_area(bone.mesh) > 0.0)) continue;
+      geometry::TriangleMesh mesh = geometry::smooth_taubin(bone.mesh);
+      const Vec3 centre = geometry::centre_of_volume(mesh), extents = extents_of(mesh);
       targets_.push_back({&bone, std::move(mesh), centre, extents});
     }
   }
@@ -98,8 +101,9 @@ class BoneTracker {
                  [&](int k) { in_palm[k] = find_in_palm(*palm[k]); });
     for (std::size_t i = 0; i < palm.size(); ++i) keep(palm[i]->name, in_palm[i]);
     progress_.update(0.4, "fingers");
-    std::array<std::vector<std::pair<std::string, std::optional<Found>>>, kFingerCount> rays;
-    parallel_for(kFingerCount, [&](int f) { rays[f] = find_ray(static_cast<Finger>(f)); });
+    std::array<std::vector<std::pair<std::string, std::optional<Found>>>, hand::kFingerCount> rays;
+    parallel_for(hand::kFingerCount,
+                 [&](int f) { rays[f] = find_ray(static_cast<hand::Finger>(f)); });
     for (const auto& ray : rays) {
       for (const auto& [name, found] : ray) keep(name, found);
     }
@@ -121,19 +125,21 @@ class BoneTracker {
   std::vector<BoneMotion> settle() const;
   void place_palm();
   std::optional<Found> find_in_palm(const ScannedBone& bone) const;
-  std::vector<std::pair<std::string, std::optional<Found>>> find_ray(Finger finger) const;
+  std::vector<std::pair<std::string, std::optional<Found>>> find_ray(hand::Finger finger) const;
   std::optional<Found> find_distal(const ScannedBone& bone, const ScannedBone* proximal,
-                                   const Rigid3& motion, bool is_next, double slack) const;
-  std::optional<Found> seen_in_image(const ScannedBone& bone, std::optional<Found> found,
-                                     const std::function<double(const Rigid3&)>& gap_of,
-                                     const std::function<std::vector<Rigid3>()>& starts) const;
-  const Target* target_at(const ScannedBone& bone, const Rigid3& motion) const;
+                                   const geometry::Rigid3& motion, bool is_next,
+                                   double slack) const;
+  std::optional<Found> seen_in_image(
+      const ScannedBone& bone, std::optional<Found> found,
+      const std::function<double(const geometry::Rigid3&)>& gap_of,
+      const std::function<std::vector<geometry::Rigid3>()>& starts) const;
+  const Target* target_at(const ScannedBone& bone, const geometry::Rigid3& motion) const;
 
   ScanSurfaces reference_;  ///< smoothed likewise
   const TrackedImages& images_;
   const Progress& progress_;
   std::vector<Target> targets_;
-  Rigid3 palm_;
+  geometry::Rigid3 palm_;
   std::vector<std::pair<std::string, Found>> found_;
 };
 
@@ -142,17 +148,17 @@ class BoneTracker {
 std::vector<BoneMotion> BoneTracker::settle() const {
   std::vector<BoneMotion> motions;
   for (const auto& [name, mine] : found_) {
-    const Vec3 centre = centre_of_volume(bone_named(reference_, name)->mesh);
+    const Vec3 centre = geometry::centre_of_volume(bone_named(reference_, name)->mesh);
     const auto is_better = [&, &name = name, &mine = mine](const auto& entry) {
       const auto& [other_name, other] = entry;
       if (other_name == name) return false;
       constexpr double kSamePlace = 3.0;  // mm between centres
-      const bool is_same =
-          mine.target != nullptr && other.target != nullptr
-              ? mine.target == other.target
-              : (other.motion() * centre_of_volume(bone_named(reference_, other_name)->mesh) -
-                 mine.motion() * centre)
-                        .norm() < kSamePlace;
+      const bool is_same = mine.target != nullptr && other.target != nullptr
+                               ? mine.target == other.target
+                               : (other.motion() * geometry::centre_of_volume(
+                                                       bone_named(reference_, other_name)->mesh) -
+                                  mine.motion() * centre)
+                                         .norm() < kSamePlace;
       if (!is_same) return false;
       if (mine.image && other.image) {
         return std::pair(-other.image->correlation, other_name) <
@@ -172,9 +178,11 @@ std::vector<BoneMotion> BoneTracker::settle() const {
 }
 
 /// The posture's bone that a bone moved there would be.
-const Target* BoneTracker::target_at(const ScannedBone& bone, const Rigid3& motion) const {
+const Target* BoneTracker::target_at(const ScannedBone& bone,
+                                     const geometry::Rigid3& motion) const {
   constexpr double kSamePlace = 3.0;  // mm between centres
-  const Vec3 centre = motion * centre_of_volume(bone.mesh), extents = extents_of(bone.mesh);
+  const Vec3 centre = motion * geometry::centre_of_volume(bone.mesh),
+             extents = extents_of(bone.mesh);
   const Target* nearest = nullptr;
   for (const Target& target : targets_) {
     const double distance = (target.centre - centre).norm();
@@ -189,8 +197,8 @@ const Target* BoneTracker::target_at(const ScannedBone& bone, const Rigid3& moti
 /// apart.
 std::optional<Found> BoneTracker::seen_in_image(
     const ScannedBone& bone, std::optional<Found> found,
-    const std::function<double(const Rigid3&)>& gap_of,
-    const std::function<std::vector<Rigid3>()>& starts) const {
+    const std::function<double(const geometry::Rigid3&)>& gap_of,
+    const std::function<std::vector<geometry::Rigid3>()>& starts) const {
   if (images_.reference == nullptr || images_.posture == nullptr) return found;
   const auto picture = images_.reference->find(bone.name);
   if (picture == images_.reference->end()) return found;
@@ -203,15 +211,16 @@ std::optional<Found> BoneTracker::seen_in_image(
   };
   if (found) take(picture->second.fit(*images_.posture, found->fit.fixed_from_moving));
   if (!best || best->correlation < kSureCorrelation) {
-    const std::vector<Rigid3> all = starts();
+    const std::vector<geometry::Rigid3> all = starts();
     if (!all.empty()) take(picture->second.find(*images_.posture, all));
   }
   if (!best) return found;
   if (!found) found.emplace();
   found->image = best;
   found->gap = gap_of(best->fixed_from_moving);
-  const Rigid3 correction = found->fit.fixed_from_moving.inverse() * best->fixed_from_moving;
-  const Vec3 centre = centre_of_volume(bone.mesh);
+  const geometry::Rigid3 correction =
+      found->fit.fixed_from_moving.inverse() * best->fixed_from_moving;
+  const Vec3 centre = geometry::centre_of_volume(bone.mesh);
   const bool stays = found->target != nullptr && (correction * centre - centre).norm() < 4.0 &&
                      correction.rotation.angularDistance(Quat::Identity()) < kLargestTurn;
   if (!stays) {
@@ -223,10 +232,12 @@ std::optional<Found> BoneTracker::seen_in_image(
 
 /// Turns of a bone about its joint: to all directions within 110 degrees of where it would go with
 /// the proximal bone, turned a little about itself as well.
-std::vector<Rigid3> turns_about(const Vec3& joint, const Vec3& centre, const Rigid3& motion) {
-  constexpr double kStep = 10.0 * kDegree, kTwist = 12.0 * kDegree;  // the strong blur bridges half
+std::vector<geometry::Rigid3> turns_about(const Vec3& joint, const Vec3& centre,
+                                          const geometry::Rigid3& motion) {
+  constexpr double kStep = 10.0 * geometry::kDegree,
+                   kTwist = 12.0 * geometry::kDegree;  // the strong blur bridges half
   constexpr int kRings = 11;
-  std::vector<Rigid3> turns;
+  std::vector<geometry::Rigid3> turns;
   const Vec3 seat = motion * joint;
   const Vec3 along = (motion.rotation * (centre - joint)).normalized();
   const Vec3 e1 = along.unitOrthogonal(), e2 = along.cross(e1);
@@ -239,7 +250,7 @@ std::vector<Rigid3> turns_about(const Vec3& joint, const Vec3& centre, const Rig
       const Vec3 axis = std::cos(phase) * e1 + std::sin(phase) * e2;
       const Quat swing(Eigen::AngleAxisd(tilt, axis));
       for (const double twist : {-kTwist, 0.0, kTwist}) {
-        Rigid3 turned;
+        geometry::Rigid3 turned;
         turned.rotation = swing * Quat(Eigen::AngleAxisd(twist, along)) * motion.rotation;
         turned.translation = seat - turned.rotation * joint;
         turns.push_back(turned);
@@ -250,17 +261,17 @@ std::vector<Rigid3> turns_about(const Vec3& joint, const Vec3& centre, const Rig
 }
 
 /// A bone's small turns and shifts about where another one's motion has it.
-std::vector<Rigid3> places_near(const Vec3& centre, const Rigid3& carrier) {
+std::vector<geometry::Rigid3> places_near(const Vec3& centre, const geometry::Rigid3& carrier) {
   constexpr double kTurn = 0.17, kShift = 2.0;  // rad, mm
-  std::vector<Rigid3> places;
+  std::vector<geometry::Rigid3> places;
   for (int k = 0; k < 27; ++k) {
     const Vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
     const Vec3 middle = carrier * centre;
     const double turn = kTurn * step.norm();
     const Quat q = turn > 0.0 ? Quat(Eigen::AngleAxisd(turn, step.normalized())) : Quat::Identity();
-    const Rigid3 turned = Rigid3{q, middle - q * middle} * carrier;
+    const geometry::Rigid3 turned = geometry::Rigid3{q, middle - q * middle} * carrier;
     for (int n = 0; n < 7; ++n) {
-      Rigid3 place = turned;
+      geometry::Rigid3 place = turned;
       if (n < 6) place.translation[n % 3] += n < 3 ? kShift : -kShift;
       places.push_back(place);
     }
@@ -268,9 +279,9 @@ std::vector<Rigid3> places_near(const Vec3& centre, const Rigid3& carrier) {
   return places;
 }
 
-TriangleMesh joined(const std::vector<const TriangleMesh*>& meshes) {
-  TriangleMesh all;
-  for (const TriangleMesh* mesh : meshes) {
+geometry::TriangleMesh joined(const std::vector<const geometry::TriangleMesh*>& meshes) {
+  geometry::TriangleMesh all;
+  for (const geometry::TriangleMesh* mesh : meshes) {
     const int first = all.vertex_count();
     all.vertices.insert(all.vertices.end(), mesh->vertices.begin(), mesh->vertices.end());
     for (const Triangle& t : mesh->triangles) {
@@ -282,12 +293,12 @@ TriangleMesh joined(const std::vector<const TriangleMesh*>& meshes) {
 
 void BoneTracker::place_palm() {
   std::vector<Vec3> from, to;
-  std::vector<const TriangleMesh*> moving, fixed;
+  std::vector<const geometry::TriangleMesh*> moving, fixed;
   for (const ScannedBone& bone : reference_.bones) {
     if (!is_palm_bone(bone.name) || bone.is_cut) continue;
     moving.push_back(&bone.mesh);
     if (const Target* target = target_named(bone.name)) {
-      from.push_back(centre_of_volume(bone.mesh));
+      from.push_back(geometry::centre_of_volume(bone.mesh));
       to.push_back(target->centre);
     }
   }
@@ -301,7 +312,7 @@ void BoneTracker::place_palm() {
     to.clear();
     for (const ScannedBone& bone : reference_.bones) {
       if (const Target* target = target_named(bone.name)) {
-        from.push_back(centre_of_volume(bone.mesh));
+        from.push_back(geometry::centre_of_volume(bone.mesh));
         to.push_back(target->centre);
       }
     }
@@ -309,29 +320,30 @@ void BoneTracker::place_palm() {
   constexpr double kTolerance = 4.0;  // mm; centres of the same bone in two scans
   if (!from.empty()) palm_ = align_points_robustly(from, to, kTolerance);
   if (moving.empty() || fixed.empty()) return;
-  IcpOptions options;
+  geometry::IcpOptions options;
   options.samples = 4000;
   options.trim = 0.3;
   options.start_turn = is_placed ? 0.0 : 1.05;
-  const IcpResult fit = register_rigidly(joined(moving), joined(fixed), palm_, options, progress_);
+  const geometry::IcpResult fit =
+      geometry::register_rigidly(joined(moving), joined(fixed), palm_, options, progress_);
   if (fit.overlap > 0.0) palm_ = fit.fixed_from_moving;
 }
 
 std::optional<Found> BoneTracker::find_in_palm(const ScannedBone& bone) const {
-  if (!(surface_area(bone.mesh) > 0.0)) return {};
+  if (!(geometry::surface_area(bone.mesh) > 0.0)) return {};
   const bool is_forearm = is_forearm_bone(bone.name);
-  const Vec3 centre = centre_of_volume(bone.mesh);
+  const Vec3 centre = geometry::centre_of_volume(bone.mesh);
   const Vec3 extents = extents_of(bone.mesh);
   std::optional<Found> best;
   const auto attempt = [&](const Target& target) {
-    IcpOptions options;
+    geometry::IcpOptions options;
     // Carpals are nearly round: turned starts would only find their false minima.
     options.start_turn = is_forearm ? 0.6 : 0.0;
     options.trim = bone.is_cut || target.bone->is_cut ? 0.4 : 0.2;
     Found found;
     found.target = &target;
-    found.fit = register_rigidly(bone.mesh, target.mesh, palm_, options, progress_);
-    const Rigid3& motion = found.fit.fixed_from_moving;
+    found.fit = geometry::register_rigidly(bone.mesh, target.mesh, palm_, options, progress_);
+    const geometry::Rigid3& motion = found.fit.fixed_from_moving;
     found.gap = is_forearm ? 0.0 : (motion * centre - palm_ * centre).norm();
     const double turn = motion.rotation.angularDistance(palm_.rotation);
     const double error =
@@ -351,17 +363,18 @@ std::optional<Found> BoneTracker::find_in_palm(const ScannedBone& bone) const {
   }
   if (is_forearm) return best;
   return seen_in_image(
-      bone, best, [&](const Rigid3& motion) { return (motion * centre - palm_ * centre).norm(); },
+      bone, best,
+      [&](const geometry::Rigid3& motion) { return (motion * centre - palm_ * centre).norm(); },
       [&] { return places_near(centre, palm_); });
 }
 
 std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
-    Finger finger) const {
+    hand::Finger finger) const {
   std::vector<std::pair<std::string, std::optional<Found>>> ray;
   const std::vector<std::string> names = ray_of(finger);
-  Rigid3 motion = palm_;
+  geometry::Rigid3 motion = palm_;
   const ScannedBone* proximal =
-      finger == Finger::kThumb ? bone_named(reference_, "trapezium") : nullptr;
+      finger == hand::Finger::kThumb ? bone_named(reference_, "trapezium") : nullptr;
   bool is_next = true;  // the bone before this one has been found
   double slack = 0.0;   // or its joint lies that near to where the palm has it, mm
   for (const std::string& name : names) {
@@ -376,7 +389,7 @@ std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
       proximal = bone;
       continue;
     }
-    if (bone == nullptr || !(surface_area(bone->mesh) > 0.0)) {
+    if (bone == nullptr || !(geometry::surface_area(bone->mesh) > 0.0)) {
       is_next = false;
       continue;
     }
@@ -393,11 +406,11 @@ std::vector<std::pair<std::string, std::optional<Found>>> BoneTracker::find_ray(
 }
 
 std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const ScannedBone* proximal,
-                                              const Rigid3& motion, bool is_next,
+                                              const geometry::Rigid3& motion, bool is_next,
                                               double slack) const {
-  const Vec3 centre = centre_of_volume(bone.mesh);
+  const Vec3 centre = geometry::centre_of_volume(bone.mesh);
   const Vec3 extents = extents_of(bone.mesh);
-  const bool has_joint = proximal != nullptr && surface_area(proximal->mesh) > 0.0;
+  const bool has_joint = proximal != nullptr && geometry::surface_area(proximal->mesh) > 0.0;
   // What stays where it is when the joint turns: the centre of a long bone's head, and of the
   // saddle about its surface.
   const bool is_saddle = has_joint && proximal->name == "trapezium";
@@ -407,33 +420,34 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
   const Vec3 seat = motion * joint;
   std::optional<Found> best;
   const auto attempt = [&](const Target& target) {
-    std::vector<std::pair<Rigid3, double>> starts;  // and turns about them
+    std::vector<std::pair<geometry::Rigid3, double>> starts;  // and turns about them
     if (has_joint && is_next) {
       // The joint stays where the proximal bone carries it, and the bone points to where the other
       // scan has it.
-      Rigid3 start = motion;
-      start.rotation = shortest_rotation(motion.rotation * (centre - joint), target.centre - seat) *
-                       motion.rotation;
+      geometry::Rigid3 start = motion;
+      start.rotation =
+          geometry::shortest_rotation(motion.rotation * (centre - joint), target.centre - seat) *
+          motion.rotation;
       start.translation = seat - start.rotation * joint;
       starts = {{start, 0.5}, {start, 1.05}};
     } else {
       // Behind a gap in the chain the bone may lie any way: along the other one, up or down.
       const Vec3 mine = motion.rotation * long_axis(bone.mesh), other = long_axis(target.mesh);
       for (const double sense : {1.0, -1.0}) {
-        Rigid3 start = motion;
-        start.rotation = shortest_rotation(mine, sense * other) * motion.rotation;
+        geometry::Rigid3 start = motion;
+        start.rotation = geometry::shortest_rotation(mine, sense * other) * motion.rotation;
         start.translation = target.centre - start.rotation * centre;
         starts.emplace_back(start, 1.05);
       }
     }
     for (const auto& [start, turn] : starts) {
-      IcpOptions options;
+      geometry::IcpOptions options;
       options.start_turn = turn;
       options.samples = 2000;
       options.tolerance = 1e-3;
       Found found;
       found.target = &target;
-      found.fit = register_rigidly(bone.mesh, target.mesh, start, options, progress_);
+      found.fit = geometry::register_rigidly(bone.mesh, target.mesh, start, options, progress_);
       found.gap = has_joint && is_next ? (found.fit.fixed_from_moving * joint - seat).norm() : 0.0;
       // One of another name must fit well: neighbours are nearly alike.
       const double limit = target.bone->name == bone.name ? kPoorMean : kAliasMean;
@@ -450,20 +464,20 @@ std::optional<Found> BoneTracker::find_distal(const ScannedBone& bone, const Sca
     for (const Target& target : targets_) {
       if (target.bone->name == bone.name || !has_size_of(extents, target.extents)) continue;
       if (!has_joint || (target.centre - seat).norm() > reach) continue;
-      const std::optional<ClosestPoint> near =
-          ClosestPointQuery(target.mesh).closest(seat, kLargestGap + kLargestHead);
+      const std::optional<geometry::ClosestPoint> near =
+          geometry::ClosestPointQuery(target.mesh).closest(seat, kLargestGap + kLargestHead);
       if (near || !is_next) attempt(target);
     }
   }
   return seen_in_image(
       bone, best,
-      [&](const Rigid3& place) {
+      [&](const geometry::Rigid3& place) {
         return has_joint && is_next ? std::max(0.0, (place * joint - seat).norm() - slack) : 0.0;
       },
       [&] {
         // Behind a gap in the chain it may have gone along with the last bone that was found.
         if (!has_joint || !is_next) return places_near(centre, motion);
-        std::vector<Rigid3> starts = turns_about(joint, centre, motion);
+        std::vector<geometry::Rigid3> starts = turns_about(joint, centre, motion);
         if (slack > 0.0) {
           const std::size_t count = starts.size();
           for (int k = 0; k < 6; ++k) {
@@ -490,4 +504,4 @@ std::vector<BoneMotion> track_bones(const ScanSurfaces& reference, const ScanSur
   return track_bones(reference, posture, {}, progress);
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -10,14 +10,14 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr std::size_t kFewest = 5;  // bones
 
 /// Least squares of one bone: the slope of its thickness over its normals.
 Vec3 slope_of(const LayerFit& bone) {
-  const std::vector<Vec3> normals = vertex_normals(bone.mesh);
+  const std::vector<Vec3> normals = geometry::vertex_normals(bone.mesh);
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   Eigen::Vector4d right = Eigen::Vector4d::Zero();
   for (std::size_t v = 0; v < normals.size(); ++v) {
@@ -39,7 +39,9 @@ Vec3 fat_shift(const std::vector<LayerFit>& bones) {
     for (int k = 0; k < 3; ++k) slope[k].push_back(own[k]);
   }
   if (slope[0].size() < kFewest) return Vec3::Zero();
-  return -Vec3(median(slope[0]), median(slope[1]), median(slope[2])) / kFatShiftShown;
+  return -Vec3(statistics::median(slope[0]), statistics::median(slope[1]),
+               statistics::median(slope[2])) /
+         kFatShiftShown;
 }
 
 Vec3 signed_fat_shift(const Vec3& stated, const Vec3& seen) {
@@ -51,4 +53,4 @@ Vec3 signed_fat_shift(const Vec3& stated, const Vec3& seen) {
   return along > 0.0 ? stated : -stated;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

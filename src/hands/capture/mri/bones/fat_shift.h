@@ -7,7 +7,7 @@
 #include "hands/capture/mri/bones/layer_fit.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Of a shift of fat so much is seen by fat_shift(), as thicknesses are held near those of their
 /// surroundings: 0.69 and 0.75 in images of two development seeds.
@@ -29,4 +29,4 @@ Vec3 fat_shift(const std::vector<LayerFit>& bones);
 /// a file may state a bandwidth that its image wasn't made with.
 Vec3 signed_fat_shift(const Vec3& stated, const Vec3& seen);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -10,13 +10,13 @@
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 // A closed tube with pointed ends along a direction: a shaft.
-TriangleMesh shaft(const Quat& turn) {
+geometry::TriangleMesh shaft(const Quat& turn) {
   constexpr int kRound = 16, kAlong = 10;
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (int k = 0; k <= kAlong; ++k) {
     for (int i = 0; i < kRound; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / kRound;
@@ -48,7 +48,7 @@ std::vector<LayerFit> bones(const Vec3& shift, int count, double noise) {
   std::vector<LayerFit> all(count);
   for (LayerFit& bone : all) {
     bone.mesh = shaft(Quat(off(random), off(random), off(random), off(random)).normalized());
-    for (const Vec3& normal : vertex_normals(bone.mesh)) {
+    for (const Vec3& normal : geometry::vertex_normals(bone.mesh)) {
       bone.thickness.push_back(1.2 - kFatShiftShown * shift.dot(normal) + noise * off(random));
     }
   }
@@ -78,4 +78,4 @@ TEST(FatShift, GoesToTheSideThatBonesShow) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

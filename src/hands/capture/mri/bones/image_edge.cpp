@@ -7,10 +7,10 @@
 
 #include "palmar/geometry/distance/closest_point.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-bool is_at_edge(const Vec3& voxel, const VolumeGrid& grid) {
+bool is_at_edge(const Vec3& voxel, const imaging::VolumeGrid& grid) {
   for (int a = 0; a < 3; ++a) {
     const double last = grid.size[a] - 1.0;
     if (voxel[a] < 1.0 || voxel[a] > last - 1.0) return true;
@@ -20,8 +20,8 @@ bool is_at_edge(const Vec3& voxel, const VolumeGrid& grid) {
 
 }  // namespace
 
-void mark_cut_fingers(ScanSurfaces& surfaces, const VolumeGrid& grid) {
-  std::vector<ClosestPointQuery> bones;
+void mark_cut_fingers(ScanSurfaces& surfaces, const imaging::VolumeGrid& grid) {
+  std::vector<geometry::ClosestPointQuery> bones;
   for (const ScannedBone& bone : surfaces.bones) bones.emplace_back(bone.mesh);
   for (const Vec3& vertex : surfaces.skin.vertices) {
     if (!is_at_edge(grid.to_voxel(vertex), grid)) continue;
@@ -46,4 +46,4 @@ std::vector<std::string> cut_bones_of_fingers(const ScanSurfaces& surfaces) {
   return cut;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -6,10 +6,10 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
-TriangleMesh moved_edge(TriangleMesh mesh, const Vec3& by) {
+geometry::TriangleMesh moved_edge(geometry::TriangleMesh mesh, const Vec3& by) {
   for (Vec3& v : mesh.vertices) v += by;
   return mesh;
 }
@@ -17,16 +17,16 @@ TriangleMesh moved_edge(TriangleMesh mesh, const Vec3& by) {
 /// A hand of three bones in a skin from y = -40 to 40 mm, in voxels of 1 mm round the origin.
 ScanSurfaces three_bones() {
   ScanSurfaces surfaces;
-  surfaces.skin = make_icosphere(40.0, 4);
+  surfaces.skin = geometry::make_icosphere(40.0, 4);
   surfaces.bones = {
-      {"middle_distal_phalanx", moved_edge(make_icosphere(4.0, 2), {0, 30, 0}), false},
-      {"capitate", make_icosphere(8.0, 2), false},
-      {"radius", moved_edge(make_icosphere(5.0, 2), {0, -30, 0}), false}};
+      {"middle_distal_phalanx", moved_edge(geometry::make_icosphere(4.0, 2), {0, 30, 0}), false},
+      {"capitate", geometry::make_icosphere(8.0, 2), false},
+      {"radius", moved_edge(geometry::make_icosphere(5.0, 2), {0, -30, 0}), false}};
   return surfaces;
 }
 
-VolumeGrid grid_of(double top, double bottom) {
-  VolumeGrid grid;
+imaging::VolumeGrid grid_of(double top, double bottom) {
+  imaging::VolumeGrid grid;
   grid.size = {120, static_cast<int>(top - bottom) + 1, 120};
   grid.origin = Vec3(-60.0, bottom, -60.0);
   return grid;
@@ -53,4 +53,4 @@ TEST(ImageEdge, TheForearmIsNoFinger) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

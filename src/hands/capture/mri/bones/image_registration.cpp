@@ -14,15 +14,15 @@
 #include <optional>
 #include <string_view>
 
+#include "hands/imaging/gaussian_filter.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
-#include "hands/imaging/gaussian_filter.h"
 #include "palmar/statistics/correlation.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 // Unknowns: turn, shift, gain, its three slopes, offset.
@@ -57,13 +57,13 @@ struct Intensity {
 /// Between voxels by cubic convolution; nothing within a voxel of the image's border.
 class CubicImage {
  public:
-  explicit CubicImage(const Volume& image)
+  explicit CubicImage(const imaging::Volume& image)
       : image_(image),
         voxel_from_patient_(image.grid.spacing.cwiseInverse().asDiagonal() *
                             image.grid.axes.transpose()) {}
 
   std::optional<Intensity> operator()(const Vec3& patient) const {
-    const VolumeGrid& grid = image_.grid;
+    const imaging::VolumeGrid& grid = image_.grid;
     const Vec3 voxel = voxel_from_patient_ * (patient - grid.origin);
     std::array<int, 3> low{};
     std::array<std::array<double, 4>, 3> w, d;
@@ -97,15 +97,15 @@ class CubicImage {
   }
 
  private:
-  const Volume& image_;
+  const imaging::Volume& image_;
   Eigen::Matrix3d voxel_from_patient_;
 };
 
 /// As much as `least` for fine voxels, and in proportion for coarse ones.
-ImageLevels::Level blurred(const Volume& image, double least) {
+ImageLevels::Level blurred(const imaging::Volume& image, double least) {
   const double edge = std::cbrt(image.grid.spacing.prod());
   const double blur = least * std::max(1.0, kPerVoxel * edge / kFineBlur);
-  return {gaussian_filtered(image, blur), blur};
+  return {imaging::gaussian_filtered(image, blur), blur};
 }
 
 /// Sums of the weighted rows' products: A x = b for the step and the tone.
@@ -132,7 +132,7 @@ std::array<double, 2> standard_errors(const Equations& sums, double alike) {
 
 }  // namespace
 
-ImageLevels blurred_levels(const Volume& image) {
+ImageLevels blurred_levels(const imaging::Volume& image) {
   return {blurred(image, kFineBlur), blurred(image, kCoarseBlur)};
 }
 
@@ -151,7 +151,7 @@ void ImageFitOptions::check() const {
 
 /// Where a bone lies in the other image, and what the intensities say there.
 struct BoneImage::Place {
-  Rigid3 motion;
+  geometry::Rigid3 motion;
   Tone tone = Tone::Zero();
   double limit = std::numeric_limits<double>::infinity();  ///< residuals beyond it have no weight
   double turn_error = std::numeric_limits<double>::infinity();
@@ -169,11 +169,11 @@ struct BoneImage::Row {
   double residual(const Tone& tone) const { return intensity + slope.tail<5>().dot(tone); }
 };
 
-BoneImage::BoneImage(const TriangleMesh& bone, const ImageLevels& image,
+BoneImage::BoneImage(const geometry::TriangleMesh& bone, const ImageLevels& image,
                      const ImageFitOptions& options)
     : options_(options) {
   options.check();
-  const VolumeGrid& grid = image.fine.image.grid;
+  const imaging::VolumeGrid& grid = image.fine.image.grid;
   std::array<int, 3> low = grid.size, high = {-1, -1, -1};
   for (const Vec3& v : bone.vertices) {
     const Vec3 voxel = grid.to_voxel(v);
@@ -194,8 +194,8 @@ BoneImage::BoneImage(const TriangleMesh& bone, const ImageLevels& image,
     }
   }
   const CubicImage fine(image.fine.image), coarse(image.coarse.image);
-  const MeshDistance surface(bone);
-  std::vector<DistanceSample> found(points.size());
+  const geometry::MeshDistance surface(bone);
+  std::vector<geometry::DistanceSample> found(points.size());
   surface.sample(points, options.layer + 1.0, found);
   for (std::size_t n = 0; n < points.size(); ++n) {
     if (found[n].distance > options.layer) continue;
@@ -222,17 +222,18 @@ BoneImage::BoneImage(const TriangleMesh& bone, const ImageLevels& image,
   radius_ = std::sqrt(square);
 }
 
-double BoneImage::coarse_correlation(const ImageLevels& other, const Rigid3& motion) const {
+double BoneImage::coarse_correlation(const ImageLevels& other,
+                                     const geometry::Rigid3& motion) const {
   constexpr std::size_t kLooks = 400;
   const std::size_t step = std::max<std::size_t>(1, samples_.size() / kLooks);
-  const Volume& image = other.coarse.image;
+  const imaging::Volume& image = other.coarse.image;
   std::vector<double> mine, theirs;
   for (std::size_t s = 0; s < samples_.size(); s += step) {
     mine.push_back(samples_[s].coarse);
-    theirs.push_back(
-        static_cast<double>(value_at(image, image.grid.to_voxel(motion * samples_[s].point))));
+    theirs.push_back(static_cast<double>(
+        imaging::value_at(image, image.grid.to_voxel(motion * samples_[s].point))));
   }
-  return pearson(mine, theirs).r;
+  return statistics::pearson(mine, theirs).r;
 }
 
 std::vector<BoneImage::Row> BoneImage::rows_at(const ImageLevels::Level& level, bool is_fine,
@@ -303,7 +304,8 @@ void BoneImage::refine(const ImageLevels::Level& level, bool is_fine, Place& pla
       sizes.reserve(rows.size());
       for (const Row& row : rows) sizes.push_back(std::abs(row.residual(tone)));
       constexpr double kPerMedian = 1.4826;  // standard deviation of a normal distribution
-      place.limit = 4.685 * kPerMedian * median(std::move(sizes)) + 1e-9 * std::abs(tone[0]);
+      place.limit =
+          4.685 * kPerMedian * statistics::median(std::move(sizes)) + 1e-9 * std::abs(tone[0]);
     }
     // Held a little where the intensities don't hold it.
     sums.A.topLeftCorner<6, 6>().diagonal().array() += 1e-6 * sums.A.topLeftCorner<6, 6>().trace();
@@ -319,7 +321,7 @@ void BoneImage::refine(const ImageLevels::Level& level, bool is_fine, Place& pla
     const double angle = turn.norm();
     const Quat q = angle > 0.0 ? Quat(Eigen::AngleAxisd(angle, turn / angle)) : Quat::Identity();
     const Vec3 middle = place.motion * centre_;
-    place.motion = Rigid3{q, middle - q * middle + step.segment<3>(3)} * place.motion;
+    place.motion = geometry::Rigid3{q, middle - q * middle + step.segment<3>(3)} * place.motion;
     if (reach < options_.tolerance) {
       place.has_converged = true;
       return;
@@ -343,18 +345,18 @@ ImageFit BoneImage::finished(const ImageLevels& other, Place place) const {
     mine.push_back(-row.slope[6]);
     theirs.push_back(row.intensity);
   }
-  if (mine.size() >= 3) fit.correlation = pearson(mine, theirs).r;
+  if (mine.size() >= 3) fit.correlation = statistics::pearson(mine, theirs).r;
   return fit;
 }
 
-ImageFit BoneImage::fit(const ImageLevels& other, const Rigid3& start) const {
+ImageFit BoneImage::fit(const ImageLevels& other, const geometry::Rigid3& start) const {
   Place place;
   place.motion = start;
   refine(other.coarse, false, place);
   return finished(other, place);
 }
 
-ImageFit BoneImage::find(const ImageLevels& other, std::span<const Rigid3> starts) const {
+ImageFit BoneImage::find(const ImageLevels& other, std::span<const geometry::Rigid3> starts) const {
   if (starts.empty()) throw UsageError("image of a bone: no start to search from");
   constexpr std::size_t kFollowed = 12, kFinished = 3;
   std::vector<std::pair<double, std::size_t>> rank;
@@ -362,14 +364,14 @@ ImageFit BoneImage::find(const ImageLevels& other, std::span<const Rigid3> start
     rank.emplace_back(-coarse_correlation(other, starts[k]), k);
   }
   std::sort(rank.begin(), rank.end());
-  std::vector<std::pair<double, Rigid3>> followed;
+  std::vector<std::pair<double, geometry::Rigid3>> followed;
   for (std::size_t k = 0; k < std::min(kFollowed, rank.size()); ++k) {
     Place place;
     place.motion = starts[rank[k].second];
     refine(other.coarse, false, place);
     // Several starts end at one place.
     const bool is_new = std::none_of(followed.begin(), followed.end(), [&](const auto& before) {
-      const Rigid3 between = before.second.inverse() * place.motion;
+      const geometry::Rigid3 between = before.second.inverse() * place.motion;
       return (between * centre_ - centre_).norm() < 0.3 &&               // mm
              between.rotation.angularDistance(Quat::Identity()) < 0.05;  // rad
     });
@@ -396,7 +398,7 @@ BoneImages images_of_bones(const ScanSurfaces& surfaces, const ImageLevels& imag
     if (bone.name.empty()) return;
     try {
       ImageFitOptions fitting = options;
-      if (signed_volume(bone.mesh) < kSmallVolume) {
+      if (geometry::signed_volume(bone.mesh) < kSmallVolume) {
         fitting.layer = std::max(fitting.layer, kSmallLayer);
       }
       made[b].emplace(bone.mesh, image, fitting);
@@ -411,4 +413,4 @@ BoneImages images_of_bones(const ScanSurfaces& surfaces, const ImageLevels& imag
   return images;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

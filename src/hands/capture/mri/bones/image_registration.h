@@ -8,22 +8,22 @@
 #include <vector>
 
 #include "hands/capture/mri/scan_surfaces.h"
+#include "hands/imaging/volume.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/geometry/types.h"
-#include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// An image ready to be compared with another one: blurred a little and strongly. As it comes from
 /// the scanner; a coil's field needn't be taken out.
 struct ImageLevels {
   struct Level {
-    Volume image;
+    imaging::Volume image;
     double blur = 0.0;  ///< standard deviation of the Gaussian, mm
   };
   Level fine, coarse;
 };
-ImageLevels blurred_levels(const Volume& image);
+ImageLevels blurred_levels(const imaging::Volume& image);
 
 struct ImageFitOptions {
   double layer = 0.5;       ///< mm outside of the bone's surface that count as well
@@ -35,7 +35,7 @@ struct ImageFitOptions {
 
 /// How a bone of one image was placed on another image.
 struct ImageFit {
-  Rigid3 fixed_from_moving;
+  geometry::Rigid3 fixed_from_moving;
   /// Of the two images' intensities over the samples that have a weight, [-1, 1]: what lies wrong
   /// in the bone's own surface doesn't lower it.
   double correlation = 0.0;
@@ -68,14 +68,14 @@ struct ImageFit {
 class BoneImage {
  public:
   /// Throws InputError for a surface that holds no voxel of the image.
-  BoneImage(const TriangleMesh& bone, const ImageLevels& image,
+  BoneImage(const geometry::TriangleMesh& bone, const ImageLevels& image,
             const ImageFitOptions& options = {});
 
   /// From one start.
-  ImageFit fit(const ImageLevels& other, const Rigid3& start) const;
+  ImageFit fit(const ImageLevels& other, const geometry::Rigid3& start) const;
   /// From the best of many starts: those of highest correlation under the strong blur are followed.
   /// Throws UsageError without starts.
-  ImageFit find(const ImageLevels& other, std::span<const Rigid3> starts) const;
+  ImageFit find(const ImageLevels& other, std::span<const geometry::Rigid3> starts) const;
 
   const Vec3& centre() const { return centre_; }  ///< of the samples, mm
 
@@ -89,7 +89,7 @@ class BoneImage {
   struct Row;
   std::vector<Row> rows_at(const ImageLevels::Level& level, bool is_fine, const Place& place) const;
   void refine(const ImageLevels::Level& level, bool is_fine, Place& place) const;
-  double coarse_correlation(const ImageLevels& other, const Rigid3& motion) const;
+  double coarse_correlation(const ImageLevels& other, const geometry::Rigid3& motion) const;
   ImageFit finished(const ImageLevels& other, Place place) const;
 
   ImageFitOptions options_;
@@ -107,4 +107,4 @@ using BoneImages = std::map<std::string, BoneImage>;
 BoneImages images_of_bones(const ScanSurfaces& surfaces, const ImageLevels& image,
                            const ImageFitOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

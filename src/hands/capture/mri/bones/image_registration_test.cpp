@@ -15,7 +15,7 @@
 // A bone drawn by a formula: an ellipsoid of marrow in a dark shell with a knob at one end, in
 // tissue whose pattern doesn't move with it.
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using ::testing::HasSubstr;
@@ -48,9 +48,9 @@ class ImageRegistration : public ::testing::Test {
   }
 
   /// The bone where `place` puts it.
-  Volume image_of(const Rigid3& place, const Scanner& scanner) const {
-    Volume image;
-    VolumeGrid& grid = image.grid;
+  imaging::Volume image_of(const geometry::Rigid3& place, const Scanner& scanner) const {
+    imaging::Volume image;
+    imaging::VolumeGrid& grid = image.grid;
     grid.spacing = scanner.spacing;
     grid.axes = scanner.turn.toRotationMatrix();
     const Vec3 field(52.0, 52.0, 52.0);
@@ -61,7 +61,7 @@ class ImageRegistration : public ::testing::Test {
     grid.origin = place.translation - grid.axes * (0.5 * middle).cwiseProduct(grid.spacing);
     image.value.resize(grid.count());
     RandomStream random(scanner.seed, 0);
-    const Rigid3 bone_from_image = place.inverse();
+    const geometry::Rigid3 bone_from_image = place.inverse();
     for (int k = 0; k < grid.size[2]; ++k) {
       for (int j = 0; j < grid.size[1]; ++j) {
         for (int i = 0; i < grid.size[0]; ++i) {
@@ -78,20 +78,20 @@ class ImageRegistration : public ::testing::Test {
     return image;
   }
 
-  TriangleMesh bone_mesh() const {
-    TriangleMesh mesh = make_icosphere(1.0, 4);
+  geometry::TriangleMesh bone_mesh() const {
+    geometry::TriangleMesh mesh = geometry::make_icosphere(1.0, 4);
     for (Vec3& v : mesh.vertices) v = v.cwiseProduct(half_);
     return mesh;
   }
 
-  static Rigid3 truth() {
-    return {Quat(Eigen::AngleAxisd(40.0 * kDegree, Vec3(1.0, 2.0, -0.5).normalized())),
+  static geometry::Rigid3 truth() {
+    return {Quat(Eigen::AngleAxisd(40.0 * geometry::kDegree, Vec3(1.0, 2.0, -0.5).normalized())),
             Vec3(7.0, -3.0, 12.0)};
   }
 
   /// The truth turned and shifted.
-  static Rigid3 near_truth(double turn, const Vec3& shift) {
-    Rigid3 start = truth();
+  static geometry::Rigid3 near_truth(double turn, const Vec3& shift) {
+    geometry::Rigid3 start = truth();
     start.rotation =
         start.rotation * Quat(Eigen::AngleAxisd(turn, Vec3(0.5, -1.0, 1.5).normalized()));
     start.translation += shift;
@@ -114,13 +114,15 @@ TEST_F(ImageRegistration, MotionsAreFoundToAFractionOfAVoxelDespiteNoise) {
   for (const double noise : {0.0, 8.0, 20.0}) {
     const BoneImage bone = reference({.noise = noise, .seed = 3});
     const ImageLevels other = blurred_levels(image_of(truth(), {.noise = noise, .seed = 4}));
-    const ImageFit fit = bone.fit(other, near_truth(10.0 * kDegree, Vec3(1.5, -1.5, 1.0)));
+    const ImageFit fit =
+        bone.fit(other, near_truth(10.0 * geometry::kDegree, Vec3(1.5, -1.5, 1.0)));
     EXPECT_TRUE(fit.has_converged) << noise;
     EXPECT_EQ(fit.overlap, 1.0);
     // Two images' noise of 4 % each: what the normal equations expect, and no more.
-    EXPECT_LT(turn_off(fit), std::max(0.3 * kDegree, 3.0 * fit.turn_error)) << noise;
+    EXPECT_LT(turn_off(fit), std::max(0.3 * geometry::kDegree, 3.0 * fit.turn_error)) << noise;
     EXPECT_LT(shift_off(fit), std::max(0.05, 3.0 * fit.shift_error)) << noise;
-    EXPECT_LT(fit.turn_error, noise > 10.0 ? 3.0 * kDegree : 1.5 * kDegree) << noise;
+    EXPECT_LT(fit.turn_error, noise > 10.0 ? 3.0 * geometry::kDegree : 1.5 * geometry::kDegree)
+        << noise;
     EXPECT_GT(fit.correlation, noise > 10.0 ? 0.85 : 0.95) << noise;
   }
 }
@@ -129,40 +131,41 @@ TEST_F(ImageRegistration, GainFieldAndOffsetDontMatter) {
   const BoneImage bone = reference({.seed = 5});
   const ImageLevels other = blurred_levels(
       image_of(truth(), {.noise = 12.0, .gain = 1.6, .slope = 0.006, .offset = 25.0, .seed = 6}));
-  const ImageFit fit = bone.fit(other, near_truth(6.0 * kDegree, Vec3(1.0, 1.0, -1.0)));
-  EXPECT_LT(turn_off(fit), 1.0 * kDegree);
+  const ImageFit fit = bone.fit(other, near_truth(6.0 * geometry::kDegree, Vec3(1.0, 1.0, -1.0)));
+  EXPECT_LT(turn_off(fit), 1.0 * geometry::kDegree);
   EXPECT_LT(shift_off(fit), 0.12);  // an eighth of a voxel
   EXPECT_GT(fit.correlation, 0.95);
 }
 
 TEST_F(ImageRegistration, ObliqueThickSlicesOfBothImagesServe) {
-  const Quat oblique(Eigen::AngleAxisd(25.0 * kDegree, Vec3(1.0, 1.0, 0.3).normalized()));
+  const Quat oblique(Eigen::AngleAxisd(25.0 * geometry::kDegree, Vec3(1.0, 1.0, 0.3).normalized()));
   const BoneImage bone = reference({.spacing = Vec3(0.6, 0.6, 1.8), .seed = 7});
   const ImageLevels other = blurred_levels(
       image_of(truth(), {.spacing = Vec3(0.9, 0.7, 1.5), .turn = oblique, .seed = 8}));
-  const ImageFit fit = bone.fit(other, near_truth(6.0 * kDegree, Vec3(1.0, 1.0, -1.0)));
+  const ImageFit fit = bone.fit(other, near_truth(6.0 * geometry::kDegree, Vec3(1.0, 1.0, -1.0)));
   // The blur of a slice lies otherwise in the bone then: a fifth of a voxel.
-  EXPECT_LT(turn_off(fit), 1.5 * kDegree);
+  EXPECT_LT(turn_off(fit), 1.5 * geometry::kDegree);
   EXPECT_LT(shift_off(fit), 0.2);
 }
 
 TEST_F(ImageRegistration, ABoneFarFromItsStartIsFoundByTrying) {
   const BoneImage bone = reference({.seed = 9});
   const ImageLevels other = blurred_levels(image_of(truth(), {.seed = 10}));
-  std::vector<Rigid3> starts;
+  std::vector<geometry::Rigid3> starts;
   const Vec3 end(-16.0, 0.0, 0.0);  // stays: a joint
   for (int k = -9; k <= 9; ++k) {
     for (int n = -9; n <= 9; ++n) {
-      const Quat turn = Quat(Eigen::AngleAxisd(10.0 * k * kDegree + 0.08, Vec3::UnitZ())) *
-                        Quat(Eigen::AngleAxisd(10.0 * n * kDegree + 0.08, Vec3::UnitY()));
-      Rigid3 start;
+      const Quat turn =
+          Quat(Eigen::AngleAxisd(10.0 * k * geometry::kDegree + 0.08, Vec3::UnitZ())) *
+          Quat(Eigen::AngleAxisd(10.0 * n * geometry::kDegree + 0.08, Vec3::UnitY()));
+      geometry::Rigid3 start;
       start.rotation = truth().rotation * turn;
       start.translation = truth() * end - start.rotation * end + Vec3(0.5, -0.5, 0.5);
       starts.push_back(start);
     }
   }
   const ImageFit fit = bone.find(other, starts);
-  EXPECT_LT(turn_off(fit), 1.0 * kDegree);
+  EXPECT_LT(turn_off(fit), 1.0 * geometry::kDegree);
   EXPECT_LT(shift_off(fit), 0.12);  // an eighth of a voxel
   EXPECT_EQ(fit.fixed_from_moving.translation,
             bone.find(other, starts).fixed_from_moving.translation);
@@ -182,23 +185,23 @@ TEST_F(ImageRegistration, ATurnThatTheShapeDoesntHoldIsSaid) {
   const BoneImage bone = reference({.seed = 13});
   const ImageLevels other = blurred_levels(image_of(truth(), {.seed = 14}));
   const ImageFit fit = bone.fit(other, truth());
-  EXPECT_GT(fit.turn_error, 5.0 * kDegree);
+  EXPECT_GT(fit.turn_error, 5.0 * geometry::kDegree);
   const Vec3 along = fit.fixed_from_moving.rotation * Vec3::UnitX();
   const Vec3 wanted = truth().rotation * Vec3::UnitX();
-  EXPECT_LT(along.cross(wanted).norm(), 1.0 * kDegree);
+  EXPECT_LT(along.cross(wanted).norm(), 1.0 * geometry::kDegree);
   EXPECT_LT(shift_off(fit), 0.1);
 }
 
 TEST_F(ImageRegistration, WhatLiesOutsideTheImageIsLeftOut) {
   const BoneImage bone = reference({.seed = 15});
-  Volume image = image_of(truth(), {.seed = 16});
+  imaging::Volume image = image_of(truth(), {.seed = 16});
   image.grid.size[2] = image.grid.size[2] / 2 + 4;
   image.value.resize(image.grid.count());
   const ImageFit fit =
-      bone.fit(blurred_levels(image), near_truth(4.0 * kDegree, Vec3(1.0, 0.0, 0.0)));
+      bone.fit(blurred_levels(image), near_truth(4.0 * geometry::kDegree, Vec3(1.0, 0.0, 0.0)));
   EXPECT_LT(fit.overlap, 0.9);
-  EXPECT_LT(turn_off(fit), 2.0 * kDegree);
-  Rigid3 away = truth();
+  EXPECT_LT(turn_off(fit), 2.0 * geometry::kDegree);
+  geometry::Rigid3 away = truth();
   away.translation.x() += 500.0;
   const ImageFit none = bone.fit(blurred_levels(image), away);
   EXPECT_EQ(none.overlap, 0.0);
@@ -217,7 +220,7 @@ TEST_F(ImageRegistration, WrongUseIsNamed) {
     }
     return "";
   };
-  TriangleMesh away = bone_mesh();
+  geometry::TriangleMesh away = bone_mesh();
   for (Vec3& v : away.vertices) v.x() += 200.0;
   EXPECT_THAT(message([&] { BoneImage(away, levels); }), HasSubstr("0 voxels are in it; 30"));
   EXPECT_THAT(message([&] { BoneImage(bone_mesh(), levels, {.layer = -1.0}); }),
@@ -232,4 +235,4 @@ TEST_F(ImageRegistration, WrongUseIsNamed) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

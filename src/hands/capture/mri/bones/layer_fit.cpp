@@ -10,7 +10,7 @@
 #include "palmar/geometry/mesh/mesh_topology.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr float kForbidden = 1e6F;
@@ -79,7 +79,7 @@ std::vector<double> evened(std::vector<double> shift,
       std::vector<double> around = {shift[v]};
       for (const int u : neighbours[v]) around.push_back(shift[u]);
       if (round == 0) {
-        even[v] = median(std::move(around));
+        even[v] = statistics::median(std::move(around));
       } else {
         double sum = 0.0;
         for (const double s : around) sum += s;
@@ -93,10 +93,11 @@ std::vector<double> evened(std::vector<double> shift,
 
 }  // namespace
 
-LayerFit fit_layers(const TriangleMesh& near, const LayerSearch& search,
+LayerFit fit_layers(const geometry::TriangleMesh& near, const LayerSearch& search,
                     const std::function<LayerProfile(int, const Vec3&)>& profile_at) {
-  const std::vector<Vec3> normals = vertex_normals(near);
-  const std::vector<std::vector<int>> neighbours = vertex_neighbours(build_topology(near));
+  const std::vector<Vec3> normals = geometry::vertex_normals(near);
+  const std::vector<std::vector<int>> neighbours =
+      geometry::vertex_neighbours(geometry::build_topology(near));
   const int count = near.vertex_count();
   std::vector<std::vector<float>> cost(count);
   std::vector<double> samples(count);
@@ -148,7 +149,7 @@ LayerFit fit_layers(const TriangleMesh& near, const LayerSearch& search,
           around.push_back(fit.thickness[u]);
         }
       }
-      usual[v] = median(std::move(around));
+      usual[v] = statistics::median(std::move(around));
     });
   }
   shift = evened(std::move(shift), neighbours);
@@ -162,4 +163,4 @@ LayerFit fit_layers(const TriangleMesh& near, const LayerSearch& search,
   return fit;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

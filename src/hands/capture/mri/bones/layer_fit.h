@@ -7,7 +7,7 @@
 
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Signal along the normal of a surface, from inside outwards.
 struct LayerProfile {
@@ -37,7 +37,7 @@ struct LayerSearch {
 
 /// Where the outer side of a layer lies, for a surface near it.
 struct LayerFit {
-  TriangleMesh mesh;              ///< outer surface; adjacency of the input
+  geometry::TriangleMesh mesh;    ///< outer surface; adjacency of the input
   std::vector<double> thickness;  ///< of the layer, per vertex, mm
   double residual = 0.0;          ///< rms of the profiles' misfit over LayerSearch::scale
 };
@@ -55,7 +55,7 @@ struct LayerFit {
 /// taken; the thickness is found twice, first nearly free, then near the median of the
 /// surroundings, as where the outside is as dark as the layer only the inner side can be seen.
 /// Deterministic.
-LayerFit fit_layers(const TriangleMesh& near, const LayerSearch& search,
+LayerFit fit_layers(const geometry::TriangleMesh& near, const LayerSearch& search,
                     const std::function<LayerProfile(int vertex, const Vec3& normal)>& profile_at);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -10,7 +10,7 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// A ball with a dark shell as an image of square voxels shows it along a ray: signals are averaged
@@ -39,7 +39,7 @@ struct ShelledBall {
 };
 
 /// Least and largest distance of the vertices from the middle.
-std::pair<double, double> radii(const TriangleMesh& mesh) {
+std::pair<double, double> radii(const geometry::TriangleMesh& mesh) {
   double least = 1e9, most = 0.0;
   for (const Vec3& p : mesh.vertices) {
     least = std::min(least, p.norm());
@@ -53,7 +53,8 @@ TEST(FitLayers, FindsBothSidesOfAShellThinnerThanAVoxel) {
   for (const double thickness : {0.5, 0.9, 1.6}) {
     ShelledBall ball;
     ball.thickness = thickness;
-    const TriangleMesh near = make_icosphere(10.0, 3);  // 0.4 mm inside of the outer side
+    const geometry::TriangleMesh near =
+        geometry::make_icosphere(10.0, 3);  // 0.4 mm inside of the outer side
     LayerSearch search;
     const LayerFit fit = fit_layers(near, search, [&](int v, const Vec3& normal) {
       return ball.along(near.vertices[v], normal);
@@ -70,7 +71,7 @@ TEST(FitLayers, SignalsOfInsideAndOutsideMayDifferFromTheExpectedOnes) {
   ShelledBall ball;
   ball.inside = 0.8;
   ball.outside = 0.3;
-  const TriangleMesh near = make_icosphere(10.0, 3);
+  const geometry::TriangleMesh near = geometry::make_icosphere(10.0, 3);
   const LayerFit fit = fit_layers(
       near, {}, [&](int v, const Vec3& normal) { return ball.along(near.vertices[v], normal); });
   const auto [least, most] = radii(fit.mesh);
@@ -80,7 +81,7 @@ TEST(FitLayers, SignalsOfInsideAndOutsideMayDifferFromTheExpectedOnes) {
 
 TEST(FitLayers, VerticesThatDetermineNothingFollowTheirNeighbours) {
   const ShelledBall ball;
-  const TriangleMesh near = make_icosphere(10.0, 3);
+  const geometry::TriangleMesh near = geometry::make_icosphere(10.0, 3);
   const LayerFit fit = fit_layers(near, {}, [&](int v, const Vec3& normal) {
     if (v % 5 == 0) return LayerProfile();
     return ball.along(near.vertices[v], normal);
@@ -91,4 +92,4 @@ TEST(FitLayers, VerticesThatDetermineNothingFollowTheirNeighbours) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

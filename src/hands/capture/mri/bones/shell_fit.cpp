@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 // Profiles: samples along the normal, mm.
@@ -25,7 +25,7 @@ struct Samples {
 
 Samples samples_at(const Vec3& vertex, const Vec3& normal, std::int32_t own,
                    const ShellImage& shell) {
-  const VolumeGrid& grid = shell.image.grid;
+  const imaging::VolumeGrid& grid = shell.image.grid;
   Samples samples;
   const auto take = [&](int s) {
     const Vec3 voxel = grid.to_voxel(vertex + (kFirst + kStep * s) * normal);
@@ -35,7 +35,7 @@ Samples samples_at(const Vec3& vertex, const Vec3& normal, std::int32_t own,
       if (near[a] < 0 || near[a] >= grid.size[a]) return false;
     }
     const std::int32_t region = shell.region[grid.at(near[0], near[1], near[2])];
-    samples.value[s] = static_cast<double>(value_at(shell.image, voxel));
+    samples.value[s] = static_cast<double>(imaging::value_at(shell.image, voxel));
     samples.is_own[s] = region == own;
     return region == -1 || region == own;
   };
@@ -85,7 +85,7 @@ void keep_nearest_layers(Samples& samples, const ShellImage& shell) {
 
 }  // namespace
 
-LayerFit fit_shell(const TriangleMesh& near, std::int32_t own, const ShellImage& shell) {
+LayerFit fit_shell(const geometry::TriangleMesh& near, std::int32_t own, const ShellImage& shell) {
   const double contrast = shell.bright - shell.dark;
   LayerSearch search;
   search.bright = shell.bright;
@@ -98,7 +98,7 @@ LayerFit fit_shell(const TriangleMesh& near, std::int32_t own, const ShellImage&
     profile.first = kFirst + kStep * samples.first;
     profile.step = kStep;
     profile.known = shell.dark;
-    const VolumeGrid& grid = shell.image.grid;
+    const imaging::VolumeGrid& grid = shell.image.grid;
     profile.blur = 0.5 * (grid.axes.transpose() * normal).cwiseProduct(grid.spacing).norm();
     if (samples.last >= samples.first) {
       profile.value.assign(samples.value.begin() + samples.first,
@@ -108,4 +108,4 @@ LayerFit fit_shell(const TriangleMesh& near, std::int32_t own, const ShellImage&
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,11 +8,11 @@
 #include "hands/capture/mri/bones/layer_fit.h"
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// What a bone's surface is found in.
 struct ShellImage {
-  const Volume& image;  ///< free of bias
+  const imaging::Volume& image;  ///< free of bias
   const std::vector<std::int32_t>&
       region;           ///< per voxel: the bone (or other bright region) it
                         ///< belongs to, -1 for none; -2 where no bone can be (air)
@@ -30,6 +30,6 @@ struct ShellImage {
 /// a tendon or the skin); it ends where another bone or the air begins.
 ///
 /// `own`: the bone's region. Deterministic.
-LayerFit fit_shell(const TriangleMesh& near, std::int32_t own, const ShellImage& image);
+LayerFit fit_shell(const geometry::TriangleMesh& near, std::int32_t own, const ShellImage& image);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -12,7 +12,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// A depth map that can be asked about points of the world.
@@ -81,7 +81,7 @@ FusedDepths fuse_depths(const std::vector<PhotoView>& views, const std::vector<D
   if (views.size() != maps.size()) throw UsageError("one depth map per view is required");
   std::vector<PosedMap> posed;
   for (std::size_t v = 0; v < views.size(); ++v) posed.emplace_back(views[v], maps[v]);
-  const auto least_cosine = static_cast<float>(std::cos(options.agree_angle * kDegree));
+  const auto least_cosine = static_cast<float>(std::cos(options.agree_angle * geometry::kDegree));
   const auto agree = static_cast<float>(options.agree);
 
   std::vector<std::vector<SurfacePoint>> found(views.size());
@@ -92,7 +92,8 @@ FusedDepths fuse_depths(const std::vector<PhotoView>& views, const std::vector<D
     const Vec3 axis = (views[v].camera.centre() - middle).normalized();
     for (std::size_t o = 0; o < views.size(); ++o) {
       const Vec3 other = (views[o].camera.centre() - middle).normalized();
-      if (o != v && axis.dot(other) > std::cos(options.widest_angle * kDegree)) others.push_back(o);
+      if (o != v && axis.dot(other) > std::cos(options.widest_angle * geometry::kDegree))
+        others.push_back(o);
     }
     for (int y = 0; y < own.map->height; ++y) {
       for (int x = 0; x < own.map->width; ++x) {
@@ -149,4 +150,4 @@ FusedDepths fuse_depths(const std::vector<PhotoView>& views, const std::vector<D
   return fused;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 
 #include "hands/capture/photo/surface/patch_match.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 struct DepthFusionOptions {
   double agree = 0.8;        ///< largest difference of two views' depths of a point, mm
@@ -45,4 +45,4 @@ struct FusedDepths {
 FusedDepths fuse_depths(const std::vector<PhotoView>& views, const std::vector<DepthMap>& maps,
                         const Vec3& middle, const DepthFusionOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

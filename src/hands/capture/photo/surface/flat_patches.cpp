@@ -11,7 +11,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kReach = 3.0;       // mm; paraboloids, so that ripples of stereo don't count
@@ -20,7 +20,7 @@ constexpr int kSmoothings = 3;       // of the moves over the mesh
 constexpr std::size_t kFewest = 10;  // vertices for a paraboloid of six numbers
 
 /// Vertices within kReach of one, going from neighbour to neighbour, that look the same way.
-void gather(const TriangleMesh& mesh, const std::vector<std::vector<int>>& neighbours,
+void gather(const geometry::TriangleMesh& mesh, const std::vector<std::vector<int>>& neighbours,
             const std::vector<Vec3>& normals, int middle, std::vector<int>& found) {
   found.assign(1, middle);
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -36,8 +36,8 @@ void gather(const TriangleMesh& mesh, const std::vector<std::vector<int>>& neigh
 }
 
 /// 1/2 tr(K S) of a vertex.
-double shift_of(const TriangleMesh& mesh, const std::vector<int>& near, const Vec3& normal,
-                const Eigen::Matrix3d& patch) {
+double shift_of(const geometry::TriangleMesh& mesh, const std::vector<int>& near,
+                const Vec3& normal, const Eigen::Matrix3d& patch) {
   const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
   Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 1> b = Eigen::Matrix<double, 6, 1>::Zero();
@@ -58,9 +58,11 @@ double shift_of(const TriangleMesh& mesh, const std::vector<int>& near, const Ve
 
 }  // namespace
 
-TriangleMesh without_flat_patches(const TriangleMesh& mesh, const PointCells& points) {
-  const std::vector<std::vector<int>> neighbours = vertex_neighbours(build_topology(mesh));
-  const std::vector<Vec3> normals = vertex_normals(mesh);
+geometry::TriangleMesh without_flat_patches(const geometry::TriangleMesh& mesh,
+                                            const PointCells& points) {
+  const std::vector<std::vector<int>> neighbours =
+      geometry::vertex_neighbours(geometry::build_topology(mesh));
+  const std::vector<Vec3> normals = geometry::vertex_normals(mesh);
   const std::size_t count = mesh.vertices.size();
   std::vector<double> shift(count, 0.0);
   constexpr std::size_t kChunk = 256;
@@ -84,9 +86,9 @@ TriangleMesh without_flat_patches(const TriangleMesh& mesh, const PointCells& po
     }
     shift = std::move(smooth);
   }
-  TriangleMesh moved = mesh;
+  geometry::TriangleMesh moved = mesh;
   for (std::size_t i = 0; i < count; ++i) moved.vertices[i] += shift[i] * normals[i];
   return moved;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

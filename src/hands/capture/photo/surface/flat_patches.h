@@ -5,7 +5,7 @@
 #include "hands/capture/photo/surface/point_cells.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Undoes what flat patches do to a curved surface. A plane that is fitted to a patch lies at the
 /// mean depth of what the patch covers, which on convex skin is behind its middle: with K the
@@ -19,6 +19,7 @@ namespace palmar {
 /// vertices within 3 mm over the mesh, S from the points of the nearest cells. Vertices that no
 /// points are near to stay; no vertex moves more than 0.6 mm (edges sharper than patches can show).
 /// The mesh: manifold, oriented outwards, edges well below 3 mm.
-TriangleMesh without_flat_patches(const TriangleMesh& mesh, const PointCells& points);
+geometry::TriangleMesh without_flat_patches(const geometry::TriangleMesh& mesh,
+                                            const PointCells& points);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,13 +9,13 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kVariance = 1.0;  // mm^2, of a patch in each direction, seen frontally
 
 /// Points on a mesh' vertices, patches of one variance in the tangent plane.
-PointCells frontal(const TriangleMesh& mesh, const auto& normal_of) {
+PointCells frontal(const geometry::TriangleMesh& mesh, const auto& normal_of) {
   std::vector<SurfacePoint> points;
   for (const Vec3& vertex : mesh.vertices) {
     const Vec3 n = normal_of(vertex);
@@ -30,8 +30,8 @@ PointCells frontal(const TriangleMesh& mesh, const auto& normal_of) {
 }
 
 /// An open tube about z.
-TriangleMesh tube(double radius, double length, int round, int along) {
-  TriangleMesh mesh;
+geometry::TriangleMesh tube(double radius, double length, int round, int along) {
+  geometry::TriangleMesh mesh;
   for (int k = 0; k <= along; ++k) {
     for (int i = 0; i < round; ++i) {
       const double angle = 2.0 * std::numbers::pi * i / round;
@@ -51,9 +51,9 @@ TriangleMesh tube(double radius, double length, int round, int along) {
 
 TEST(FlatPatches, ARodGrowsByHalfTheVarianceOverItsRadius) {
   constexpr double kRadius = 8.0;
-  TriangleMesh mesh = tube(kRadius, 30.0, 64, 40);
+  geometry::TriangleMesh mesh = tube(kRadius, 30.0, 64, 40);
   const auto out = [](const Vec3& p) { return Vec3(p.x(), p.y(), 0).normalized(); };
-  const TriangleMesh moved = without_flat_patches(mesh, frontal(mesh, out));
+  const geometry::TriangleMesh moved = without_flat_patches(mesh, frontal(mesh, out));
   for (const Vec3& p : moved.vertices) {
     if (p.z() < 6.0 || p.z() > 24.0) continue;
     EXPECT_NEAR(p.head<2>().norm(), kRadius + 0.5 * kVariance / kRadius, 0.004);
@@ -61,7 +61,7 @@ TEST(FlatPatches, ARodGrowsByHalfTheVarianceOverItsRadius) {
   // The same tube as a hole: concave skin is too far out, so it moves in, away from the axis.
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
   const auto in = [&](const Vec3& p) { return Vec3(-out(p)); };
-  const TriangleMesh hole = without_flat_patches(mesh, frontal(mesh, in));
+  const geometry::TriangleMesh hole = without_flat_patches(mesh, frontal(mesh, in));
   for (const Vec3& p : hole.vertices) {
     if (p.z() < 6.0 || p.z() > 24.0) continue;
     EXPECT_NEAR(p.head<2>().norm(), kRadius + 0.5 * kVariance / kRadius, 0.004);
@@ -70,21 +70,21 @@ TEST(FlatPatches, ARodGrowsByHalfTheVarianceOverItsRadius) {
 
 TEST(FlatPatches, ABallGrowsTwiceAsMuchAndAPlaneStays) {
   constexpr double kRadius = 8.0;
-  const TriangleMesh ball = make_icosphere(kRadius, 4);
-  const TriangleMesh moved =
+  const geometry::TriangleMesh ball = geometry::make_icosphere(kRadius, 4);
+  const geometry::TriangleMesh moved =
       without_flat_patches(ball, frontal(ball, [](const Vec3& p) { return p.normalized(); }));
   for (const Vec3& p : moved.vertices) EXPECT_NEAR(p.norm(), kRadius + kVariance / kRadius, 0.008);
 
   // Flat is the middle of a tube of 1 m in radius.
-  const TriangleMesh wide = tube(1000.0, 20.0, 8000, 25);
+  const geometry::TriangleMesh wide = tube(1000.0, 20.0, 8000, 25);
   const auto out = [](const Vec3& p) { return Vec3(p.x(), p.y(), 0).normalized(); };
-  const TriangleMesh same = without_flat_patches(wide, frontal(wide, out));
+  const geometry::TriangleMesh same = without_flat_patches(wide, frontal(wide, out));
   for (const Vec3& p : same.vertices) EXPECT_NEAR(p.head<2>().norm(), 1000.0, 0.002);
 }
 
 TEST(FlatPatches, WhatNoPhotographSawStays) {
-  const TriangleMesh ball = make_icosphere(8.0, 4);
-  const TriangleMesh same = without_flat_patches(ball, PointCells({}));
+  const geometry::TriangleMesh ball = geometry::make_icosphere(8.0, 4);
+  const geometry::TriangleMesh same = without_flat_patches(ball, PointCells({}));
   EXPECT_EQ(same.vertices, ball.vertices);
 }
 
@@ -107,4 +107,4 @@ TEST(CameraHeights, OneOrTwo) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

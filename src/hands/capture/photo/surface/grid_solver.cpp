@@ -8,7 +8,7 @@
 
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using Field = std::vector<float>;
@@ -246,4 +246,4 @@ GridSolution solve_grid(const GridProblem& problem, double tolerance, int max_it
   }
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -7,7 +7,7 @@
 
 #include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// (L + diag(w)) x = b on the cells of a box, L the graph Laplacian of the six neighbours (sum over
 /// the neighbours that exist of x_i - x_j), w >= 0 and not all 0. Cells in the order i fastest.
@@ -31,4 +31,4 @@ struct GridSolution {
 GridSolution solve_grid(const GridProblem& problem, double tolerance, int max_iterations,
                         const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,7 +8,7 @@
 
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// The box' operator, cell by cell, as its definition says.
@@ -89,4 +89,4 @@ TEST(SolveGrid, SaysWhenItHasNotConverged) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -14,7 +14,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
@@ -42,7 +42,7 @@ Eigen::Matrix3d cross_of(const Vec3& v) {
 class Epipolar {
  public:
   Epipolar(const PhotoCamera& a, const PhotoCamera& b) : a_(a), b_(b) {
-    const Rigid3 move = b.camera_from_world * a.camera_from_world.inverse();
+    const geometry::Rigid3 move = b.camera_from_world * a.camera_from_world.inverse();
     essential_ = cross_of(move.translation) * move.rotation.toRotationMatrix();
   }
   double distance(const Vec2& first, const Vec2& second) const {
@@ -64,7 +64,7 @@ class Problem {
       : motions(positions), cameras_(cameras), position_(position) {}
 
   std::vector<Track> tracks;
-  std::vector<Rigid3> motions;  ///< board_from_hand
+  std::vector<geometry::Rigid3> motions;  ///< board_from_hand
 
   /// Point in the camera's frame.
   Vec3 local(const Observation& o, const Vec3& point) const {
@@ -83,7 +83,7 @@ class Problem {
     Vec3 b = Vec3::Zero();
     for (const Observation& o : track.seen) {
       const int p = o.picture;
-      const Rigid3 hand_from_board = motions[position_[p]].inverse();
+      const geometry::Rigid3 hand_from_board = motions[position_[p]].inverse();
       const Vec3 centre = hand_from_board * cameras_[p].centre();
       const Vec3 ray = hand_from_board.rotation * cameras_[p].ray(o.pixel);
       const Eigen::Matrix3d m = Eigen::Matrix3d::Identity() - ray * ray.transpose();
@@ -128,7 +128,7 @@ class Problem {
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(size, size);
     Eigen::VectorXd g = Eigen::VectorXd::Zero(size);
     Vec6 prior;
-    prior << Vec3::Constant(1.0 / std::pow(options.turn_prior * kDegree, 2)),
+    prior << Vec3::Constant(1.0 / std::pow(options.turn_prior * geometry::kDegree, 2)),
         Vec3::Constant(1.0 / std::pow(options.shift_prior, 2));
     for (std::size_t p = 0; p < free; ++p) {
       const auto at = static_cast<long>(6 * p);
@@ -222,7 +222,7 @@ class Problem {
   }
 
  private:
-  static Vec6 motion_of(const Rigid3& motion) {
+  static Vec6 motion_of(const geometry::Rigid3& motion) {
     const Eigen::AngleAxisd turn(motion.rotation);
     Vec6 v;
     v << turn.angle() * turn.axis(), motion.translation;
@@ -236,9 +236,9 @@ class Problem {
         sum += scale * scale * std::log1p(residual(o, track.point).squaredNorm() / (scale * scale));
       }
     }
-    for (const Rigid3& motion : motions) {
+    for (const geometry::Rigid3& motion : motions) {
       const Vec6 v = motion_of(motion);
-      sum += v.head<3>().squaredNorm() / std::pow(options.turn_prior * kDegree, 2) +
+      sum += v.head<3>().squaredNorm() / std::pow(options.turn_prior * geometry::kDegree, 2) +
              v.tail<3>().squaredNorm() / std::pow(options.shift_prior, 2);
     }
     return sum;
@@ -332,20 +332,20 @@ HandMotion fit_hand_motion(const std::vector<PhotoCamera>& cameras,
   }
   problem.settle(kScale, options, true);
   motion.tracks = static_cast<int>(problem.tracks.size());
-  motion.after = median(problem.residuals());
+  motion.after = statistics::median(problem.residuals());
   if (problem.tracks.size() < kFewestTracks) return motion;
 
   Problem still = problem;
-  std::fill(still.motions.begin(), still.motions.end(), Rigid3{});
+  std::fill(still.motions.begin(), still.motions.end(), geometry::Rigid3{});
   still.settle(kScale, options, false);
-  motion.before = median(still.residuals());
+  motion.before = statistics::median(still.residuals());
   motion.is_applied = motion.after <= options.worth * motion.before;
   if (!motion.is_applied) return motion;
   motion.board_from_hand = problem.motions;
   Vec3 middle = Vec3::Zero();
   for (const Track& track : problem.tracks) middle += track.point;
   middle /= static_cast<double>(problem.tracks.size());
-  for (const Rigid3& one : problem.motions) {
+  for (const geometry::Rigid3& one : problem.motions) {
     motion.largest_shift = std::max(motion.largest_shift, (one * middle - middle).norm());
     motion.largest_turn =
         std::max(motion.largest_turn, std::abs(Eigen::AngleAxisd(one.rotation).angle()));
@@ -353,4 +353,4 @@ HandMotion fit_hand_motion(const std::vector<PhotoCamera>& cameras,
   return motion;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

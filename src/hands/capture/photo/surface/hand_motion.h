@@ -7,7 +7,7 @@
 
 #include "hands/capture/photo/photo_camera.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// Points that look distinct and which of them look alike, as the picture matcher says.
 struct PointMatches {
@@ -27,13 +27,13 @@ struct HandMotionOptions {
 
 /// How the hand moved between the positions of the rig.
 struct HandMotion {
-  std::vector<Rigid3> board_from_hand;  ///< per position; the first stays
-  int tracks = 0;                       ///< points of the skin that were followed
-  double before = 0.0;                  ///< median residual as if it had not moved, pixels
-  double after = 0.0;                   ///< with the motions
-  bool is_applied = false;              ///< the correction is worth it; else all motions are zero
-  double largest_shift = 0.0;           ///< of a motion, at the middle of the points, mm
-  double largest_turn = 0.0;            ///< rad
+  std::vector<geometry::Rigid3> board_from_hand;  ///< per position; the first stays
+  int tracks = 0;                                 ///< points of the skin that were followed
+  double before = 0.0;         ///< median residual as if it had not moved, pixels
+  double after = 0.0;          ///< with the motions
+  bool is_applied = false;     ///< the correction is worth it; else all motions are zero
+  double largest_shift = 0.0;  ///< of a motion, at the middle of the points, mm
+  double largest_turn = 0.0;   ///< rad
 };
 
 /// Points of the skin, followed through pictures of several positions (all the pictures of one
@@ -45,4 +45,4 @@ HandMotion fit_hand_motion(const std::vector<PhotoCamera>& cameras,
                            const std::vector<int>& position, const PointMatches& matches,
                            const HandMotionOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

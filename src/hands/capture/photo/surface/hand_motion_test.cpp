@@ -9,7 +9,7 @@
 
 #include "palmar/core/random.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// Points on a cylinder 40 mm thick above the board, seen from their side by 18 cameras of 6
@@ -17,7 +17,7 @@ namespace {
 struct MotionScene {
   std::vector<PhotoCamera> cameras;
   std::vector<int> position;
-  std::vector<Rigid3> truth;
+  std::vector<geometry::Rigid3> truth;
   PointMatches matches;
 
   MotionScene(double shift, double turn) {
@@ -25,9 +25,9 @@ struct MotionScene {
     constexpr int kPositions = 6, kRig = 3, kPoints = 400;
     for (int p = 0; p < kPositions; ++p) {
       const Vec3 axis = Vec3(random.normal(), random.normal(), random.normal()).normalized();
-      Rigid3 motion;
+      geometry::Rigid3 motion;
       if (p > 0) {
-        motion = Rigid3::about_axis(axis, Vec3(0, 0, 90), turn * random.normal());
+        motion = geometry::Rigid3::about_axis(axis, Vec3(0, 0, 90), turn * random.normal());
         motion.translation += shift * Vec3(random.normal(), random.normal(), random.normal());
       }
       truth.push_back(motion);
@@ -97,7 +97,7 @@ TEST(FitHandMotion, FindsHowTheHandMoved) {
   EXPECT_TRUE(found.is_applied);
   EXPECT_GT(found.tracks, 200);
   EXPECT_LT(found.after, 0.5 * found.before);
-  EXPECT_GT(scene.error(HandMotion{.board_from_hand = std::vector<Rigid3>(6)}), 1.0);
+  EXPECT_GT(scene.error(HandMotion{.board_from_hand = std::vector<geometry::Rigid3>(6)}), 1.0);
   EXPECT_LT(scene.error(found), 0.3);  // mm; noise of 0.2 pixels of 0.5 mm
 }
 
@@ -105,7 +105,8 @@ TEST(FitHandMotion, AHandThatStoodStillStays) {
   const MotionScene scene(0.0, 0.0);
   const HandMotion found = fit_hand_motion(scene.cameras, scene.position, scene.matches);
   EXPECT_FALSE(found.is_applied);
-  for (const Rigid3& motion : found.board_from_hand) EXPECT_EQ(motion.translation.norm(), 0.0);
+  for (const geometry::Rigid3& motion : found.board_from_hand)
+    EXPECT_EQ(motion.translation.norm(), 0.0);
 }
 
 TEST(FitHandMotion, WithoutPointsNothingIsSaid) {
@@ -117,4 +118,4 @@ TEST(FitHandMotion, WithoutPointsNothingIsSaid) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

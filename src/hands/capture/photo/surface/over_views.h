@@ -8,7 +8,7 @@
 #include "palmar/core/parallel.h"
 #include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// body(i) for each of `count` views, several at once, with the share that is done reported as
 /// `what`.
@@ -25,4 +25,4 @@ void over_views(std::size_t count, const Progress& progress, const char* what, B
   });
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -15,7 +15,7 @@
 #include "palmar/core/random.h"
 #include "palmar/geometry/degrees.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 using Mat3f = Eigen::Matrix3f;
@@ -63,7 +63,8 @@ class Matcher {
     k_inverse_ = inverse.cast<float>();
     for (const int s : sources) {
       const PhotoView& other = views[s];
-      const Rigid3 move = other.camera.camera_from_world * camera.camera_from_world.inverse();
+      const geometry::Rigid3 move =
+          other.camera.camera_from_world * camera.camera_from_world.inverse();
       const Eigen::Matrix3d k_s = Pinhole::matrix_of(other.camera.lens);
       sources_.push_back({&packed[s],
                           (k_s * move.rotation.toRotationMatrix() * inverse).cast<float>(),
@@ -82,7 +83,8 @@ class Matcher {
   }
 
   /// Where depths begin, from the bound; false: none along this ray.
-  void start(const PhotoMask& mask, const RayQuery& bound, const TriangleMesh& bound_mesh) {
+  void start(const PhotoMask& mask, const geometry::RayQuery& bound,
+             const geometry::TriangleMesh& bound_mesh) {
     const Vec3 centre = view_.camera.centre();
     const Quat& rotation = view_.camera.camera_from_world.rotation;
     for (int y = options_.radius; y < view_.height() - options_.radius; ++y) {
@@ -402,7 +404,8 @@ std::vector<std::vector<int>> choose_sources(const std::vector<PhotoView>& views
   for (std::size_t v = 0; v < views.size(); ++v) {
     std::vector<std::pair<double, int>> ranked;
     for (std::size_t o = 0; o < views.size(); ++o) {
-      const double angle = std::acos(std::clamp(axes[v].dot(axes[o]), -1.0, 1.0)) / kDegree;
+      const double angle =
+          std::acos(std::clamp(axes[v].dot(axes[o]), -1.0, 1.0)) / geometry::kDegree;
       if (o == v || angle < 4.0 || angle > 50.0) continue;
       ranked.emplace_back(std::abs(angle - options.wanted_angle), static_cast<int>(o));
     }
@@ -416,7 +419,7 @@ std::vector<std::vector<int>> choose_sources(const std::vector<PhotoView>& views
 
 DepthMap match_patches(const std::vector<PhotoView>& views, const std::vector<PackedView>& packed,
                        int view, const PhotoMask& mask, const std::vector<int>& sources,
-                       const RayQuery& bound, const TriangleMesh& bound_mesh,
+                       const geometry::RayQuery& bound, const geometry::TriangleMesh& bound_mesh,
                        const PatchMatchOptions& options) {
   options.check();
   Matcher matcher(views, packed, view, sources, options);
@@ -425,4 +428,4 @@ DepthMap match_patches(const std::vector<PhotoView>& views, const std::vector<Pa
   return matcher.result();
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

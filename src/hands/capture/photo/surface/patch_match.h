@@ -9,7 +9,7 @@
 #include "hands/capture/photo/photo_view.h"
 #include "palmar/geometry/distance/ray_query.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 struct PatchMatchOptions {
   int radius = 3;            ///< patches of (2 radius + 1)^2 pixels
@@ -61,7 +61,7 @@ std::vector<std::vector<int>> choose_sources(const std::vector<PhotoView>& views
 /// "Massively parallel multiview stereopsis by surface normal diffusion".
 DepthMap match_patches(const std::vector<PhotoView>& views, const std::vector<PackedView>& packed,
                        int view, const PhotoMask& mask, const std::vector<int>& sources,
-                       const RayQuery& bound, const TriangleMesh& bound_mesh,
+                       const geometry::RayQuery& bound, const geometry::TriangleMesh& bound_mesh,
                        const PatchMatchOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

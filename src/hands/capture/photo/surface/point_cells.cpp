@@ -8,7 +8,7 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/statistics/median.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kCell = 2.0;  // mm
@@ -59,26 +59,26 @@ CameraHeights camera_heights(const std::vector<Vec3>& centres, const Vec3& middl
   constexpr double kBeside = 0.05, kApart = 10.0;  // share of the cameras at either end; deg
   std::vector<double> elevation;
   for (const Vec3& centre : centres) {
-    elevation.push_back(std::asin((centre - middle).normalized().z()) / kDegree);
+    elevation.push_back(std::asin((centre - middle).normalized().z()) / geometry::kDegree);
   }
   if (elevation.empty()) return {};
   std::sort(elevation.begin(), elevation.end());
   const auto beside =
       static_cast<std::size_t>(kBeside * static_cast<double>(elevation.size()) + 0.5);
   const double range = elevation[elevation.size() - 1 - beside] - elevation[beside];
-  return {.are_one = range < kApart, .usual = median(elevation)};
+  return {.are_one = range < kApart, .usual = statistics::median(elevation)};
 }
 
-std::vector<char> measured_vertices(const TriangleMesh& mesh, const PointCells& cells,
+std::vector<char> measured_vertices(const geometry::TriangleMesh& mesh, const PointCells& cells,
                                     const std::vector<float>& density, const std::vector<int>& seen,
                                     bool is_one_height) {
   constexpr float kSparsely = 0.1F;  // of the usual density
   constexpr int kFewSee = 7;         // photographs a vertex; then two that agree must do
   std::vector<int> usually = seen;
-  const bool is_sparse = !usually.empty() && median(usually) < kFewSee;
+  const bool is_sparse = !usually.empty() && statistics::median(usually) < kFewSee;
   const double least_views = is_sparse ? 2.0 : is_one_height ? 3.0 : 2.75;
   const double share = is_one_height ? 0.45 : 0.4;
-  const float least = kSparsely * median(density);
+  const float least = kSparsely * statistics::median(density);
   std::vector<char> measured(mesh.vertices.size(), 0);
   for (std::size_t i = 0; i < measured.size(); ++i) {
     if (density[i] < least || seen[i] < 2) continue;
@@ -88,4 +88,4 @@ std::vector<char> measured_vertices(const TriangleMesh& mesh, const PointCells& 
   return measured;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -11,7 +11,7 @@
 #include "hands/capture/photo/surface/depth_fusion.h"
 #include "palmar/geometry/types.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 /// What the points near a place rest on, means over them.
 struct PointSupport {
@@ -45,8 +45,8 @@ CameraHeights camera_heights(const std::vector<Vec3>& centres, const Vec3& middl
 /// lets some agree about a wrong place, those that see it from elsewhere don't. The numbers are our
 /// choice: of a shining synthetic hand in 18 photographs from one height they keep 74 % of the
 /// vertices, of which 0.2 % are more than 1 mm off (1.6 % of all that have points).
-std::vector<char> measured_vertices(const TriangleMesh& mesh, const PointCells& cells,
+std::vector<char> measured_vertices(const geometry::TriangleMesh& mesh, const PointCells& cells,
                                     const std::vector<float>& density, const std::vector<int>& seen,
                                     bool is_one_height);
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -12,7 +12,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// The eight cells round a point and their trilinear shares.
@@ -22,7 +22,7 @@ struct Shares {
 };
 
 /// `at` in cells, 0 at the middle of the first; held to the box.
-Shares shares_of(const VolumeGrid& grid, const Vec3& at) {
+Shares shares_of(const imaging::VolumeGrid& grid, const Vec3& at) {
   std::array<int, 3> low{};
   std::array<float, 3> f{};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -41,8 +41,8 @@ Shares shares_of(const VolumeGrid& grid, const Vec3& at) {
   return shares;
 }
 
-VolumeGrid grid_over(const VolumeGrid& box, double spacing) {
-  VolumeGrid grid;
+imaging::VolumeGrid grid_over(const imaging::VolumeGrid& box, double spacing) {
+  imaging::VolumeGrid grid;
   grid.spacing = Vec3::Constant(spacing);
   grid.origin = box.origin;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -54,8 +54,9 @@ VolumeGrid grid_over(const VolumeGrid& box, double spacing) {
 
 /// Points per mm^2: hats of width H over the points, read with the same hat; across a surface that
 /// lies anyhow the mean of hat times hat is 2/3.
-Volume density_of(const std::vector<SurfacePoint>& points, const VolumeGrid& box, double width) {
-  Volume density{grid_over(box, width), {}};
+imaging::Volume density_of(const std::vector<SurfacePoint>& points, const imaging::VolumeGrid& box,
+                           double width) {
+  imaging::Volume density{grid_over(box, width), {}};
   density.value.assign(density.grid.count(), 0.0F);
   const auto weight = static_cast<float>(1.5 / (width * width));
   for (const SurfacePoint& point : points) {
@@ -86,14 +87,15 @@ void PoissonOptions::check() const {
   require(max_iterations >= 1, "max_iterations", max_iterations, "1 or more");
 }
 
-PoissonField fit_poisson_field(const std::vector<SurfacePoint>& points, const Volume& bound,
-                               const PoissonOptions& options, const Progress& progress) {
+PoissonField fit_poisson_field(const std::vector<SurfacePoint>& points,
+                               const imaging::Volume& bound, const PoissonOptions& options,
+                               const Progress& progress) {
   options.check();
   if (points.empty()) throw InputError("no point of the surface is known; nothing can be fitted");
   PoissonField result;
   constexpr double kDensityWidth = 2.0;  // mm
   result.density = density_of(points, bound.grid, kDensityWidth);
-  const VolumeGrid grid = grid_over(bound.grid, options.spacing);
+  const imaging::VolumeGrid grid = grid_over(bound.grid, options.spacing);
   GridProblem problem;
   problem.size = grid.size;
   problem.w.assign(grid.count(), 0.0F);
@@ -107,7 +109,7 @@ PoissonField fit_poisson_field(const std::vector<SurfacePoint>& points, const Vo
   for (const SurfacePoint& point : points) {
     const Vec3 position = point.position.cast<double>();
     const Vec3 at = grid.to_voxel(position);
-    const float density = value_at(result.density, result.density.grid.to_voxel(position));
+    const float density = imaging::value_at(result.density, result.density.grid.to_voxel(position));
     const float area = std::min(kLargestArea, 1.0F / std::max(density, 1e-6F));
     const float scale = area / static_cast<float>(h * h);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -138,7 +140,8 @@ PoissonField fit_poisson_field(const std::vector<SurfacePoint>& points, const Vo
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
         constexpr float kOutside = 1e-3F, kFirm = 10.0F;
-        if (value_at(bound, bound.grid.to_voxel(grid.to_patient(Vec3(i, j, k)))) >= kOutside) {
+        if (imaging::value_at(bound, bound.grid.to_voxel(grid.to_patient(Vec3(i, j, k)))) >=
+            kOutside) {
           continue;
         }
         const std::size_t c = grid.at(i, j, k);
@@ -155,4 +158,4 @@ PoissonField fit_poisson_field(const std::vector<SurfacePoint>& points, const Vo
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "hands/capture/photo/surface/depth_fusion.h"
-#include "palmar/core/progress.h"
 #include "hands/imaging/volume.h"
+#include "palmar/core/progress.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 struct PoissonOptions {
   double spacing = 0.8;     ///< mm between grid points
@@ -20,8 +20,8 @@ struct PoissonOptions {
 
 /// The field whose zero is the surface, and how densely points lie on it.
 struct PoissonField {
-  Volume field;    ///< about 1/2 inside, -1/2 outside
-  Volume density;  ///< points per mm^2 of surface where it passes
+  imaging::Volume field;    ///< about 1/2 inside, -1/2 outside
+  imaging::Volume density;  ///< points per mm^2 of surface where it passes
   int iterations = 0;
   double residual = 0.0;  ///< relative
   bool has_converged = false;
@@ -41,7 +41,8 @@ struct PoissonField {
 /// the same. Throws InputError without points.
 /// Source: Kazhdan, Hoppe 2013, "Screened Poisson surface reconstruction", the system on a regular
 /// grid instead of an octree; targets by distance as in Calakli, Taubin 2011.
-PoissonField fit_poisson_field(const std::vector<SurfacePoint>& points, const Volume& bound,
-                               const PoissonOptions& options = {}, const Progress& progress = {});
+PoissonField fit_poisson_field(const std::vector<SurfacePoint>& points,
+                               const imaging::Volume& bound, const PoissonOptions& options = {},
+                               const Progress& progress = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "hands/imaging/iso_surface.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
-#include "hands/imaging/iso_surface.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 constexpr double kRadius = 15.0;  // mm
@@ -34,8 +34,8 @@ std::vector<SurfacePoint> sphere_points(int count, const Keeps& keeps) {
 }
 
 /// A bound that holds everything.
-Volume wide_bound() {
-  Volume bound;
+imaging::Volume wide_bound() {
+  imaging::Volume bound;
   bound.grid.size = {28, 28, 28};
   bound.grid.spacing = Vec3::Constant(1.5);
   bound.grid.origin = kCentre - Vec3::Constant(20.0);
@@ -43,7 +43,7 @@ Volume wide_bound() {
   return bound;
 }
 
-double largest_error(const TriangleMesh& mesh) {
+double largest_error(const geometry::TriangleMesh& mesh) {
   double largest = 0.0;
   for (const Vec3& vertex : mesh.vertices) {
     largest = std::max(largest, std::abs((vertex - kCentre).norm() - kRadius));
@@ -55,14 +55,14 @@ TEST(PoissonField, ASphereComesBackAsOne) {
   const PoissonField field =
       fit_poisson_field(sphere_points(20000, [](const Vec3&) { return true; }), wide_bound());
   ASSERT_TRUE(field.has_converged);
-  const TriangleMesh mesh = iso_surface(field.field, 0.0);
-  const TopologyReport report = examine_topology(mesh);
+  const geometry::TriangleMesh mesh = imaging::iso_surface(field.field, 0.0);
+  const geometry::TopologyReport report = geometry::examine_topology(mesh);
   EXPECT_EQ(report.euler_number, 2);
   EXPECT_TRUE(report.is_closed);
   EXPECT_LT(largest_error(mesh), 0.1);  // mm; an eighth of a cell
   // 20000 points on 4 pi 15^2 mm^2.
   const double density =
-      value_at(field.density, field.density.grid.to_voxel(kCentre + Vec3(0, kRadius, 0)));
+      imaging::value_at(field.density, field.density.grid.to_voxel(kCentre + Vec3(0, kRadius, 0)));
   EXPECT_NEAR(density / (20000.0 / (4.0 * std::numbers::pi * kRadius * kRadius)), 1.0, 0.4);
 }
 
@@ -70,13 +70,13 @@ TEST(PoissonField, AGapIsClosedSmoothly) {
   // Without the cap of 25 degrees about +z; its flat chord would lie 1.4 mm below the sphere.
   const PoissonField field = fit_poisson_field(
       sphere_points(20000, [](const Vec3& n) { return n.z() < std::cos(0.436); }), wide_bound());
-  const TriangleMesh mesh = iso_surface(field.field, 0.0);
-  EXPECT_EQ(examine_topology(mesh).euler_number, 2);
+  const geometry::TriangleMesh mesh = imaging::iso_surface(field.field, 0.0);
+  EXPECT_EQ(geometry::examine_topology(mesh).euler_number, 2);
   EXPECT_LT(largest_error(mesh), 1.4);
 }
 
 TEST(PoissonField, NothingLiesBeyondTheBound) {
-  Volume bound = wide_bound();
+  imaging::Volume bound = wide_bound();
   for (int k = 0; k < bound.grid.size[2]; ++k) {
     for (int j = 0; j < bound.grid.size[1]; ++j) {
       for (int i = 0; i < bound.grid.size[0]; ++i) {
@@ -88,7 +88,7 @@ TEST(PoissonField, NothingLiesBeyondTheBound) {
   }
   const PoissonField field =
       fit_poisson_field(sphere_points(20000, [](const Vec3&) { return true; }), bound);
-  for (const Vec3& vertex : iso_surface(field.field, 0.0).vertices) {
+  for (const Vec3& vertex : imaging::iso_surface(field.field, 0.0).vertices) {
     EXPECT_LT(vertex.x(), kCentre.x() + 5.0 + 2.5);  // mm; a voxel of the bound and a cell
   }
 }
@@ -98,4 +98,4 @@ TEST(PoissonField, RefusesNothing) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,9 +9,10 @@
 #include "hands/capture/picture_vectors.h"
 #include "hands/capture/sheet/line_fit.h"
 
-namespace palmar {
+namespace palmar::capture {
 
-VoxelMask silhouette(const TriangleMesh& body, const Vec3& eye, const SheetGrid& grid) {
+imaging::VoxelMask silhouette(const geometry::TriangleMesh& body, const Vec3& eye,
+                              const SheetGrid& grid) {
   std::vector<Vec2> place(body.vertices.size());
   std::vector<char> is_below(body.vertices.size(), 0);
   for (std::size_t v = 0; v < place.size(); ++v) {
@@ -21,7 +22,7 @@ VoxelMask silhouette(const TriangleMesh& body, const Vec3& eye, const SheetGrid&
     const Vec2 foot = eye.head<2>();
     place[v] = grid.place(foot + (p.head<2>() - foot) * (eye.z() / (eye.z() - p.z())));
   }
-  VoxelMask mask(grid.count(), 0);
+  imaging::VoxelMask mask(grid.count(), 0);
   for (const Triangle& triangle : body.triangles) {
     std::array<Vec2, 3> c;
     bool is_seen = true;
@@ -50,4 +51,4 @@ VoxelMask silhouette(const TriangleMesh& body, const Vec3& eye, const SheetGrid&
   return mask;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

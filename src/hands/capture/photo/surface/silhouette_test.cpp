@@ -10,7 +10,7 @@
 
 #include "palmar/geometry/mesh/primitive_meshes.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 SheetGrid square_grid(double half, double cell) {
@@ -24,11 +24,11 @@ SheetGrid square_grid(double half, double cell) {
 TEST(Silhouette, OfABallIsTheEllipseThatTheConeRoundItCuts) {
   // From straight above at height h the cone touches a ball of radius r with its centre at height z
   // under the angle asin(r / (h - z)): on the sheet a circle of radius h tan of it.
-  TriangleMesh ball = make_icosphere(20.0, 5);
+  geometry::TriangleMesh ball = geometry::make_icosphere(20.0, 5);
   for (Vec3& v : ball.vertices) v += Vec3(3.0, -4.0, 30.0);
   const Vec3 eye(3.0, -4.0, 400.0);
   const SheetGrid grid = square_grid(40.0, 0.25);
-  const VoxelMask mask = silhouette(ball, eye, grid);
+  const imaging::VoxelMask mask = silhouette(ball, eye, grid);
   const double radius = 400.0 * std::tan(std::asin(20.0 / 370.0));
   const double area = 0.25 * 0.25 * std::accumulate(mask.begin(), mask.end(), 0.0);
   EXPECT_NEAR(area, std::numbers::pi * radius * radius, 4.0);  // mm2; facets and cells
@@ -45,10 +45,10 @@ TEST(Silhouette, OfABallIsTheEllipseThatTheConeRoundItCuts) {
 
 TEST(Silhouette, HeightMovesItAwayFromTheCamerasFoot) {
   // A small plate at height 100 under a camera at 400 right above the origin: from x = 30 to 40.
-  const TriangleMesh plate{{{30, -5, 100}, {33, -5, 100}, {33, 5, 100}, {30, 5, 100}},
-                           {{0, 1, 2}, {0, 2, 3}}};
+  const geometry::TriangleMesh plate{{{30, -5, 100}, {33, -5, 100}, {33, 5, 100}, {30, 5, 100}},
+                                     {{0, 1, 2}, {0, 2, 3}}};
   const SheetGrid grid = square_grid(50.0, 0.5);
-  const VoxelMask mask = silhouette(plate, {0, 0, 400}, grid);
+  const imaging::VoxelMask mask = silhouette(plate, {0, 0, 400}, grid);
   const auto count = std::accumulate(mask.begin(), mask.end(), 0.0);
   EXPECT_NEAR(0.25 * count, 4.0 * (40.0 / 3.0), 2.0);  // 40/3 times larger each way: 4 x 13.3 mm
   const Eigen::Vector2d at = grid.place({42.0, 0.0});
@@ -56,4 +56,4 @@ TEST(Silhouette, HeightMovesItAwayFromTheCamerasFoot) {
 }
 
 }  // namespace
-}  // namespace palmar
+}  // namespace palmar::capture

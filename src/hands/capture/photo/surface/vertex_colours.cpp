@@ -10,7 +10,7 @@
 #include "palmar/geometry/distance/ray_query.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// A photograph that sees a vertex, and how well the vertex faces it.
@@ -22,10 +22,10 @@ struct Sighting {
 
 class Sightings {
  public:
-  Sightings(const TriangleMesh& mesh, const std::vector<Photograph>& photographs,
+  Sightings(const geometry::TriangleMesh& mesh, const std::vector<Photograph>& photographs,
             const std::vector<PhotoOutline>& outlines, double least)
       : mesh_(mesh), photographs_(photographs), outlines_(outlines), least_(least), query_(mesh) {
-    normals_ = vertex_normals(mesh);
+    normals_ = geometry::vertex_normals(mesh);
     for (const Photograph& photograph : photographs) {
       centres_.push_back(photograph.camera.centre());
     }
@@ -59,11 +59,11 @@ class Sightings {
   }
 
  private:
-  const TriangleMesh& mesh_;
+  const geometry::TriangleMesh& mesh_;
   const std::vector<Photograph>& photographs_;
   const std::vector<PhotoOutline>& outlines_;
   double least_;
-  RayQuery query_;
+  geometry::RayQuery query_;
   std::vector<Vec3> normals_;
   std::vector<Vec3> centres_;
 };
@@ -134,7 +134,7 @@ Eigen::Vector3f spot_light(const Photograph& photograph, const Sighting& sightin
 }
 
 /// What photographs say of some thousand spots that face them.
-SkinLight light_on(const Sightings& sightings, const TriangleMesh& mesh,
+SkinLight light_on(const Sightings& sightings, const geometry::TriangleMesh& mesh,
                    const std::vector<Photograph>& photographs,
                    const std::vector<PhotoOutline>& outlines, const std::vector<double>& gain) {
   constexpr std::size_t kSpots = 4000;
@@ -175,7 +175,8 @@ bool PhotoOutline::holds(const Vec3& world) const {
   return inside[y * camera.lens.width + x] != 0;
 }
 
-VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photograph>& photographs,
+VertexColours colour_vertices(const geometry::TriangleMesh& mesh,
+                              const std::vector<Photograph>& photographs,
                               const std::vector<PhotoOutline>& outlines,
                               const VertexColourOptions& options) {
   options.check();
@@ -211,4 +212,4 @@ VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photog
   return result;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

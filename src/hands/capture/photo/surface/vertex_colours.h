@@ -8,7 +8,7 @@
 #include "hands/capture/photo/photo_view.h"
 #include "hands/capture/photo/skin_light.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 struct VertexColourOptions {
   int best = 3;               ///< photographs whose mean a colour is
@@ -37,8 +37,9 @@ struct PhotoOutline {
 /// any: where the surface lies a little outside, photographs show what is behind the hand).
 /// Photographs of different exposure are brought together first: gains that make what they say
 /// about the same vertices equal, their geometric mean 1.
-VertexColours colour_vertices(const TriangleMesh& mesh, const std::vector<Photograph>& photographs,
+VertexColours colour_vertices(const geometry::TriangleMesh& mesh,
+                              const std::vector<Photograph>& photographs,
                               const std::vector<PhotoOutline>& outlines = {},
                               const VertexColourOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture

@@ -9,18 +9,18 @@
 #include <cmath>
 
 #include "hands/capture/photo/pinhole.h"
-#include "palmar/core/error.h"
-#include "palmar/core/parallel.h"
 #include "hands/imaging/connected_parts.h"
 #include "hands/imaging/gaussian_filter.h"
 #include "hands/imaging/iso_surface.h"
+#include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
 
-namespace palmar {
+namespace palmar::capture {
 namespace {
 
 /// The mask as an image of the part of the grid that it fills, with a border of some voxels where
 /// the grid has them.
-Volume cropped(const VolumeGrid& grid, const VoxelMask& mask) {
+imaging::Volume cropped(const imaging::VolumeGrid& grid, const imaging::VoxelMask& mask) {
   constexpr int kBorder = 6;
   std::array<int, 3> low = grid.size, high = {-1, -1, -1};
   for (int k = 0; k < grid.size[2]; ++k) {
@@ -35,7 +35,7 @@ Volume cropped(const VolumeGrid& grid, const VoxelMask& mask) {
       }
     }
   }
-  Volume image;
+  imaging::Volume image;
   image.grid = grid;
   for (std::size_t a = 0; a < 3; ++a) {
     low[a] = std::max(0, low[a] - kBorder);
@@ -72,7 +72,7 @@ VisualHull make_visual_hull(const std::vector<PhotoView>& views,
                             const VisualHullOptions& options) {
   options.check();
   if (views.size() != masks.size()) throw UsageError("one mask per view is required");
-  VolumeGrid grid;
+  imaging::VolumeGrid grid;
   grid.spacing = Vec3::Constant(options.spacing);
   grid.origin = box.min();
   for (int k = 0; k < 3; ++k) {
@@ -82,7 +82,7 @@ VisualHull make_visual_hull(const std::vector<PhotoView>& views,
   for (const PhotoView& view : views) cameras.emplace_back(view.camera);
   const int least =
       std::max(2, static_cast<int>(options.least_views * static_cast<double>(views.size())));
-  VoxelMask inside(grid.count(), 0);
+  imaging::VoxelMask inside(grid.count(), 0);
   parallel_for(grid.size[2], [&](int k) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int i = 0; i < grid.size[0]; ++i) {
@@ -101,7 +101,7 @@ VisualHull make_visual_hull(const std::vector<PhotoView>& views,
       }
     }
   });
-  const ConnectedParts parts = connected_parts(grid, inside);
+  const imaging::ConnectedParts parts = imaging::connected_parts(grid, inside);
   constexpr double kLeastVolume = 10000.0;  // mm^3: a child's hand has ten times as much
   const double voxel = std::pow(options.spacing, 3);
   const double volume =
@@ -113,12 +113,12 @@ VisualHull make_visual_hull(const std::vector<PhotoView>& views,
                     "middle of the board, or moved; a plain blue or grey backdrop helps",
                     volume));
   }
-  inside = mask_of(parts, parts.largest());
+  inside = imaging::mask_of(parts, parts.largest());
   VisualHull hull;
   hull.occupancy = cropped(grid, inside);
-  hull.occupancy = gaussian_filtered(hull.occupancy, options.spacing);
-  hull.surface = iso_surface(hull.occupancy, 0.5);
+  hull.occupancy = imaging::gaussian_filtered(hull.occupancy, options.spacing);
+  hull.surface = imaging::iso_surface(hull.occupancy, 0.5);
   return hull;
 }
 
-}  // namespace palmar
+}  // namespace palmar::capture

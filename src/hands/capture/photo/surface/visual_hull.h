@@ -7,7 +7,7 @@
 #include "hands/capture/photo/photo_mask.h"
 #include "hands/imaging/volume.h"
 
-namespace palmar {
+namespace palmar::capture {
 
 struct VisualHullOptions {
   double spacing = 1.5;       ///< mm between voxels
@@ -19,8 +19,8 @@ struct VisualHullOptions {
 /// The largest thing that casts the outlines: it holds the hand, and is a bound for it, not its
 /// shape (a hollow that no outline shows is filled).
 struct VisualHull {
-  Volume occupancy;      ///< 0 to 1, smoothed by a voxel
-  TriangleMesh surface;  ///< where the occupancy is 1/2; closed
+  imaging::Volume occupancy;       ///< 0 to 1, smoothed by a voxel
+  geometry::TriangleMesh surface;  ///< where the occupancy is 1/2; closed
 };
 
 /// Of voxels in the box those that no more than `missing` of the views that see them leave out; the
@@ -31,4 +31,4 @@ VisualHull make_visual_hull(const std::vector<PhotoView>& views,
                             const std::vector<PhotoMask>& masks, const Box3& box,
                             const VisualHullOptions& options = {});
 
-}  // namespace palmar
+}  // namespace palmar::capture
