@@ -3,7 +3,7 @@
 #
 # Libraries for files of images that bring no CMake package that could be used.
 #
-# libexif: linked by its name (`exif`), so that an installed palmar::formats can name it too.
+# libexif: linked by its name (`exif`), so that an installed palmar::images can name it too.
 find_path(PALMAR_EXIF_HEADERS libexif/exif-data.h REQUIRED)
 find_library(PALMAR_EXIF exif REQUIRED)
 

@@ -3,9 +3,9 @@
 #
 # palmar_module(NAME [WITH_JSON] SOURCES ... [PUBLIC ...] [PRIVATE ...] [TESTS ...])
 #
-# One static library palmar_NAME (alias palmar::NAME) per folder of src/palmar and one test program
+# One static library palmar_NAME (alias palmar::NAME) per folder of src/palmar and src/hands and one test program
 # NAME_tests from the *_test.cpp files beside the sources. A module can only link modules that were
-# added before it, so the order of add_subdirectory() in src/palmar/CMakeLists.txt is the layering;
+# added before it, so the order of the modules.txt of both houses is the layering;
 # tests/layers/layers.mjs holds the #include lines to the same order.
 
 # palmar_export(TARGET NAME): installed, for other projects palmar::NAME (cmake/PalmarInstall.cmake).
@@ -160,7 +160,7 @@ function(palmar_module name)
   foreach(dependency IN LISTS ARG_PUBLIC ARG_PRIVATE)
     if(dependency MATCHES "^palmar::" AND NOT TARGET ${dependency})
       message(FATAL_ERROR "Module ${name} links ${dependency}, which stands below it (or does not exist). "
-                          "See the order in src/palmar/CMakeLists.txt.")
+                          "See the order in modules.txt.")
     endif()
   endforeach()
   if(NOT ARG_SOURCES)  # a part that has none yet
@@ -184,7 +184,7 @@ function(palmar_module name)
                                      "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(palmar_${name} PUBLIC $<BUILD_INTERFACE:palmar::compiler> ${ARG_PUBLIC}
                                        PRIVATE ${ARG_PRIVATE})
-  if(NOT name MATCHES "^(cad|board|server)$")  # of the programs palmar-cad, palmar-photo and palmar alone
+  if(NOT name MATCHES "^(cad|board|server)$")  # of the programs palmar-cad, palmar-photo and palmar-serve alone
     palmar_export(palmar_${name} ${name})
   endif()
   if(ARG_WITH_JSON)

@@ -1,7 +1,7 @@
 # Copyright the Palmar authors.
 # SPDX-License-Identifier: Apache-2.0
 #
-# palmar_read_modules(VARIABLE FILE): the names in src/palmar/modules.txt, bottom to top.
+# palmar_read_modules(VARIABLE FILE): the names in FILE, a modules.txt, bottom to top.
 function(palmar_read_modules variable file)
   file(STRINGS ${file} lines REGEX "^[a-z_]+:")
   set(names "")

@@ -32,7 +32,7 @@ const most = Number(option("--subjects", "1000"));
 const chosen = option("--seeds", "").split(",").filter(Boolean).map(Number);
 const folder = join(root, "build", "capture_figures", set);
 /** Of everything that makes and measures: the program and those that it starts. */
-const version = ["palmar", "palmar-capture", "palmar-photo", "palmar-dicom"].map((name) => join(dirname(program), name))
+const version = ["palmar", "palmar-hands", "palmar-photo", "palmar-dicom"].map((name) => join(dirname(program), name))
   .filter(existsSync).reduce((hash, file) => hash.update(readFileSync(file)), createHash("sha256")).digest("hex");
 
 /** Seeds by kind of one set: lines `photos = [1, 2]` under `[development]` or `[final]`. */

@@ -1,7 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// The template hand's grasps come to rest (grasp/balance.h).
+// The template hand's grasps come to rest (grasp/rest/balance.h).
 #include "palmar/grasp/rest/balance.h"
 #include "palmar/grasp/find/find_grasp.h"
 

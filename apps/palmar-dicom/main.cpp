@@ -3,7 +3,7 @@
 //
 // palmar-dicom unpack FOLDER: unpacks compressed DICOM pixels with GDCM as FOLDER/request.json asks
 // and leaves FOLDER/reply.json, or FOLDER/error.json and Palmar's exit code. Started by Palmar
-// (formats/image/dicom_compressed.h), not by people. GDCM sees compressed pixels only, never a
+// (hands/images/dicom_compressed.h), not by people. GDCM sees compressed pixels only, never a
 // whole file: Palmar reads the attributes itself.
 //
 // {transfer_syntax, frames: [{name, bytes, columns, rows, bits_allocated, bits_stored,
@@ -112,7 +112,7 @@ Json unpack(const Json& request, const fs::path& folder, const Progress& progres
 
 int main(int argc, char** argv) {
   if (argc != 3 || std::string_view(argv[1]) != "unpack") {
-    std::fprintf(stderr, "palmar-dicom is started by palmar; see `palmar mri -h`\n");
+    std::fprintf(stderr, "palmar-dicom is started by palmar-hands; see `palmar mri -h`\n");
     return 2;
   }
   gdcm::Trace::SetWarning(false);

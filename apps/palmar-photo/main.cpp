@@ -3,7 +3,7 @@
 //
 // palmar-photo VERB FOLDER: does what FOLDER/request.json asks for with OpenCV and leaves
 // FOLDER/reply.json, or FOLDER/error.json and Palmar's exit code. Started by Palmar
-// (records/capture/photo_worker.h), not by people.
+// (hands/person_records/photo_worker.h), not by people.
 //
 // board: {pattern, pixels_per_square} -> board.bin, {pixels}
 // corners: {pattern, files, threads} -> {offset_px, photographs: [{width, height, sharpness,
@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
   const std::map<std::string, palmar::worker::Verb> verbs = {
       {"board", board}, {"corners", corners}, {"match", match}};
   if (argc != 3 || verbs.count(argv[1]) == 0) {
-    std::fprintf(stderr, "palmar-photo is started by palmar; see `palmar photos -h`\n");
+    std::fprintf(stderr, "palmar-photo is started by palmar-hands; see `palmar photos -h`\n");
     return 2;
   }
   const palmar::worker::Verb& verb = verbs.at(argv[1]);

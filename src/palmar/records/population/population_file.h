@@ -25,7 +25,7 @@ inline constexpr int kPopulationFileVersion = 1;
 ///     age_years = 35.0             # for grip strength
 ///
 ///     [[stratum.driving]]
-///     dimension = "hand_length"    # names of hand/hand_dimension.h
+///     dimension = "hand_length"    # names of hand/dimensions/hand_dimension.h
 ///     mean_mm = 175.0
 ///     sd_mm = 9.0                  # left out: only the mean is known
 ///     evidence = "measured"        # or "scaled": borrowed from other people

@@ -25,7 +25,7 @@ struct CadSource {
 /// As the CAD program is told of it: one JSON object. Throws InputError on what is no CAD file.
 std::string source_text(const CadSource& source);
 
-/// One change of a feature; see cad/feature_edits.h for what it does and feature_choice.h for
+/// One change of a feature; see cad/edits/feature_edits.h for what it does and feature_choice.h for
 /// words.
 struct CadFeature {
   std::string feature;  ///< "fillet", "offset", "taper", "groove"
