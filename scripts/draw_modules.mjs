@@ -3,7 +3,7 @@
 //
 // node scripts/draw_modules.mjs [--check]
 //
-// Reads src/palmar/modules.txt and every #include "palmar/MODULE/..." of production code, and writes
+// Reads modules.txt of both houses (src/palmar, src/hands) and every #include of production code, and writes
 // docs/developing/modules.md and the drawing docs/developing/modules.svg. With --check it writes nothing
 // and ends with 1 unless both show the present modules and arrows; lines of code aren't compared.
 import { existsSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -11,17 +11,17 @@ import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const root = dirname(dirname(fileURLToPath(import.meta.url)));
-const sources = join(root, "src", "palmar");
+const houses = ["palmar", "hands"];  // each may use those before it
 const page_path = join(root, "docs", "developing", "modules.md");
 const drawing_path = join(root, "docs", "developing", "modules.svg");
 
 // ---- What there is ------------------------------------------------------------------------------
 
-/** [{name, purpose}] of modules.txt, bottom to top. */
+/** [{house, name, purpose}] of the houses' modules.txt, bottom to top. */
 function read_modules() {
-  return readFileSync(join(sources, "modules.txt"), "utf8").split("\n")
+  return houses.flatMap((house) => readFileSync(join(root, "src", house, "modules.txt"), "utf8").split("\n")
     .map((line) => /^([a-z_]+):\s*(.*)$/.exec(line)).filter(Boolean)
-    .map(([, name, purpose]) => ({ name, purpose }));
+    .map(([, name, purpose]) => ({ house, name, purpose })));
 }
 
 function code_files(folder) {
@@ -40,13 +40,13 @@ function read_code(modules) {
   const read = (folder, module) => {
     for (const path of code_files(folder)) {
       const text = readFileSync(path, "utf8");
-      const includes = [...text.matchAll(/^#include "(palmar\/[^"]+)"/gm)].map((match) => match[1]);
+      const includes = [...text.matchAll(/^#include "([^"]+)"/gm)].map((match) => match[1]);
       files.set(relative(join(root, "src"), path).replaceAll("\\", "/"),
                 { module, lines: text.split("\n").length - 1, includes,
                   is_test: /^#include <(gtest|gmock)\//m.test(text) });
     }
   };
-  for (const { name } of modules) read(join(sources, name), name);
+  for (const { house, name } of modules) read(join(root, "src", house, name), name);
   for (const program of programs()) read(program === "python" ? join(root, program) : join(root, "apps", program), program);
   for (let has_changed = true; has_changed;) {
     has_changed = false;
@@ -65,22 +65,26 @@ function read_code(modules) {
   return files;
 }
 
-/** What stands on the modules: the programs, and the Python package. */
+/** What stands on the modules: what command lines share, the programs, and the Python package. */
 function programs() {
   return readdirSync(join(root, "apps"), { withFileTypes: true })
-    .filter((entry) => entry.isDirectory() && existsSync(join(root, "apps", entry.name, "main.cpp")))
+    .filter((entry) => entry.isDirectory() && existsSync(join(root, "apps", entry.name, "CMakeLists.txt")))
     .map((entry) => entry.name).sort().concat("python");
 }
+const shared = "command_line";  // the part of apps that programs include
 
-/** uses: name -> modules that its production code includes, in the order of modules.txt. */
+/** uses: name -> modules (and the shared part of apps) that its production code includes, in their order. */
 function arrows(modules, files) {
-  const order = modules.map(({ name }) => name);
-  const uses = new Map([...order, ...programs()].map((name) => [name, new Set()]));
+  const order = [...modules.map(({ name }) => name), shared];
+  const uses = new Map([...modules.map(({ name }) => name), ...programs()].map((name) => [name, new Set()]));
+  const place = new Map(modules.map(({ house, name }) => [`${house}/${name}`, name]));
+  const is_shared = (include) => !include.startsWith("..") && existsSync(join(root, "apps", shared, include));
   for (const file of files.values()) {
     if (file.is_test) continue;
     for (const include of file.includes) {
-      const other = include.split("/")[1];
-      if (other !== file.module && order.includes(other)) uses.get(file.module).add(other);
+      const other = place.get(include.split("/").slice(0, 2).join("/")) ??
+        (programs().includes(file.module) && is_shared(include) ? shared : undefined);
+      if (other !== undefined && other !== file.module) uses.get(file.module).add(other);
     }
   }
   return new Map([...uses].map(([name, set]) => [name, order.filter((other) => set.has(other))]));
@@ -111,7 +115,7 @@ function lay_out(uses) {
   };
   for (const name of uses.keys()) layer_of(name);
   const program_layer = Math.max(...layer.values());
-  for (const program of programs()) layer.set(program, program_layer);
+  for (const program of programs()) if (program !== shared) layer.set(program, program_layer);
 
   const rows = Array.from({ length: program_layer + 1 }, () => []);
   const nodes = new Map();
@@ -229,7 +233,8 @@ function draw(modules, uses) {
   const width = Math.round(right - left);
   const height = rows.length * (box.height + gap.y) - gap.y + 2 * margin;
   const purpose = new Map(modules.map(({ name, purpose: text }) => [name, text]));
-  const is_program = (name) => !purpose.has(name);
+  const kind = new Map(modules.map(({ house, name }) => [name, house === "hands" ? "hands" : "module"]));
+  const kind_of = (name) => kind.get(name) ?? (name === shared ? "shared" : "program");
 
   // Where the arrows leave and meet a box: side by side, in the order of where they come from.
   const port = (name, side, other) => {
@@ -255,9 +260,16 @@ function draw(modules, uses) {
   const escape = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;");
   const boxes = [...uses.keys()].map((name) => {
     const x = x_of(name) - box.width / 2;
-    return `<g class="${is_program(name) ? "program" : "module"}"><title>${escape(purpose.get(name) ?? "program")}</title>` +
+    return `<g class="${kind_of(name)}"><title>${escape(purpose.get(name) ?? "program")}</title>` +
       `<rect x="${x}" y="${y_of(name)}" width="${box.width}" height="${box.height}" rx="7"/>` +
       `<text x="${x_of(name)}" y="${y_of(name) + box.height / 2 + 5}">${escape(name)}</text></g>`;
+  });
+  // What the colours mean, at the bottom on the left: the lowest rows have one or two boxes in the middle.
+  const colours = [["program", "programs"], ["shared", "shared by programs"], ["hands", "src/hands"], ["module", "src/palmar"]];
+  const legend = colours.map(([name, text], i) => {
+    const y = height - margin - (colours.length - i) * 26;
+    return `<g class="${name}"><rect x="${margin}" y="${y}" width="30" height="16" rx="4"/>` +
+      `<text class="legend" x="${margin + 40}" y="${y + 13}">${text}</text></g>`;
   });
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" width="${width}" height="${height}" role="img" aria-labelledby="title">
 <title id="title">Modules of Palmar: each uses what its arrows point to, and what that uses</title>
@@ -266,14 +278,18 @@ function draw(modules, uses) {
   .ground { fill: #ffffff }
   .arrows path { fill: none; stroke: #8b98a8; stroke-width: 1.5 }
   .module rect { fill: #eaf1f8; stroke: #4a6f94; stroke-width: 1.3 }
+  .hands rect { fill: #e9f5ec; stroke: #4c8a5d; stroke-width: 1.3 }
+  .shared rect { fill: #ffffff; stroke: #b07a2a; stroke-width: 1.3; stroke-dasharray: 5 3 }
   .program rect { fill: #fdf3e4; stroke: #b07a2a; stroke-width: 1.3 }
   text { font: 600 15px system-ui, "Segoe UI", "DejaVu Sans", sans-serif; fill: #1f2d3d; text-anchor: middle }
+  text.legend { text-anchor: start; font-weight: 400 }
 </style>
 <rect class="ground" width="${width}" height="${height}" rx="10"/>
 <g class="arrows">
 ${[...lines].join("\n")}
 </g>
 ${boxes.join("\n")}
+${legend.join("\n")}
 </svg>
 `;
 }
@@ -287,37 +303,62 @@ function page(modules, files, uses) {
   const row = (name, purpose) => `| \`${name}\` | ${purpose} | ${uses.get(name).join(", ") || "–"} | ` +
     `${lines(name, false)} | ${lines(name, true)} |`;
   const names = [...modules.map(({ name }) => name), ...programs()];
-  const sum = (is_test) => names.reduce((total, name) => total + lines(name, is_test), 0);
+  const sum = (these, is_test) => these.reduce((total, name) => total + lines(name, is_test), 0);
+  const of_house = (house) => modules.filter((module) => module.house === house);
+  const table = (rows, title, these) => `| module | what it is | uses | lines | of tests |
+|---|---|---|---:|---:|
+${rows.join("\n")}
+| | ${title} | | ${sum(these, false)} | ${sum(these, true)} |`;
+  const house_table = (house, title) =>
+    table(of_house(house).map(({ name, purpose }) => row(name, purpose)), title, of_house(house).map(({ name }) => name));
   const program_purpose = {
-    palmar: "program: the command line, one folder per noun",
-    "palmar-cad": "program: reads and writes STEP; `palmar` starts it as a child",
-    "palmar-dicom": "program: unpacks compressed DICOM pixels; `palmar` starts it as a child",
-    "palmar-photo": "program: finds the board in photographs; `palmar` starts it as a child",
+    [shared]: "what the programs' command lines share: help, messages, progress, options of several commands",
+    palmar: "program: assess, contact, doctor, effort, grasp, hand, population, product, study",
+    "palmar-hands": "program: hands from MR images, scans and photographs; mri, phantom, photos",
+    "palmar-redesign": "program: redesign, validate",
+    "palmar-serve": "program: serve, the workbench",
+    "palmar-cad": "child: reads and writes STEP; `palmar` and `palmar-redesign` start it",
+    "palmar-dicom": "child: unpacks compressed DICOM pixels; `palmar-hands` starts it",
+    "palmar-photo": "child: finds the board in photographs; `palmar-hands` starts it",
     python: "Python package `palmar`: the extension over the tasks (its Python isn't counted)",
   };
-  return `<!-- Made by: node scripts/draw_modules.mjs. Edit the script or src/palmar/modules.txt, not this page. -->
+  return `<!-- Made by: node scripts/draw_modules.mjs. Edit the script or a modules.txt, not this page. -->
 # Modules
 
-The folders of \`src/palmar\` are the modules. Their order stands in \`src/palmar/modules.txt\`, and CMake, a test and
-this page read it there. A module includes and links only modules that come before it: \`cmake/PalmarModule.cmake\`
-refuses a link against the order, and the test \`layers\` refuses such an \`#include\` and folders
-inside a module that include each other in a circle. The test \`types\` refuses a type that is defined twice at one
+The sources are two houses. \`src/palmar\` is Palmar: hands, products, contact, studies, redesigns. \`src/hands\` makes hands
+from measurements of people. Palmar uses nothing of it; a hand and what is known of a person go from one to the other in
+files alone (\`*.hand.glb\`, \`person.toml\`).
+
+The folders of a house are its modules. Their order stands in the house's \`modules.txt\`, and CMake, a test and this
+page read it there. A module includes and links only modules that come before it, and those of \`src/hands\` any
+module of Palmar: \`cmake/PalmarModule.cmake\` refuses a link against the order, and the test \`layers\` refuses such an
+\`#include\` and folders inside a module that include each other in a circle. Each module has a namespace of its own
+(\`palmar::contact\`); \`core\` alone stands in \`palmar\`. The test \`types\` refuses a type that is defined twice at one
 namespace.
 
-![Modules of Palmar, bottom to top](modules.svg)
+![Modules of both houses and the programs, bottom to top](modules.svg)
 
-Each module uses the modules that its arrows point to. An arrow that follows from others is left out of the drawing; the
-table has all of them. Only production code counts.
+Each module uses what its arrows point to. An arrow that follows from others is left out of the drawing; the tables have
+all of them. Only production code counts.
 
-| module | what it is | uses | lines | of tests |
-|---|---|---|---:|---:|
-${modules.map(({ name, purpose }) => row(name, purpose)).join("\n")}
-${programs().map((name) => row(name, program_purpose[name] ?? "program")).join("\n")}
-| | together | | ${sum(false)} | ${sum(true)} |
+## Palmar (\`src/palmar\`)
 
-\`X.h\`, \`X.cpp\` and \`X_test.cpp\` are side by side. Users' files are read and written in \`formats\` and \`records\`, CAD
-files by the kernel in \`cad\`. Only the programs in
-\`apps\` read arguments, print or exit; \`python\` is the same tasks for Python. Tests of whole programs are in \`tests/\`, benchmarks in \`benchmarks/\`.
+${house_table("palmar", "together")}
+
+## From people to hands (\`src/hands\`)
+
+${house_table("hands", "together")}
+
+## Programs (\`apps\`, \`python\`)
+
+${table(programs().map((name) => row(name, program_purpose[name] ?? "program")), "together", programs())}
+
+All of it has ${sum(names, false)} lines, and ${sum(names, true)} of tests beside the sources.
+
+\`X.h\`, \`X.cpp\` and \`X_test.cpp\` are side by side. Users' files are read and written in \`formats\` and
+\`records\`, images and files of persons in \`images\` and \`person_records\`, CAD files by the kernel in \`cad\`. Only the
+programs in \`apps\` read arguments, print or exit; \`python\` is the same tasks for Python. Tests of whole programs are in
+\`tests/\` and \`src/hands/tests/\`, benchmarks in \`benchmarks/\`.
 
 ## The values that flow
 
@@ -339,7 +380,7 @@ const new_page = page(modules, files, uses);
 const new_drawing = draw(modules, uses);
 
 const is_check = process.argv.includes("--check");
-const without_lines = (text) => text.replace(/ \d+ \| \d+ \|$/gm, "");
+const without_lines = (text) => text.replace(/ \d+ \| \d+ \|$/gm, "").replace(/^All of it has .*$/m, "");
 const read = (path) => (existsSync(path) ? readFileSync(path, "utf8") : "");
 if (is_check) {
   const stale = [];
