@@ -20,14 +20,16 @@ endfunction()
 # stand in an entry NAME_thorough of their own with the label `release`: ./check --full alone runs those.
 function(palmar_add_entry program name filter sources labels)
   add_test(NAME ${name} COMMAND ${program} --gtest_filter=${filter}-*Thorough*)
-  set_tests_properties(${name} PROPERTIES TIMEOUT 1500 LABELS "${labels}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT 1500 LABELS "${labels}"
+                       ENVIRONMENT "GTEST_OUTPUT=xml:${CMAKE_BINARY_DIR}/test_results/${name}.xml")
   foreach(source IN LISTS sources)
     file(STRINGS ${source} thorough REGEX "^TEST.*, Thorough" LIMIT_COUNT 1)
     if(thorough)
       string(REPLACE ".*" ".Thorough*" patterns "${filter}")
       string(REGEX REPLACE "^\\*$" "*.Thorough*" patterns "${patterns}")
       add_test(NAME ${name}_thorough COMMAND ${program} --gtest_filter=${patterns})
-      set_tests_properties(${name}_thorough PROPERTIES TIMEOUT 1500 LABELS release)
+      set_tests_properties(${name}_thorough PROPERTIES TIMEOUT 1500 LABELS release
+                           ENVIRONMENT "GTEST_OUTPUT=xml:${CMAKE_BINARY_DIR}/test_results/${name}_thorough.xml")
       break()
     endif()
   endforeach()
