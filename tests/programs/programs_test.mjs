@@ -10,7 +10,6 @@ import fs from 'node:fs';
 import path from 'node:path';
 
 const hands = ['imaging', 'images', 'capture', 'phantom', 'person_records', 'person_report', 'person_workflow', 'board'];
-const heavy = ['libTK', 'libopencv', 'libgdcm', 'libexif', 'libduktape', 'libembree'];
 /// Modules and libraries (how their names begin) that a program must not have, and some that it must.
 const rules = {
   'palmar': { not: [...hands, 'redesign', 'validation', 'server', 'cad'], has: ['contact', 'grasp', 'study', 'workflow'],
@@ -21,7 +20,7 @@ const rules = {
                     libraries: ['libTK', 'libopencv', 'libgdcm'] },
   'palmar-cad': { not: [...hands, 'server', 'workflow', 'report'], has: ['cad'], libraries: ['libopencv', 'libgdcm', 'libexif', 'libduktape'] },
   'palmar-photo': { not: ['phantom', 'server', 'workflow', 'report', 'cad'], has: ['board'], libraries: ['libTK', 'libgdcm', 'libduktape'] },
-  'palmar-dicom': { not: ['capture', 'phantom', 'server', 'workflow', 'report', 'cad', 'study'], has: ['images'], libraries: ['libTK', 'libopencv', ...heavy.slice(4)] },
+  'palmar-dicom': { not: ['capture', 'phantom', 'server', 'workflow', 'report', 'cad', 'study'], has: ['images'], libraries: ['libTK', 'libopencv', 'libduktape'] },
 };
 
 const bin = process.argv[2];
@@ -38,7 +37,7 @@ for (const [program, { not, has, libraries }] of Object.entries(rules)) {
     continue;
   }
   const modules = new Set();
-  for (const [, name] of output('nm', '-C', '--defined-only', file).matchAll(/ [TtWw] palmar::(\w+)::/g)) modules.add(name);
+  for (const [, name] of output('nm', '-C', '--defined-only', file).matchAll(/ [TtWw] palmar::([a-z_]+)::/g)) modules.add(name);
   const linked = [...output('readelf', '-d', file).matchAll(/NEEDED.*\[(.*?)\]/g)].map(([, name]) => name);
   const found = [...not.filter((name) => modules.has(name)).map((name) => `has code of the module ${name}`),
     ...has.filter((name) => !modules.has(name)).map((name) => `has no code of the module ${name}`),
