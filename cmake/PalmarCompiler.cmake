@@ -3,21 +3,6 @@
 #
 # Compiler settings shared by every target: the interface library palmar::compiler.
 
-find_program(PALMAR_CCACHE ccache)
-if(PALMAR_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Relative paths let clones in other folders share the cache.
-  # What is read into a source is taken from the compiler's own list, without preprocessing it first.
-  # How often the compiler collects garbage (below) doesn't change what it makes.
-  set(palmar_ccache CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_DEPEND=1
-                    CCACHE_IGNOREOPTIONS=--param=ggc-min-heapsize=*)
-  if(PALMAR_PRECOMPILE)
-    # ccache can't see into a precompiled header; its manual asks for this.
-    list(APPEND palmar_ccache
-         CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime)
-  endif()
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env ${palmar_ccache} ${PALMAR_CCACHE})
-endif()
-
 # CMake's own default for Release is -O3, which takes a seventh more time to build
 # (docs/developing/build.md).
 if(CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")

@@ -11,7 +11,7 @@ include(CMakePackageConfigHelpers)
 # All of it: the tasks of the layer workflow and what they stand on.
 add_library(palmar_umbrella INTERFACE)
 add_library(palmar::palmar ALIAS palmar_umbrella)
-target_link_libraries(palmar_umbrella INTERFACE palmar::workflow palmar::workflow_redesign palmar::person_workflow)
+target_link_libraries(palmar_umbrella INTERFACE palmar::workflow palmar::workflow_redesign)
 palmar_export(palmar_umbrella palmar)
 
 install(CODE "

@@ -8,8 +8,29 @@
 # added before it, so the order of the modules.txt of both houses is the layering;
 # tests/layers/layers.mjs holds the #include lines to the same order.
 
+# The house next door, src/hands with its programs, is built and tested apart: `all` builds both houses, the target
+# `palmar_house` all but it. palmar_in_house(TARGET ...) adds to that target what isn't of src/hands; its ctest entries
+# have the label `hands`.
+add_custom_target(palmar_house)
+function(palmar_is_hands variable)
+  set(${variable} OFF PARENT_SCOPE)
+  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/src/hands|/apps/palmar-(hands|photo|dicom)")
+    set(${variable} ON PARENT_SCOPE)
+  endif()
+endfunction()
+function(palmar_in_house)
+  palmar_is_hands(hands)
+  if(NOT hands)
+    add_dependencies(palmar_house ${ARGN})
+  endif()
+endfunction()
+
 # palmar_export(TARGET NAME): installed, for other projects palmar::NAME (cmake/PalmarInstall.cmake).
 function(palmar_export target name)
+  palmar_is_hands(hands)
+  if(hands)
+    return()
+  endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS ${target} EXPORT palmar ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/palmar
           COMPONENT development)
@@ -19,21 +40,28 @@ endfunction()
 # assessment) is prepared once. `PROGRAM --gtest_filter=...` runs single tests. Tests that begin with `Thorough`
 # stand in an entry NAME_thorough of their own with the label `release`: ./check --full alone runs those.
 function(palmar_add_entry program name filter sources labels)
+  palmar_is_hands(hands)
+  if(hands)
+    list(APPEND labels hands)
+  endif()
   add_test(NAME ${name} COMMAND ${program} --gtest_filter=${filter}-*Thorough*)
-  set_tests_properties(${name} PROPERTIES TIMEOUT 1500 LABELS "${labels}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT 1500 LABELS "${labels}"
+                       ENVIRONMENT "GTEST_OUTPUT=xml:${CMAKE_BINARY_DIR}/test_results/${name}.xml")
   foreach(source IN LISTS sources)
     file(STRINGS ${source} thorough REGEX "^TEST.*, Thorough" LIMIT_COUNT 1)
     if(thorough)
       string(REPLACE ".*" ".Thorough*" patterns "${filter}")
       string(REGEX REPLACE "^\\*$" "*.Thorough*" patterns "${patterns}")
       add_test(NAME ${name}_thorough COMMAND ${program} --gtest_filter=${patterns})
-      set_tests_properties(${name}_thorough PROPERTIES TIMEOUT 1500 LABELS release)
+      set_tests_properties(${name}_thorough PROPERTIES TIMEOUT 1500 LABELS "release;${labels}"
+                           ENVIRONMENT "GTEST_OUTPUT=xml:${CMAKE_BINARY_DIR}/test_results/${name}_thorough.xml")
       break()
     endif()
   endforeach()
 endfunction()
 
 function(palmar_test_target program)
+  palmar_in_house(${program})
   palmar_use_headers(${program} palmar_test_headers)
   target_compile_options(${program} PRIVATE ${palmar_once})
   target_include_directories(${program} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
@@ -53,6 +81,7 @@ function(palmar_test_program name)
     target_compile_definitions(${name} PRIVATE PALMAR_CAD_PROGRAM="$<TARGET_FILE:palmar-cad>")
   endif()
   palmar_test_target(${name})
+  palmar_batches(${name} 5)
 endfunction()
 
 function(palmar_test program name)
@@ -201,7 +230,7 @@ function(palmar_module name)
     add_executable(${name}_tests ${ARG_TESTS})
     target_link_libraries(${name}_tests PRIVATE palmar_${name} ${ARG_TEST_LINKS} GTest::gmock GTest::gtest_main)
     palmar_test_target(${name}_tests)
-    palmar_batches(${name}_tests 6)
+    palmar_batches(${name}_tests 8)
     palmar_add_entry(${name}_tests ${name}_tests "*" "${ARG_TESTS}" "")
   endif()
 endfunction()

@@ -25,7 +25,6 @@ while [ $# -gt 0 ]; do
     *) readers+=("$1"); shift ;;
   esac
 done
-command -v clang++ >/dev/null || palmar_apt_install clang libclang-rt-dev
 targets=()
 for module in $modules; do targets+=("fuzz_$module"); done
 [ ${#readers[@]} = 0 ] || targets=("${readers[@]/#/fuzz_}")

@@ -6,20 +6,22 @@
 
 # What the program palmar needs.
 palmar_packages=(
-  build-essential cmake ninja-build ccache pkg-config git
+  build-essential clang cmake ninja-build pkg-config git
   libeigen3-dev libtbb-dev libembree-dev libpng-dev libjpeg-dev zlib1g-dev
   nlohmann-json3-dev libcli11-dev libfmt-dev libtomlplusplus-dev libboost-dev libsqlite3-dev
   libnlopt-cxx-dev libexif-dev duktape-dev musl-dev
 )
+# What palmar-photo and palmar-dicom need: boards in photographs, compressed images.
+palmar_photo_packages=(libopencv-contrib-dev libgdcm-dev)
 # What palmar-cad needs: CAD files.
 palmar_cad_packages=(libocct-data-exchange-dev)
 # What the Python package needs.
 palmar_python_packages=(pybind11-dev python3-dev python3-numpy)
 # What photographs, tests, benchmarks and checks need.
 palmar_check_packages=(
-  libopencv-contrib-dev libgdcm-dev
+  "${palmar_photo_packages[@]}"
   libgtest-dev libgmock-dev libbenchmark-dev
-  clang-format libxml2-utils
+  clang-format libclang-rt-dev libxml2-utils
   "${palmar_python_packages[@]}"
 )
 

@@ -161,7 +161,8 @@ Measured dorsal_recording(const hand::Hand& of, const hand::Posture& posture,
   std::normal_distribution<double> error(0.0, 1.0);
   Measured measured;
   for (const Vec3& p : hand::PosablePoints(of, set.point).pose(posture)) {
-    measured.emplace_back(place * p + noise * Vec3(error(random), error(random), error(random)));
+    const double z = error(random), y = error(random), x = error(random);
+    measured.emplace_back(place * p + noise * Vec3(x, y, z));
   }
   return measured;
 }

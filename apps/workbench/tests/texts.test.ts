@@ -29,9 +29,9 @@ function literals(paths: string[]): string[] {
   return all.map((one) => one.slice(1, -1).replace(/\\u00b2/g, "²").replace(/\\"/g, '"'));
 }
 
-const ours = filesIn("apps/workbench", [".ts"]).concat(filesIn("src/palmar/report", [".cpp", ".h"]))
+const ours = filesIn("apps/workbench", [".ts"]).concat(filesIn("src/palmar/report", [".cpp", ".h"]), filesIn("src/hands/person_report", [".cpp", ".h"]))
   .map((path) => readFileSync(path, "utf8")).join("\n");
-const sources = literals(filesIn("src/palmar", [".cpp", ".h"]).concat(filesIn("apps/palmar", [".cpp"])));
+const sources = literals(filesIn("src", [".cpp", ".h"]).concat(filesIn("apps", [".cpp"])));
 
 test("every text has its place in the other language and none is empty", () => {
   assert.equal(String(Object.keys(english).sort()), String(Object.keys(german).sort()));

@@ -6,11 +6,22 @@
 #include <span>
 #include <vector>
 
-#include "hands/capture/mri/measured_joints.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/geometry/types.h"
 
 namespace palmar::capture {
+
+/// The fixed axis that describes a rigid motion best: R u = u, (E - R) p = t with the component of
+/// t along u dropped (Xie 2014, eq. 2-2 to 2-4).
+struct AxisFit {
+  Vec3 axis = Vec3::UnitX();  ///< unit; the turn about it is `angle` >= 0
+  Vec3 point = Vec3::Zero();  ///< on the axis, nearest to where it was looked for
+  double angle = 0.0;         ///< rad, [0, pi]
+  double slide = 0.0;        ///< of the motion along the axis, which a pure rotation can't make, mm
+  bool is_observed = false;  ///< the angle is large enough to determine an axis
+};
+/// `motion` of the distal part relative to the proximal one; `near`: where the joint is, mm.
+AxisFit fit_axis(const geometry::Rigid3& motion, const Vec3& near);
 
 /// Six points with the centre and the second moments of a surface's area: for any two affine maps
 /// the mean of |A x - B x|^2 over them equals that over the surface. They stand for a bone wherever

@@ -3,7 +3,7 @@
 //
 // Joints from bones of several postures, against a person that moves by another model: rolling
 // finger joints, a saddle joint with screws at the thumb.
-#include "hands/capture/mri/measured_joints.h"
+#include "hands/capture/joints/measured_joints.h"
 
 #include <gmock/gmock.h>
 

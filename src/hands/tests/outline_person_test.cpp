@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "hands/capture/photo/surface/silhouette.h"
+#include "hands/capture/sheet/silhouette.h"
 #include "hands/phantom/person/spread_hand.h"
 #include "hands/phantom/photo/sheet_photograph.h"
 #include "palmar/records/population/population_file.h"

@@ -10,6 +10,7 @@
 #include "hands/capture/mri/scan_surfaces.h"
 #include "hands/imaging/distance_transform.h"
 #include "hands/imaging/volume.h"
+#include "palmar/core/progress.h"
 
 namespace palmar::capture {
 

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "hands/imaging/volume.h"
-#include "palmar/core/progress.h"
 #include "palmar/geometry/types.h"
 #include "palmar/hand/hand.h"
 
@@ -57,12 +55,5 @@ struct SurfaceOptions {
   double doubted_below = 0.0;
   void check() const;  ///< throws UsageError: field, value, allowed range
 };
-
-/// Finds skin, bones and markers in a T1-weighted MR image of one hand. `model`: any hand, for
-/// names: which bones there are and how they follow each other. See docs/method/mri.md.
-/// Throws InputError, naming `name` (the series): no hand, two hands, an image too coarse.
-ScanSurfaces find_surfaces(const imaging::Volume& image, const std::string& name,
-                           const hand::Hand& model, const SurfaceOptions& options = {},
-                           const Progress& progress = {});
 
 }  // namespace palmar::capture

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "hands/capture/axis_fit.h"
-#include "hands/capture/joint_measures.h"
+#include "hands/capture/joints/joint_measures.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/least_squares.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hands/capture/mri/measured_joints.h"
+#include "hands/capture/joints/measured_joints.h"
 #include "palmar/hand/hand.h"
 #include "palmar/hand/person/scan_posture.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hands/capture/mri/measured_joints.h"
+#include "hands/capture/joints/measured_joints.h"
 #include "hands/capture/scan/scanned_hand.h"
 #include "hands/capture/skin_errors.h"
 

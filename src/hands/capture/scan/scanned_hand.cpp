@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "hands/capture/mri/palm_placement.h"
+#include "hands/capture/mri/bones/palm_placement.h"
 #include "hands/capture/mri/thumb_ball_scan.h"
 #include "hands/capture/skin_errors.h"
 #include "hands/capture/skin_registration.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hands/capture/mri/measured_joints.h"
+#include "hands/capture/joints/measured_joints.h"
 #include "hands/capture/mri/scan_surfaces.h"
 #include "palmar/core/progress.h"
 #include "palmar/hand/hand.h"

@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hands/capture/photo/drawn_scene_test.h"
 #include "hands/capture/sheet/card_pose.h"
+#include "hands/capture/sheet/drawn_scene_test.h"
 #include "hands/capture/sheet/picture_edges.h"
 #include "hands/capture/sheet/skin_mask.h"
 #include "palmar/core/error.h"

@@ -7,7 +7,7 @@
 
 #include <functional>
 
-#include "hands/capture/photo/drawn_scene_test.h"
+#include "hands/capture/sheet/drawn_scene_test.h"
 #include "hands/capture/sheet/skin_mask.h"
 #include "palmar/core/error.h"
 

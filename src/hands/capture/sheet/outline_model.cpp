@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "hands/capture/photo/surface/silhouette.h"
 #include "hands/capture/picture_vectors.h"
 #include "hands/capture/sheet/line_fit.h"
+#include "hands/capture/sheet/silhouette.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/dimensions/dimensions.h"
 #include "palmar/hand/dimensions/hand_sections.h"

@@ -8,6 +8,7 @@
 
 #include "hands/capture/mri/bones/bone_labels.h"
 #include "hands/capture/mri/bones/bone_plausibility.h"
+#include "hands/capture/mri/bones/find_surfaces.h"
 #include "hands/capture/mri/scan_image.h"
 #include "hands/imaging/noise_floor.h"
 #include "hands/person_records/bone_label_file.h"

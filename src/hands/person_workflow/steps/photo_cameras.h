@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "hands/capture/photo/photo_model.h"
 #include "hands/capture/photo/surface/hand_motion.h"
+#include "hands/capture/photo/surface/photo_model.h"
 #include "hands/person_records/photo_set.h"
 #include "hands/person_records/photo_worker.h"
 #include "palmar/core/progress.h"

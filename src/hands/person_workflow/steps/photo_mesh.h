@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "hands/capture/photo/photo_model.h"
+#include "hands/capture/photo/surface/photo_model.h"
 #include "hands/person_records/photo_set.h"
 #include "hands/person_workflow/steps/photo_cameras.h"
 #include "hands/person_workflow/steps/photo_mesh_report.h"

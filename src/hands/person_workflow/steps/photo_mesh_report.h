@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hands/capture/photo/photo_model.h"
+#include "hands/capture/photo/surface/photo_model.h"
 #include "hands/person_workflow/steps/photo_cameras.h"
 
 namespace palmar::person_workflow {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "hands/phantom/mri/held_bar.h"
 #include "hands/phantom/mri/subject_tissues.h"
+#include "hands/phantom/person/held_bar.h"
 #include "hands/phantom/person/soft_tissue.h"
 #include "hands/phantom/person/subject_bones.h"
 #include "hands/phantom/person/subject_person.h"

@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "hands/phantom/mri/scan_defects.h"
+#include "hands/phantom/person/drawn_vector.h"
 
 #include <fmt/format.h>
 
@@ -116,10 +117,10 @@ ScannedSurface scanned_surface(const geometry::ColouredMesh& hand, double wrist_
   }
   // Anywhere: any turn, half a metre away.
   RandomStream place(defects.seed, kPlace);
-  Eigen::Vector4d q(place.normal(), place.normal(), place.normal(), place.normal());
+  Eigen::Vector4d q;
+  for (int k = 3; k >= 0; --k) q[k] = place.normal();
   q.normalize();
-  scan.scan_from_hand = {Quat(q[0], q[1], q[2], q[3]),
-                         Vec3(place.normal(), place.normal(), place.normal()) * 300.0};
+  scan.scan_from_hand = {Quat(q[0], q[1], q[2], q[3]), normal_vector(place) * 300.0};
   for (Vec3& v : mesh.vertices) v = scan.scan_from_hand * v;
   return scan;
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "hands/phantom/person/drawn_vector.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/types.h"
 
@@ -20,7 +21,7 @@ class SmoothNoise {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     RandomStream random(seed, stream);
     for (Wave& w : wave_) {
-      const Vec3 way(random.normal(), random.normal(), random.normal());
+      const Vec3 way = normal_vector(random);
       w.k = way.normalized() * (kTurn / (wavelength * (0.7 + 0.6 * random.uniform())));
       w.phase = kTurn * random.uniform();
     }

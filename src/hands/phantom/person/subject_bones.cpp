@@ -1,6 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "hands/phantom/person/subject_bones.h"
+#include "hands/phantom/person/drawn_vector.h"
 
 #include <algorithm>
 #include <array>
@@ -338,7 +339,7 @@ void BoneMaker::make_carpals() {
     std::array<Vec3, 5> bump;
     std::array<double, 5> height{};
     for (std::size_t k = 0; k < 5; ++k) {
-      bump[k] = Vec3(random_.normal(), random_.normal(), random_.normal()).normalized();
+      bump[k] = normal_vector(random_).normalized();
       height[k] = 0.13 * (varied(0.8) - 0.9);
     }
     const auto radius = [&](const Vec3& direction) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <map>
 
-#include "hands/phantom/mri/held_bar.h"
+#include "hands/phantom/person/held_bar.h"
 #include "hands/phantom/person/person_dispersion.h"
 #include "hands/phantom/person/subject_joints.h"
 #include "palmar/hand/hand.h"

@@ -268,7 +268,9 @@ class Shutter {
     const Vec3 up = hand_from_board_.rotation * Vec3::UnitZ();
     float sum = kAmbient * static_cast<float>(0.65 + 0.35 * normal.dot(up));
     for (const Lamp& lamp : lamps_) {
-      const Vec3 spread(random() - 0.5, random() - 0.5, random() - 0.5);
+      const double z = random(), y = random(),
+                   x = random();  // one after the other, for all compilers
+      const Vec3 spread(x - 0.5, y - 0.5, z - 0.5);
       const Vec3 way = hand_from_board_ * Vec3(lamp.centre + 2.0 * lamp.radius * spread) - at;
       const double distance = way.norm();
       const double cosine = normal.dot(way) / distance;

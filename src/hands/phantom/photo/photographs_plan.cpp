@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "hands/phantom/person/drawn_vector.h"
 #include "hands/phantom/photo/photographs.h"
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"
@@ -96,26 +97,23 @@ PhotoShoot plan_photographs(const PhotographsOptions& options) {
       const double elevation = (is_high ? options.high : options.low) * geometry::kDegree;
       const Vec3 target(0.0, 0.0, options.middle);
       // Stands are never quite where they should be.
-      const Vec3 aim =
-          target + Vec3(2.0 * random.normal(), 2.0 * random.normal(), 3.0 * random.normal());
+      const Vec3 aim = target + normal_vector(random).cwiseProduct(Vec3(2.0, 2.0, 3.0));
       const double far = options.distance * (1.0 + 0.01 * random.normal());
       PhotoShot shot;
       shot.camera = c;
       shot.position = p;
       shot.pose.lens = lens_of(options, c);
+      // One after the other, for all compilers.
+      const double raised = 0.01 * random.normal(), shaken = 0.01 * random.normal();
       shot.pose.camera_from_world =
-          capture::looking_at(target + on_sphere(far, azimuth + 0.01 * random.normal(),
-                                                 elevation + 0.01 * random.normal()),
-                              aim);
+          capture::looking_at(target + on_sphere(far, azimuth + shaken, elevation + raised), aim);
       shot.gain = std::exp(options.exposure * random.normal());
       shoot.shots.push_back(shot);
     }
     geometry::Rigid3 motion;
     if (p > 0) {
       RandomStream random(options.seed, kMotions + static_cast<std::uint64_t>(p));
-      const auto vector = [&] {
-        return Vec3(Vec3(random.normal(), random.normal(), random.normal()) / std::sqrt(3.0));
-      };
+      const auto vector = [&] { return Vec3(normal_vector(random) / std::sqrt(3.0)); };
       const Vec3 turn = vector() * (options.motion_turn * geometry::kDegree);
       const Vec3 shift = vector() * options.motion;
       const Vec3 centre(0.0, 0.0, options.middle);
@@ -143,9 +141,9 @@ std::vector<PhotoShot> plan_calibration(const PhotographsOptions& options, int c
       shot.camera = c;
       shot.position = n;
       shot.pose.lens = lens_of(options, c);
-      const geometry::Rigid3 level = capture::looking_at(
-          on_sphere(far, azimuth, elevation),
-          Vec3(80.0 * (random.uniform() - 0.5), 80.0 * (random.uniform() - 0.5), 0.0));
+      const double aside = random.uniform() - 0.5, across = random.uniform() - 0.5;
+      const geometry::Rigid3 level = capture::looking_at(on_sphere(far, azimuth, elevation),
+                                                         Vec3(80.0 * across, 80.0 * aside, 0.0));
       // Rolled as well.
       const double roll = (n % 2 == 0 ? 0.0 : 0.5 * std::numbers::pi) + 0.2 * random.normal();
       shot.pose.camera_from_world =

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "hands/capture/photo/photo_model.h"
+#include "hands/capture/photo/surface/photo_model.h"
 #include "palmar/core/error.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/distance/closest_point.h"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hands/capture/mri/scan_surfaces.h"
+#include "hands/capture/mri/bones/find_surfaces.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/mesh/primitive_meshes.h"
 

@@ -1,5 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
+#include "hands/capture/mri/bones/bone_tracking.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,8 +13,7 @@
 #include "hands/capture/axis_fit.h"
 #include "hands/capture/mri/bones/bone_chain.h"
 #include "hands/capture/mri/bones/image_registration.h"
-#include "hands/capture/mri/measured_joints.h"
-#include "hands/capture/mri/reference_hand.h"
+#include "hands/capture/mri/bones/reference_hand.h"
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/geometry/distance/closest_point.h"

@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "hands/capture/mri/measured_joints.h"
+#include "hands/capture/mri/bones/bone_tracking.h"
 #include "hands/capture/mri/scan_surfaces.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/rigid3.h"
 #include "palmar/hand/hand.h"
+#include "palmar/hand/person/scan_posture.h"
 
 namespace palmar::capture {
 

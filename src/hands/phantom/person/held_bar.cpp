@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/phantom/mri/held_bar.h"
+#include "hands/phantom/person/held_bar.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/mri/palm_placement.h"
+#include "hands/capture/mri/bones/palm_placement.h"
 
 #include <algorithm>
 #include <array>

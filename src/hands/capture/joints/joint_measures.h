@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "hands/capture/mri/measured_joints.h"
-#include "hands/capture/mri/reference_hand.h"
+#include "hands/capture/joints/measured_joints.h"
+#include "hands/capture/mri/bones/reference_hand.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/hand/hand.h"
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/mri/grasp_contact.h"
+#include "hands/capture/scan/grasp_contact.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "hands/capture/mri/palm_placement.h"
+#include "hands/capture/mri/bones/palm_placement.h"
 #include "palmar/core/error.h"
 #include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/hand/skin/skinning.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "hands/capture/axis_fit.h"
-#include "hands/capture/joint_measures.h"
+#include "hands/capture/joints/joint_measures.h"
 #include "hands/capture/mri/bones/bone_chain.h"
 #include "hands/capture/two_axis_fit.h"
 #include "palmar/core/enum_index.h"

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/photo/surface/silhouette.h"
+#include "hands/capture/sheet/silhouette.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/mri/bones/bone_errors.h"
+#include "hands/capture/joints/bone_errors.h"
 
 #include <string>
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/sheet/outline_by_depth.h"
+#include "hands/capture/photo/surface/outline_by_depth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/mri/reference_hand.h"
+#include "hands/capture/mri/bones/reference_hand.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/photo/photo_model.h"
+#include "hands/capture/photo/surface/photo_model.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <numeric>
 
 #include "hands/capture/photo/surface/flat_patches.h"
+#include "hands/capture/photo/surface/outline_by_depth.h"
 #include "hands/capture/photo/surface/over_views.h"
-#include "hands/capture/sheet/outline_by_depth.h"
 #include "hands/imaging/distance_transform.h"
 #include "hands/imaging/iso_surface.h"
 #include "palmar/core/error.h"

@@ -5,8 +5,8 @@
 #include <map>
 #include <vector>
 
-#include "hands/capture/joint_measures.h"
-#include "hands/capture/posture_angles.h"
+#include "hands/capture/joints/joint_measures.h"
+#include "hands/capture/joints/posture_angles.h"
 
 namespace palmar::capture {
 

@@ -1,16 +1,16 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/mri/measured_joints.h"
+#include "hands/capture/joints/measured_joints.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
 
-#include "hands/capture/joint_measures.h"
+#include "hands/capture/joints/bone_errors.h"
+#include "hands/capture/joints/joint_measures.h"
+#include "hands/capture/joints/posture_angles.h"
 #include "hands/capture/mri/bones/bone_chain.h"
-#include "hands/capture/mri/bones/bone_errors.h"
-#include "hands/capture/posture_angles.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "hands/capture/photo/photo_model.h"
+#include "hands/capture/photo/surface/photo_model.h"
 #include "palmar/core/progress.h"
 
 namespace palmar::capture {

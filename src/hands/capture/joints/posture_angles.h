@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "hands/capture/joint_measures.h"
+#include "hands/capture/joints/joint_measures.h"
 #include "palmar/hand/skeleton.h"
 
 namespace palmar::capture {

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/posture_angles.h"
+#include "hands/capture/joints/posture_angles.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "hands/capture/photo/photo_model.h"
+#include "hands/capture/photo/surface/photo_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
