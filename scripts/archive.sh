@@ -18,7 +18,7 @@ case "${1:-}" in
   *) echo "usage: scripts/archive.sh [--check]   (got: $1)" >&2; exit 2 ;;
 esac
 programs=(palmar palmar-hands palmar-redesign palmar-serve palmar-cad palmar-dicom palmar-photo)
-palmar_setup "${palmar_cad_packages[@]}" libopencv-contrib-dev libgdcm-dev xz-utils binutils
+palmar_setup "${palmar_cad_packages[@]}" "${palmar_photo_packages[@]}" xz-utils binutils
 cmake --preset release >/dev/null
 cmake --build --preset release --target "${programs[@]}" palmar_template palmar_build_text manual
 version=$(build/release/bin/palmar --version | sed -nE '1s/^palmar ([^,]+),.*/\1/p')

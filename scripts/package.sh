@@ -16,7 +16,7 @@ case "${1:-}" in
   --check) check=1 ;;
   *) echo "usage: scripts/package.sh [--check]   (got: $1)" >&2; exit 2 ;;
 esac
-palmar_setup "${palmar_cad_packages[@]}" libopencv-contrib-dev libgdcm-dev dpkg-dev
+palmar_setup "${palmar_cad_packages[@]}" "${palmar_photo_packages[@]}" dpkg-dev
 cmake --preset release >/dev/null
 cmake --build --preset release --target palmar palmar-hands palmar-redesign palmar-serve palmar-cad palmar-dicom palmar-photo \
   palmar_template manual
