@@ -358,7 +358,7 @@ All of it has ${sum(names, false)} lines, and ${sum(names, true)} of tests besid
 \`X.h\`, \`X.cpp\` and \`X_test.cpp\` are side by side. Users' files are read and written in \`formats\` and
 \`records\`, images and files of persons in \`images\` and \`person_records\`, CAD files by the kernel in \`cad\`. Only the
 programs in \`apps\` read arguments, print or exit; \`python\` is the same tasks for Python. Tests of whole programs are in
-\`tests/\` and \`src/hands/tests/\`, benchmarks in \`benchmarks/\`.
+\`tests/\`, benchmarks in \`benchmarks/\`.
 
 ## The values that flow
 
