@@ -90,6 +90,21 @@ TEST(CommandsOfOtherPrograms, KeepExitCodesAndMessages) {
   EXPECT_EQ(run_palmar("--json mri info nobody").exit_code, 3);
 }
 
+TEST(CommandsOfOtherPrograms, SayHowToGetTheirProgram) {
+  // palmar alone, as ./demo builds it: a link in a folder without the others.
+  const std::string folder = temporary_folder();
+  std::filesystem::copy_file(PALMAR_EXECUTABLE, folder + "/palmar");
+  for (const std::string command :
+       {"redesign", "redesign --help", "hand quick --help", "phantom --help", "serve --help"}) {
+    const int status = std::system(
+        ("cd '" + folder + "' && ./palmar " + command + " > out.txt 2> err.txt").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 6) << command;
+    std::ifstream file(folder + "/err.txt");
+    const std::string said((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_THAT(said, HasSubstr("`./demo --also ")) << command;
+  }
+}
+
 TEST(ProductCommand, MakesWhatItsNameSays) {
   const std::string folder = temporary_folder();
   ASSERT_EQ(run_palmar("product make cylinder --diameter-mm 48 --length-mm 100 --out c.stl", folder)

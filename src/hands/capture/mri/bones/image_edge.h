@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hands/capture/mri/scan_surfaces.h"
+#include "hands/imaging/volume.h"
 
 namespace palmar::capture {
 
