@@ -221,9 +221,10 @@ TEST(HelpExamples, WorkFromTheRepositoryLineByLine) {
   std::set<std::string> ran;  // what several examples begin with is made once
   for (const auto& [verb, lines] : examples_of_help()) {
     EXPECT_FALSE(lines.empty()) << "palmar " << verb << " --help has no example";
-    const bool is_long =
-        verb == "photos" || std::any_of(long_ones.begin(), long_ones.end(),
-                                        [&verb = verb](const auto& one) { return verb.starts_with(one); });
+    const bool is_long = verb == "photos" || std::any_of(long_ones.begin(), long_ones.end(),
+                                                         [&verb = verb](const auto& one) {
+                                                           return verb.starts_with(one);
+                                                         });
     if (is_long) continue;
     for (const std::string& line : lines) {
       if (!ran.insert(line).second) continue;

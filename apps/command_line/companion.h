@@ -13,8 +13,8 @@ inline constexpr const char* kRedesignProgram = "palmar-redesign";  ///< better 
 inline constexpr const char* kServeProgram = "palmar-serve";        ///< the workbench
 
 /// Adds the command `name` that `program` holds. When it is met on the command line, that program
-/// takes over this process, with all arguments, --help too. Throws ProgramMissing, which says how to get
-/// it, if it isn't there.
+/// takes over this process, with all arguments, --help too. Throws ProgramMissing, which says how
+/// to get it, if it isn't there.
 void add_elsewhere(CLI::App& parent, Context& context, const char* program, const std::string& name,
                    const std::string& description);
 

@@ -20,7 +20,8 @@ void add_commands(CLI::App& app, Context& context) {
   add_elsewhere(app, context, kRedesignProgram, "redesign",
                 "Better shapes for the same hands, and back to CAD");
   add_study_commands(app, context);
-  add_elsewhere(app, context, kServeProgram, "serve", "The workbench in a browser: move a product in the hand and see what presses; "
+  add_elsewhere(app, context, kServeProgram, "serve",
+                "The workbench in a browser: move a product in the hand and see what presses; "
                 "runs until Ctrl-C");
   add_elsewhere(app, context, kRedesignProgram, "validate",
                 "Compare the simulator with closed forms and measurements; exit code 5 on a miss");

@@ -112,8 +112,8 @@ void make_joints(SubjectPerson& person, std::uint64_t seed, const PersonDispersi
       person.joints.phalanx[index_of(segment)] = joint;
     }
   }
-  // Saddle joint: axes of Mirakhorlo et al. 2016, table 3 (as in hand/skin/thumb_cmc.h), tilted; 4 to 6
-  // mm apart (Chang & Pollard 2008: 4.6 mm).
+  // Saddle joint: axes of Mirakhorlo et al. 2016, table 3 (as in hand/skin/thumb_cmc.h), tilted; 4
+  // to 6 mm apart (Chang & Pollard 2008: 4.6 mm).
   hand::Joint& model = skeleton.joints[index_of(hand::JointId::kThumbCmc)];
   SaddleJoint& cmc = person.joints.cmc;
   cmc.centre = model.centre + Vec3(spread(random, 0.6), spread(random, 0.6), spread(random, 0.6));
