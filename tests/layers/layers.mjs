@@ -1,14 +1,13 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// node tests/layers/layers.mjs SRC [MODULE ...]
+// node tests/layers/layers.mjs SRC
 //
 // Holds every #include "palmar/..." and "hands/..." below SRC to the layering:
 //   - src/hands may include src/palmar, never the other way;
 //   - a module includes only itself and what stands above it in its house's modules.txt;
 //   - folders inside a module form no circle. The module's own folder, '.', counts as one. Tests don't: a
 //     test may include what stands above its subject.
-// MODULE, as palmar/capture: its folders still form a circle, and it is a fault if they no longer do.
 // layers_test.mjs shows it trees that must fail.
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -66,8 +65,8 @@ function circle_through(start, arrows) {
   return undefined;
 }
 
-/** Circles of folders, each with the includes that make it; of overlapping ones a shortest. `known`: modules with some. */
-function folder_circles(src, houses, known) {
+/** Circles of folders, each with the includes that make it; of overlapping ones a shortest. */
+function folder_circles(src, houses) {
   const modules = new Map();  // module -> folder -> folder that it includes -> "file: line"
   for (const include of houses.flatMap((house) => includes_of(src, house))) {
     const { file, line, house, module, folder, to } = include;
@@ -80,7 +79,6 @@ function folder_circles(src, houses, known) {
     targets.set(to.folder, [...(targets.get(to.folder) ?? []), `${file}: ${line}`]);
   }
   const found = [];
-  const without = new Set(known);
   for (const [name, arrows] of modules) {
     const told = new Set();
     const circles = [...arrows.keys()].map((folder) => circle_through(folder, arrows)).filter(Boolean)
@@ -88,27 +86,24 @@ function folder_circles(src, houses, known) {
     for (const circle of circles) {
       if (circle.some((folder) => told.has(folder))) continue;
       circle.forEach((folder) => told.add(folder));
-      without.delete(name);
-      if (known.includes(name)) continue;
       found.push(`${name}: folders form a circle: ${circle.join(" -> ")}`);
       for (let i = 0; i + 1 < circle.length; ++i) {
         for (const include of arrows.get(circle[i]).get(circle[i + 1])) found.push(`  ${include}`);
       }
     }
   }
-  for (const name of without) found.push(`${name}: its folders form no circle; tests/CMakeLists.txt says that they do`);
   return found;
 }
 
-/** What is against the layering below `src`, a line each; empty if nothing is. `known`: modules with circles. */
-export function layering_faults(src, known = []) {
+/** What is against the layering below `src`, a line each; empty if nothing is. */
+export function layering_faults(src) {
   const houses = kHouses.filter((house) => existsSync(join(src, house, "modules.txt")));
   if (houses.length === 0) throw new Error(`No modules.txt was found in a folder of ${src}`);
-  return [...against_the_order(src, houses), ...folder_circles(src, houses, known)];
+  return [...against_the_order(src, houses), ...folder_circles(src, houses)];
 }
 
 if (import.meta.url === pathToFileURL(process.argv[1]).href) {
-  const [src, ...known] = process.argv.slice(2);
+  const src = process.argv[2];
   const count = kHouses.flatMap((house) => code_files(join(src, house), src)).length;
-  report(layering_faults(src, known), "Against the layering", `${count} files respect the layering`);
+  report(layering_faults(src), "Against the layering", `${count} files respect the layering`);
 }
