@@ -9,12 +9,12 @@
 # tests/layers/layers.mjs holds the #include lines to the same order.
 
 # The house next door, src/hands with its programs, is tested apart: `all` builds everything, the target `palmar_house`
-# all but its tests and the children that read photographs and compressed images. palmar_in_house(TARGET) adds to that
+# all but its tests. palmar_in_house(TARGET) adds to that
 # target what isn't of src/hands; ctest entries of that house have the label `hands`.
 add_custom_target(palmar_house)
 function(palmar_is_hands variable)
   set(${variable} OFF PARENT_SCOPE)
-  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/src/hands|/tests/hands|/apps/palmar-(photo|dicom)")
+  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/src/hands|/tests/hands")
     set(${variable} ON PARENT_SCOPE)
   endif()
 endfunction()
