@@ -1,7 +1,7 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 #include "hands/phantom/mri/scan_defects.h"
-#include "hands/phantom/person/drawn_vector.h"
+#include "hands/phantom/person/person_random.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "hands/phantom/person/drawn_vector.h"
+#include "hands/phantom/person/person_random.h"
 #include "palmar/core/random.h"
 #include "palmar/geometry/types.h"
 

@@ -47,8 +47,7 @@ hand::Posture relaxed(const hand::Skeleton& skeleton, RandomStream& random) {
 }
 
 Vec3 tilted(const Vec3& axis, RandomStream& random, double deviation) {
-  const Vec3 tilt(spread(random, deviation), spread(random, deviation), spread(random, deviation));
-  return (axis + tilt).normalized();
+  return (axis + spread_vector(random, deviation)).normalized();
 }
 
 // Joints that don't turn as Hand's do, at places and about axes a little off those of the base.
@@ -116,7 +115,7 @@ void make_joints(SubjectPerson& person, std::uint64_t seed, const PersonDispersi
   // to 6 mm apart (Chang & Pollard 2008: 4.6 mm).
   hand::Joint& model = skeleton.joints[index_of(hand::JointId::kThumbCmc)];
   SaddleJoint& cmc = person.joints.cmc;
-  cmc.centre = model.centre + Vec3(spread(random, 0.6), spread(random, 0.6), spread(random, 0.6));
+  cmc.centre = model.centre + spread_vector(random, 0.6);
   cmc.along = (person.joints.phalanx[index_of(hand::Segment::kThumbProximal)].centre - cmc.centre)
                   .normalized();
   cmc.flexion_axis = tilted(model.dofs.at(1).axis, random, 0.06);

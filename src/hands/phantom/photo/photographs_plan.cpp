@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "hands/phantom/person/drawn_vector.h"
+#include "hands/phantom/person/person_random.h"
 #include "hands/phantom/photo/photographs.h"
 #include "palmar/core/error.h"
 #include "palmar/core/random.h"

@@ -133,7 +133,9 @@ geometry::RgbImage photograph_on_sheet(const SpreadHand& hand,
   RandomStream random(options.seed, 78);
   const double about = 2.0 * std::numbers::pi * random.uniform(),
                tilt = options.tilt * geometry::kDegree;
-  Vec3 target(about_zero(random, 12.0), about_zero(random, 12.0), 0.0);
+  const double aim_y = about_zero(random, 12.0),
+               aim_x = about_zero(random, 12.0);  // in one order everywhere
+  Vec3 target(aim_x, aim_y, 0.0);
   if (options.is_card) {
     // Between the card and the hand.
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
