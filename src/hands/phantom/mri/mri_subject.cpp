@@ -55,10 +55,11 @@ struct ToPatient {
 // between two scans they move.
 geometry::Rigid3 placement(RandomStream& random, double degrees, double shift) {
   const auto some = [&](double deviation) {
-    return deviation * std::clamp(random.normal(), -2.0, 2.0);
+    Vec3 v;
+    for (int k = 2; k >= 0; --k) v[k] = deviation * std::clamp(random.normal(), -2.0, 2.0);
+    return v;
   };
-  const Vec3 turn(some(degrees), some(degrees), some(degrees));
-  const Vec3 by(some(shift), some(shift), some(shift));
+  const Vec3 turn = some(degrees), by = some(shift);
   const double angle = turn.norm() * geometry::kDegree;
   return {angle > 0.0 ? Quat(Eigen::AngleAxisd(angle, turn.normalized())) : Quat::Identity(), by};
 }
