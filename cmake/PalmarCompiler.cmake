@@ -44,11 +44,11 @@ endif()
 if(PALMAR_WERROR)
   target_compile_options(palmar_compiler INTERFACE -Werror)
 endif()
+# GDCM's headers read what isn't aligned; the types of objects can't be checked across the libraries.
+set(palmar_sanitizers -fsanitize=address,undefined -fno-sanitize=alignment,vptr -fno-sanitize-recover=undefined
+                      -fno-omit-frame-pointer)
 if(PALMAR_SANITIZE)
-  # GDCM's headers read what isn't aligned; the types of objects can't be checked across the libraries.
-  target_compile_options(palmar_compiler INTERFACE -fsanitize=address,undefined -fno-sanitize=alignment,vptr
-                                                    -fno-sanitize-recover=undefined
-                                                    -fno-omit-frame-pointer)
+  target_compile_options(palmar_compiler INTERFACE ${palmar_sanitizers})
   # GCC's word for what Clang says by __has_feature(address_sanitizer).
   target_compile_definitions(palmar_compiler INTERFACE $<$<CXX_COMPILER_ID:Clang>:__SANITIZE_ADDRESS__>)
   target_link_options(palmar_compiler INTERFACE -fsanitize=address,undefined)

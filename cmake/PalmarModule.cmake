@@ -14,7 +14,7 @@
 add_custom_target(palmar_house)
 function(palmar_is_hands variable)
   set(${variable} OFF PARENT_SCOPE)
-  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/src/hands|/tests/hands")
+  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/src/hands|/tests/hands|/apps/palmar-(hands|photo|dicom)")
     set(${variable} ON PARENT_SCOPE)
   endif()
 endfunction()

@@ -7,7 +7,7 @@
 // command with its options (from what `palmar COMMAND --help` prints), and all pictures on one page. Ends with 1
 // and a list if a link leads nowhere.
 import {marked} from "marked";
-import {execFileSync} from "node:child_process";
+import {spawnSync} from "node:child_process";
 import {cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
 import {dirname, join, posix} from "node:path";
 import {fileURLToPath} from "node:url";
@@ -76,7 +76,13 @@ function addMarkdown(file) {
 
 /** A page per command, one that lists them. */
 function addReference(palmar) {
-  const all = walk((words) => execFileSync(palmar, [...words, "--help"], {encoding: "utf8"}));
+  const all = walk((words) => {
+    const run = spawnSync(palmar, [...words, "--help"], {encoding: "utf8"});
+    if (run.status === 0) return run.stdout;
+    if (run.status !== 6) throw new Error(run.stderr);
+    process.stderr.write(run.stderr);  // its program isn't built: the page says so
+    return run.stderr;
+  });
   const placeOfCommand = (words) => `reference/${["palmar", ...words].join("-")}.html`;
   const list = all.map(({words, page}) =>
     `<tr><td><a href="${posix.basename(placeOfCommand(words))}">${["palmar", ...words].join(" ")}</a></td><td>${escaped(page.about)}</td></tr>`);

@@ -210,7 +210,7 @@ TEST(Assess, CtrlCEndsItSoonAndKeepsWhatIsDone) {
   for (const char* name : {"b.stl", "c.stl", "d.stl"}) {
     fs::copy_file(folder + "/a.stl", folder + "/" + name);
   }
-  for (const double delay_s : {0.3, 1.5, 2.5, 3.5}) {
+  for (const double delay_s : {0.3, 2.5}) {
     fs::remove_all(folder + "/report");
     const ProgramRun run = run_interrupted(folder, delay_s);
     const std::string report = folder + "/report";
@@ -404,14 +404,14 @@ TEST(Assess, OptionsReplaceThoseOfThePreset) {
   EXPECT_NE(settings.at("contact_model"), "xie2014");
 }
 
-TEST(Assess, LayeredSkinRunsAndSaysSo) {
+TEST(Assess, ThoroughLayeredSkinRunsAndSaysSo) {
   const Json one = assessed("--tissue-model layered --no-error-band");
   EXPECT_EQ(one.at("contact").at("status"), "solved");
   EXPECT_EQ(one.at("settings").at("tissue_model"), "layered");
   EXPECT_NE(one.at("contact").at("force_n"), rigid().at("contact").at("force_n"));
 }
 
-TEST(Assess, RegionsAloneMissTheLiftOfTheirNeighbours) {
+TEST(Assess, ThoroughRegionsAloneMissTheLiftOfTheirNeighbours) {
   // A neighbour's load moves the skin away from the product, so together less force is needed in
   // the same posture. (At rest both are held with the same grip force.)
   const std::string closed = "--no-balance --no-error-band --tissue-model halfspace";
@@ -420,7 +420,7 @@ TEST(Assess, RegionsAloneMissTheLiftOfTheirNeighbours) {
   EXPECT_GT(alone.at("force_n").get<double>(), 1.02 * together.at("force_n").get<double>());
 }
 
-TEST(Assess, SleeveSpreadsThePressure) {
+TEST(Assess, ThoroughSleeveSpreadsThePressure) {
   const Json one = assessed("--coating 3,100");
   const Json& contact = one.at("contact");
   const Json& bare = rigid().at("contact");

@@ -91,8 +91,9 @@ std::string shortened(std::string command) {
     command += many;
     // fillet, features: hands close on every candidate anew, but for a posture that is kept
     if (command.starts_with("redesign f")) command += " --evaluations 3 --hold-posture kept";
-    // shape: its own tests compare
-    if (command.starts_with("redesign shape ")) command += " --evaluations 3 --no-compare";
+    if (command.starts_with("redesign shape ")) command += " --evaluations 3";
+    // Their own tests compare.
+    if (!command.starts_with("redesign press ")) command += " --no-compare";
   }
   return command;
 }

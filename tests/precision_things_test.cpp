@@ -180,7 +180,7 @@ TEST_F(PrecisionThings, AMovedAndTurnedThingIsHeldAlike) {
   }
 }
 
-TEST_F(PrecisionThings, AMirroredThingIsHeldMirroredByTheLeftHand) {
+TEST_F(PrecisionThings, ThoroughAMirroredThingIsHeldMirroredByTheLeftHand) {
   for (const Thing& thing : six_things()) {
     SCOPED_TRACE(thing.name);
     geometry::TriangleMesh mirror = thing.mesh;
@@ -263,7 +263,7 @@ TEST_F(PrecisionThings, ALidIsHeldByItsRim) {
   }
 }
 
-TEST_F(PrecisionThings, WhatAGripCannotHoldAnotherDoes) {
+TEST_F(PrecisionThings, ThoroughWhatAGripCannotHoldAnotherDoes) {
   // A lateral pinch opens to a quarter of the hand's length; the cube is 60 mm wide.
   const product::Product cube = thing_of(geometry::make_box({60.0, 60.0, 60.0}, 24), "cube");
   grasp::GraspOptions asked;

@@ -33,6 +33,10 @@ Folders& folders() {
 
 }  // namespace
 
+bool has_program(const std::string& name) {
+  return fs::exists(fs::path(PALMAR_EXECUTABLE).parent_path() / name);
+}
+
 std::string temporary_folder() {
   std::string pattern = (fs::temp_directory_path() / "palmar-test-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");

@@ -14,6 +14,9 @@ struct ProgramRun {
 /// Runs "palmar ARGUMENTS" through the shell (so redirections work) in `folder`.
 ProgramRun run_palmar(const std::string& arguments, const std::string& folder = ".");
 
+/// Whether a program stands beside palmar: `./check` builds palmar-hands with --hands alone.
+bool has_program(const std::string& name);
+
 /// A fresh folder that is removed, with what is in it, at the end of the test program's run.
 std::string temporary_folder();
 

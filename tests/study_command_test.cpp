@@ -70,7 +70,7 @@ class StudyCommand : public ::testing::Test {
 };
 std::string StudyCommand::folder_;
 
-TEST_F(StudyCommand, ThreadsDontMatter) {
+TEST_F(StudyCommand, ThoroughThreadsDontMatter) {
   for (const char* threads : {"1", "4"}) {
     const std::string name = std::string("threads") + threads + ".palmar";
     ASSERT_EQ(

@@ -68,7 +68,7 @@ export function durations(log) {
 export function compileUnits(log) {
   let all = 0, reference = 0;
   for (const [output, time] of durations(log)) {
-    if (!/\.(o|pch|gch)$/.test(output) || /hands\/.*_tests\.dir|palmar-(photo|dicom)/.test(output)) continue;
+    if (!/\.(o|pch|gch)$/.test(output) || /(^|\/)hands\/|palmar-(hands|photo|dicom)/.test(output)) continue;
     all += time;
     if (output.includes('eigen_orthogonal')) reference = time;
   }

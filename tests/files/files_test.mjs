@@ -6,7 +6,7 @@
 // for types and ranges, and fails if no file has a documented field.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
-import {cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
+import {cpSync, existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {dirname, join, resolve} from "node:path";
 import {fileURLToPath} from "node:url";
@@ -221,7 +221,7 @@ function hands() {
   csv("posture.csv", "closing.csv");
   cpSync(markers, join(folder, "markers.csv"));
   csv("markers.csv", "markers.csv");
-  printed("quick", "hand quick --hand-length-mm 181 --circumference-mm 190 --population ansur2_women");
+  if (existsSync(join(dirname(palmar), "palmar-hands"))) printed("quick", "hand quick --hand-length-mm 181 --circumference-mm 190 --population ansur2_women");
 }
 
 /** A page that was typed here, and what is wrong with files beside it. */

@@ -176,10 +176,11 @@ product::KindValues random_values(const product::ParametricKind& kind, RandomStr
   }
 }
 
-TEST(KindSolids, AreValidAndClosedWithinTheirLengthsOverTheWholeRange) {
+/// `count` draws of each kind's range.
+void expect_valid_solids(std::uint64_t seed, int count) {
   for (const product::ParametricKind& kind : product::parametric_kinds()) {
-    RandomStream random(6, 0);
-    for (int i = 0; i < 4; ++i) {
+    RandomStream random(seed, 0);
+    for (int i = 0; i < count; ++i) {
       const product::KindValues values = random_values(kind, random);
       try {
         const CadModel model = make_kind_solid(kind, values);
@@ -198,6 +199,10 @@ TEST(KindSolids, AreValidAndClosedWithinTheirLengthsOverTheWholeRange) {
     }
   }
 }
+
+TEST(KindSolids, AreValidAndClosedWithinTheirLengths) { expect_valid_solids(6, 1); }
+
+TEST(KindSolids, ThoroughAreValidAndClosedOverTheWholeRange) { expect_valid_solids(7, 6); }
 
 TEST(KindSolids, AreTheSameAfterStepWithNamesAndNumbers) {
   const std::filesystem::path folder =

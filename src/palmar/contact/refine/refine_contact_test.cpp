@@ -123,7 +123,7 @@ TEST(RefineContact, ThoroughTwoMeshesAgreeOnceTheyAreRefined) {
   }
 }
 
-TEST(RefineContact, RounderEdgesPressWiderAndLessWithOneForce) {
+TEST(RefineContact, ThoroughRounderEdgesPressWiderAndLessWithOneForce) {
   double area = 0.0, peak = 1e3;
   std::vector<double> areas_before;
   for (const double fillet : {0.0, 1.0, 2.0, 3.0}) {

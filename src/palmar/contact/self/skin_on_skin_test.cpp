@@ -179,7 +179,7 @@ TEST(SkinOnSkin, ThoroughTwoEqualTipsPressAsEachOnAPlateHalfWay) {
   }
 }
 
-TEST(SkinOnSkin, ResponsesAreSymmetricAndPositive) {
+TEST(SkinOnSkin, ThoroughResponsesAreSymmetricAndPositive) {
   const hand::Hand& hand = prepared().hand();
   const SkinCompliance& compliance = *prepared().impl().compliance;
   MeetingLoads loads(prepared().impl().skin, compliance, {});

@@ -158,7 +158,7 @@ TEST_F(PressedBall, WhatOneForceDoesToAnotherIsMutual) {
   }
 }
 
-TEST_F(PressedBall, NoWorkIsGainedOverAClosedPath) {
+TEST_F(PressedBall, ThoroughNoWorkIsGainedOverAClosedPath) {
   // In, to the other block, deeper, and back: trapezia over a path of 400 steps.
   constexpr int kSteps = 400;
   double work = 0.0, in = 0.0;

@@ -458,7 +458,7 @@ TEST(PartsOfScans, TunnelsOfTheScrewdriversScanAreNoLoops) {
   EXPECT_EQ(found.narrow_tunnels, 4);
 }
 
-TEST(PartsOfScans, MovedOrMirroredTheyHaveTheSameParts) {
+TEST(PartsOfScans, ThoroughMovedOrMirroredTheyHaveTheSameParts) {
   SKIP_WITHOUT_SCANS();
   for (const char* name : {"mug", "rubber_mallet", "screwdriver_phillips", "power_drill",
                            "cookie_spatula", "portable_drive"}) {
