@@ -244,7 +244,7 @@ TEST(Assess, LeavesAFolderAloneThatHoldsSomethingElse) {
   EXPECT_FALSE(fs::exists(folder + "/mine/assessment.json"));
 }
 
-TEST(Assess, ReportsWhatIsDoubtfulAboutTheMesh) {
+TEST(Assess, ThoroughReportsWhatIsDoubtfulAboutTheMesh) {
   const std::string folder = temporary_folder();
   ASSERT_EQ(run_palmar("product make sphere --diameter-mm 300 --out big.stl", folder).exit_code, 0);
   const ProgramRun run = run_palmar("assess big.stl --unit mm --json", folder);

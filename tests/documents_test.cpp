@@ -133,6 +133,8 @@ TEST_P(Documents, ShowCommandsThatWork) {
   std::string missing;
   for (const ShownCommand& command : shown_commands(GetParam())) {
     if (command.is_fenced) continue;
+    // A quarter of a minute; `redesign_region` runs it before a release.
+    if (GetParam() == "README.md" && command.text.starts_with("redesign region ")) continue;
     const ProgramRun run = run_palmar(shortened(command.text), folder);
     if (run.exit_code == kProgramMissing) {
       missing += "palmar " + command.text + "\n" + run.err;

@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(ThoroughProducts, PeoplesHolds, testing::ValuesIn(some_
 
 class Holds : public TemplateTest {};
 
-TEST_F(Holds, IndexFingerLiesOnTheTrigger) {
+TEST_F(Holds, ThoroughIndexFingerLiesOnTheTrigger) {
   for (const PeoplesHold& people : all_peoples_holds()) {
     if (!people.index_fingertip) continue;
     if (people.product == "power_drill" && !has_scans()) continue;

@@ -16,6 +16,7 @@ import {makeLongFiles, rare} from "./long_files.mjs";
 import {checkReaders} from "./toml_readers.mjs";
 
 const palmar = resolve(process.argv[2]);
+const hasHands = existsSync(join(dirname(palmar), "palmar-hands"));  // ./check builds it with --hands alone
 const isAll = process.argv.includes("--all");
 const source = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const pages = join(source, "docs/using/files");
@@ -221,7 +222,7 @@ function hands() {
   csv("posture.csv", "closing.csv");
   cpSync(markers, join(folder, "markers.csv"));
   csv("markers.csv", "markers.csv");
-  if (existsSync(join(dirname(palmar), "palmar-hands"))) printed("quick", "hand quick --hand-length-mm 181 --circumference-mm 190 --population ansur2_women");
+  if (hasHands) printed("quick", "hand quick --hand-length-mm 181 --circumference-mm 190 --population ansur2_women");
 }
 
 /** A page that was typed here, and what is wrong with files beside it. */
@@ -276,7 +277,7 @@ try {
   studies();
   hands();
   if (isAll) await makeLongFiles({palmar, folder, source, ask, palmarDoes, printed, text, json, csv, toml, vtp, glb});
-  const readers = checkReaders(formats, folder, (words) => ask(words).error, isAll);
+  const readers = checkReaders(formats, folder, (words) => ask(words).error, isAll, hasHands);
   faults.push(...readers.faults);
   if (isAll) {
     const written = [...made].filter((name) => !readOnly.includes(name));

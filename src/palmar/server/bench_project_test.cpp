@@ -64,7 +64,7 @@ class BenchProjectFile : public ::testing::Test {
   json project;
 };
 
-TEST_F(BenchProjectFile, GivesTheFiguresOfTheBenchToTheLastDigit) {
+TEST_F(BenchProjectFile, ThoroughGivesTheFiguresOfTheBenchToTheLastDigit) {
   const auto shared = std::make_shared<ProductShelf>();
   LiveRequest open;
   open.verb = LiveVerb::kOpen;

@@ -41,7 +41,7 @@ TEST(HandleSolid, OfAnEllipticBarHasItsVolumeAndItsPlace) {
   EXPECT_EQ(model.face_count(), 6);
 }
 
-TEST(HandleSolid, IsValidWithFewPolesAndNamedFacesAndNearTheShapeForEveryFeature) {
+TEST(HandleSolid, ThoroughIsValidWithFewPolesAndNamedFacesAndNearTheShapeForEveryFeature) {
   for (const redesign::HandleFeature& feature : redesign::handle_features()) {
     redesign::HandleShape shape = bar();
     shape.end_radius = 3.0;
