@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/report/picture/display_mesh.h"
 #include "palmar/server/live_answer.h"

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "palmar/core/enum_index.h"
+#include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/grasp/indices/contact_reduction.h"
 #include "palmar/grasp/indices/stability.h"
 #include "palmar/grasp/joint_strength.h"
-#include "palmar/grasp/rest/grip_force.h"
 #include "palmar/grasp/task_force.h"
 #include "palmar/hand/posture/named_postures.h"
 

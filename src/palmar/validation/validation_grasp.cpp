@@ -9,8 +9,8 @@
 #include <numbers>
 #include <string>
 
+#include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/grasp/find/find_grasp.h"
-#include "palmar/grasp/rest/grip_force.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "palmar/validation/validation_cases.h"

@@ -4,8 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "palmar/geometry/mesh/mesh_measures.h"
+#include "palmar/grasp/equilibrium/least_effort.h"
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/rest/press_down.h"
 #include "palmar/grasp/rest/settling.h"
@@ -13,6 +17,9 @@
 namespace palmar::grasp {
 namespace {
 
+constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
+constexpr double kJointSaid = 0.05;  // residual moment over the strongest; more is a slip
+constexpr double kLevelSaid = 0.05;  // of the grip force asked for
 constexpr double kShifted = 5.0;  // mm; a precision grip in which the product shifts more is poor
 
 /// A precision grip comes to rest; if it doesn't where fingertips were first put, people put them
@@ -52,6 +59,79 @@ Balance settle_precision(const contact::PreparedHand& hand, const product::Produ
   return first;
 }
 
+/// A power grip at rest with least effort.
+Balance settle_with_least_effort(const contact::PreparedHand& hand, const product::Product& product,
+                                 Grasp& grasp, const BalanceOptions& options,
+                                 const contact::ContactOptions& contact, const Progress& progress) {
+  EffortTask task{.grip_force = options.asked_grip_force(grasp.grip),
+                  .load = {},
+                  .friction = options.friction,
+                  .strength = options.activation.value_or(options.strength),
+                  .wrist = options.wrist};
+  if (options.load.weight > 0.0 || !options.load.force.isZero(0.0) ||
+      !options.load.torque.isZero(0.0)) {
+    task.load = contact::wrench_of(options.load, geometry::centre_of_volume(product.mesh));
+  }
+  const GripState start{grasp.posture, grasp.product_from_hand};
+  const EffortRest rest = rest_with_least_effort(hand, product, start, task, contact, progress);
+  Balance balance;
+  balance.iterations = rest.iterations;
+  balance.fallbacks = rest.fallbacks;
+  if (rest.status == EffortRest::Status::kNoSolution) {
+    balance.status = BalanceStatus::kFailed;
+    balance.message = "the contact could not be solved while the grasp came to rest";
+    return balance;
+  }
+  if (rest.status == EffortRest::Status::kNoContact) {
+    balance.status = BalanceStatus::kNoContact;
+    balance.message = "nothing is touched, so nothing can come to rest";
+    return balance;
+  }
+  grasp.posture = rest.state.posture;
+  grasp.product_from_hand = rest.state.product_from_hand;
+  balance.friction = options.friction;
+  balance.grip_force = rest.grip.force;
+  balance.sum_of_normals = rest.grip.sum_of_normals;
+  balance.residual_force = rest.missing.segment<3>(kGripJoints).norm();
+  balance.residual_moment = rest.missing.tail<3>().norm();
+  balance.residual_share =
+      std::max(balance.residual_force, balance.residual_moment / rest.arm) / rest.grip.force;
+  balance.friction_use = rest.friction_use;
+  balance.friction_force = rest.friction_force;
+  balance.moved = rest.moved;
+  balance.turned = rest.turned;
+
+  GripEffort effort(hand.hand(), task.strength, start.posture, options.wrist);
+  effort.look(rest.state.posture, rest.is_loaded, rest.presses, rest.wrist_load);
+  const GripEffort::Strength strength = effort.strength_of(rest.contact_force);
+  const double share = strength.share * task.strength / options.strength;
+  if (std::isfinite(share)) balance.strength_use = share;
+  balance.is_by_wrist = strength.is_by_wrist;
+  balance.joint_load = strength.load;
+
+  const double joints =
+      rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>() / rest.strongest_moment;
+  const double asked = task.grip_force.value_or(rest.grip.force);
+  if (balance.residual_share < kBalanced && joints < kJointSaid) {
+    balance.status = BalanceStatus::kBalanced;
+    balance.message = fmt::format("in balance at a grip force of {:.0f} N", rest.grip.force);
+    if (std::abs(rest.grip.force / asked - 1.0) > kLevelSaid) {
+      balance.message +=
+          fmt::format("; {:.0f} N were requested, which the hand doesn't reach", asked);
+    }
+  } else {
+    balance.status = BalanceStatus::kSlipsOut;
+    const Vec3 missing = rest.missing.segment<3>(kGripJoints);
+    if (missing.norm() > 0.0) balance.slip = missing.normalized();
+    balance.message = fmt::format(
+        "slips: {:.1f} N and {:.0f} N mm on it and {:.0f} N mm about a joint are missing at a "
+        "grip force of {:.0f} N",
+        balance.residual_force, balance.residual_moment,
+        rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>(), rest.grip.force);
+  }
+  return balance;
+}
+
 }  // namespace
 
 Balance balance_grasp(const contact::PreparedHand& hand, const product::Product& product,
@@ -73,6 +153,9 @@ Balance balance_grasp(const contact::PreparedHand& hand, const product::Product&
   // that would hold against them: stiff from the start.
   const bool has_muscles = grasp.grip != Grip::kFixedHook;
   Balance balance;
+  if (has_muscles && options.solver == RestSolver::kLeastEffort) {
+    return settle_with_least_effort(hand, product, grasp, options, plain, progress);
+  }
   for (const SettlingWay way :
        {SettlingWay::kLeastEffort, SettlingWay::kInPlace, SettlingWay::kStiff}) {
     if (way != SettlingWay::kStiff && !has_muscles) continue;

@@ -28,8 +28,13 @@ namespace palmar::grasp {
 /// (choices).
 inline constexpr double kRestingForce = 8.2;
 
+/// How a power grip comes to rest: the switch between the present search and the one that takes its
+/// place.
+enum class RestSolver { kSettling, kLeastEffort };
+
 struct BalanceOptions {
   bool is_on = true;
+  RestSolver solver = RestSolver::kSettling;
   /// Of skin on product while they settle; 0: none. 0.5: skin on usual products (Derler & Gerhardt
   /// 2012, Tribol Lett 45:1-27: mean 0.46, SD 0.15).
   double friction = 0.5;

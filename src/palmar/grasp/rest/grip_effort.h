@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "palmar/grasp/equilibrium/thumb_meeting.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
 #include "palmar/grasp/rest/muscle_step.h"
-#include "palmar/grasp/rest/thumb_meeting.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
 namespace palmar::grasp {

@@ -17,22 +17,7 @@ constexpr double kTangential = 2.0 / 3;  // tangential over normal stiffness; Mi
 constexpr double kLeastDepth = 0.3;      // mm; shallower contacts count as that deep
 constexpr double kTurn = 1e-3;           // rad; of the differences
 
-hand::JointId grip_joint_id(int joint) {
-  const auto segments = hand::segments_of(grip_finger(joint));
-  if (grip_finger(joint) == hand::Finger::kThumb) {
-    return std::array{hand::JointId::kThumbCmc, hand::JointId::kThumbCmc, hand::JointId::kThumbMp,
-                      hand::JointId::kThumbIp}[static_cast<std::size_t>(joint)];
-  }
-  // MCP has the first two angles.
-  return hand::joint_of(
-      *segments[static_cast<std::size_t>(std::max(0, joint % hand::kDigitDofs - 1))]);
-}
-
 }  // namespace
-
-hand::Dof grip_dof(int joint) {
-  return hand::digit_dofs(grip_finger(joint))[static_cast<std::size_t>(joint % hand::kDigitDofs)];
-}
 
 GripMechanics::GripMechanics(const contact::PreparedHand& hand, const product::Product& product,
                              const contact::ContactOptions& options, double friction,

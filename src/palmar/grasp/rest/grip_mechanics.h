@@ -7,32 +7,14 @@
 #include <vector>
 
 #include "palmar/contact/prepared/contact_solver.h"
-#include "palmar/grasp/rest/grip_force.h"
-#include "palmar/hand/posture.h"
-#include "palmar/hand/tendons/digit_pose.h"
+#include "palmar/grasp/equilibrium/coordinates.h"
+#include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/product/product.h"
 
 namespace palmar::grasp {
 
-/// Angles of the digits, digit by digit in the order of digit_dofs().
-inline constexpr int kGripJoints = hand::kFingerCount * hand::kDigitDofs;
-hand::Dof grip_dof(int joint);
-inline hand::Finger grip_finger(int joint) {
-  return static_cast<hand::Finger>(joint / hand::kDigitDofs);
-}
-/// Generalised coordinates of a grasp: the angles [rad], then the product's motion in the hand
-/// frame: translation of the centre of contact [mm] and rotation about it [rad].
-inline constexpr int kGripCoordinates = kGripJoints + 6;
-using GripVector = Eigen::Matrix<double, kGripCoordinates, 1>;
-using GripMatrix = Eigen::Matrix<double, kGripCoordinates, kGripCoordinates>;
-
 inline constexpr double kNoWay = 1e-6;           ///< rad; less is none
 inline constexpr double kForcesAccuracy = 5e-4;  ///< relative; of what is reported. Our choice
-
-struct GripState {
-  hand::Posture posture;
-  geometry::Rigid3 product_from_hand;
-};
 
 /// Contact and friction of a hand and a product in one state, in generalised coordinates.
 ///

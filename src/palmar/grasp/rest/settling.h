@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "palmar/core/progress.h"
+#include "palmar/grasp/equilibrium/thumb_meeting.h"
 #include "palmar/grasp/rest/balance.h"
 #include "palmar/grasp/rest/fingertip_closing.h"
 #include "palmar/grasp/rest/grip_effort.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
-#include "palmar/grasp/rest/thumb_meeting.h"
 
 namespace palmar::grasp {
 

@@ -6,7 +6,7 @@
 
 #include "palmar/contact/refine/refined_contact.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
-#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/grasp/rest/other_grip.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/study/assessment/held_torque.h"

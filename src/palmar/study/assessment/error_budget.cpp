@@ -12,7 +12,7 @@
 #include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/core/error.h"
-#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/hand/skin/skinning.h"
 
 namespace palmar::study {

@@ -7,7 +7,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/text.h"
 #include "palmar/formats/text_scan.h"
-#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/grasp/task_force.h"
 
 namespace palmar::workflow {

@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/records/assessment/assessment_json.h"
 #include "palmar/workflow/assess.h"
 #include "palmar/workflow/hand/workflow_test_hand.h"

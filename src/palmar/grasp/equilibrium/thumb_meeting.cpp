@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/rest/thumb_meeting.h"
+#include "palmar/grasp/equilibrium/thumb_meeting.h"
 
 #include <algorithm>
 #include <cmath>

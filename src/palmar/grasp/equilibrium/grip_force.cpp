@@ -1,6 +1,6 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/rest/grip_force.h"
+#include "palmar/grasp/equilibrium/grip_force.h"
 
 #include <array>
 #include <cmath>

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/power/finger_cones.h"
-#include "palmar/grasp/rest/grip_mechanics.h"
 
 namespace palmar::grasp {
 

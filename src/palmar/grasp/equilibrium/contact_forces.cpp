@@ -1,0 +1,217 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/equilibrium/contact_forces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "palmar/contact/contact_normals.h"
+#include "palmar/core/enum_index.h"
+#include "palmar/hand/skin/skinning.h"
+
+namespace palmar::grasp {
+namespace {
+
+constexpr double kPower = 2.0;       // of depth, with which forces grow
+constexpr double kLeastDepth = 0.3;  // mm; shallower contacts count as that deep
+constexpr double kTurn = 1e-3;       // rad; of the differences
+constexpr double kStick = 0.75;      // 3/4 mu d: where friction turns from sticking to slipping
+
+/// What one region of the skin carries.
+struct RegionSum {
+  double force = 0.0;                       ///< N
+  double work = 0.0;                        ///< force times depth, N mm
+  double depth = 0.0;                       ///< largest, mm
+  GripVector opening = GripVector::Zero();  ///< force times change of the gaps, N per unit
+};
+
+}  // namespace
+
+ContactForces::ContactForces(const contact::PreparedHand& hand, const product::Product& product,
+                             const contact::ContactOptions& options, double friction,
+                             const GripState& start)
+    : hand_(&hand), product_(&product), friction_(friction), solver_(hand, options) {
+  const hand::Hand& h = hand.hand();
+  for (int j = 0; j < kGripJoints; ++j) {
+    is_moved_[j].assign(h.skin.vertices.size(), 0);
+    const hand::JointId id = grip_joint_id(j);
+    for (const hand::JointWeights& weights : h.weights) {
+      if (weights.joint != id) continue;
+      for (const int v : weights.vertex) is_moved_[j][v] = 1;
+    }
+    // The correction of the thumb's ball goes with the CMC joint.
+    if (id != hand::JointId::kThumbCmc) continue;
+    for (const int v : h.thumb_ball.vertex) is_moved_[j][v] = 1;
+  }
+  anchor_ = hand::pose_skin(h, start.posture);
+  for (Vec3& point : anchor_) point = start.product_from_hand * point;
+}
+
+ContactForces::Column ContactForces::column(const hand::Posture& posture, int joint,
+                                            const std::vector<int>& vertices) const {
+  Column result;
+  std::vector<int> moved;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    if (is_moved_[joint][vertices[k]] == 0) continue;
+    result.row.push_back(static_cast<int>(k));
+    moved.push_back(vertices[k]);
+  }
+  if (moved.empty()) return result;
+  hand::Posture turned = posture;
+  turned[grip_dof(joint)] += kTurn;
+  result.speed = hand::pose_skin_vertices(hand_->hand(), turned, moved);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    result.speed[i] = (result.speed[i] - posed_[moved[i]]) / kTurn;
+  }
+  return result;
+}
+
+/// Forces of skin on skin, and how they stiffen the angles.
+void ContactForces::add_touches(const hand::Posture& posture) {
+  const std::vector<contact::SkinTouch>& touches = contact_.skin_touch;
+  if (touches.empty()) return;
+  constexpr std::size_t kCorners = 4;
+  std::vector<int> corners;
+  std::array<double, hand::kRegionCount> depth;
+  depth.fill(kLeastDepth);
+  for (const contact::SkinTouch& touch : touches) {
+    const contact::SkinMeeting& at = touch.meeting;
+    corners.insert(corners.end(), {at.vertex, at.on[0], at.on[1], at.on[2]});
+    double& d = depth[index_of(hand_->hand().region[at.vertex])];
+    d = std::max(d, -at.distance);
+  }
+  std::vector<GripVector> opening(touches.size(), GripVector::Zero());
+  for (int j = 0; j < kGripJoints; ++j) {
+    const Column one = column(posture, j, corners);
+    for (std::size_t i = 0; i < one.row.size(); ++i) {
+      const std::size_t k = static_cast<std::size_t>(one.row[i]) / kCorners;
+      const std::size_t corner = static_cast<std::size_t>(one.row[i]) % kCorners;
+      const contact::SkinMeeting& at = touches[k].meeting;
+      const double weight = corner == 0 ? 1.0 : -at.weight[corner - 1];
+      opening[k][j] += weight * one.speed[i].dot(hand_from_product_ * at.normal);
+    }
+    is_loaded_[j] = is_loaded_[j] || !one.row.empty();
+  }
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    const double force = touches[k].force;
+    const double stiff =
+        kPower * force / depth[index_of(hand_->hand().region[touches[k].meeting.vertex])];
+    force_ += force * opening[k];
+    stiffness_ += stiff * opening[k] * opening[k].transpose();
+  }
+}
+
+bool ContactForces::look(const GripState& state, double accuracy) {
+  const hand::Hand& hand = hand_->hand();
+  posed_ = hand::pose_skin(hand, state.posture);
+  solver_.solve_forces(posed_, state.product_from_hand, *product_->distance, accuracy, contact_);
+  fallbacks_ += contact_.fallbacks;
+  force_.setZero();
+  rate_.setZero();
+  stiffness_.setZero();
+  is_loaded_.fill(false);
+  pull_.clear();
+  friction_use_ = 0.0;
+  grip_ = {};
+  if (contact_.status == contact::ContactStatus::kNotConverged) return false;
+  loaded_ = contact::loaded_vertices(contact_);
+  if (loaded_.empty()) return true;
+  hand_from_product_ = state.product_from_hand.rotation.conjugate();
+
+  std::vector<Vec3> normal = contact::contact_normals(contact_, *product_->distance, loaded_);
+  std::vector<Vec3> pressed(loaded_.size());
+  std::array<RegionSum, hand::kRegionCount> region;
+  double sum = 0.0;
+  centre_ = Vec3::Zero();
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const int v = loaded_[k];
+    const double p = contact_.force[v];
+    normal[k] = hand_from_product_ * normal[k];
+    pressed[k] = -p * normal[k];
+    sum += p;
+    centre_ += p * posed_[v];
+    RegionSum& r = region[index_of(hand.region[v])];
+    const double depth = std::max(kLeastDepth, -solver_.skin().sample[v].distance);
+    r.force += p;
+    r.work += p * depth;
+    r.depth = std::max(r.depth, depth);
+  }
+  centre_ /= sum;
+  grip_ = grip_force(pressed);
+
+  // Motions of each loaded vertex over the product, per coordinate.
+  std::vector<std::vector<std::pair<int, Vec3>>> motion(loaded_.size());
+  for (int j = 0; j < kGripJoints; ++j) {
+    const Column one = column(state.posture, j, loaded_);
+    for (std::size_t i = 0; i < one.row.size(); ++i) {
+      motion[one.row[i]].emplace_back(j, one.speed[i]);
+    }
+    is_loaded_[j] = !one.row.empty();
+  }
+
+  double spread = 0.0, rubbing = 0.0;
+  GripVector across = GripVector::Zero();  // of the grip force, without the coherent part
+  pull_.reserve(loaded_.size());
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const int v = loaded_[k];
+    const double p = contact_.force[v];
+    const Vec3& n = normal[k];
+    const Vec3 x = posed_[v] - centre_;
+    spread += p * x.squaredNorm();
+    auto& moves = motion[k];
+    for (int c = 0; c < 3; ++c) {
+      moves.emplace_back(kGripJoints + c, -Vec3::Unit(c));
+      moves.emplace_back(kGripJoints + 3 + c, -Vec3::Unit(c).cross(x));
+    }
+    RegionSum& r = region[index_of(hand.region[v])];
+    const double stiff = kPower * p / r.depth;
+    // Tangential way since the start, of the skin over the product.
+    Vec3 way = hand_from_product_ * (contact_.undeformed[v] - anchor_[v]);
+    way -= n * n.dot(way);
+    const double room = std::hypot(way.norm(), kStick * friction_ * r.work / r.force);
+    const double drag = friction_ > 0.0 ? friction_ * p / room : 0.0;
+    const Vec3 pull = -drag * way;
+    pull_.push_back(pull);
+    rubbing += pull.norm();
+    const Vec3 total = p * n + pull;  // of the product on the skin
+    const Vec3 gain = stiff * (n + pull / p);
+    // The normal force's share in the grip force.
+    const double share = 0.5 * std::abs(n.dot(grip_.across));
+    for (const auto& [a, speed] : moves) {
+      force_[a] += total.dot(speed);
+      r.opening[a] += p * n.dot(speed);
+      across[a] -= stiff * share * n.dot(speed);
+    }
+    for (const auto& [b, vb] : moves) {
+      const double normal_b = n.dot(vb);
+      Vec3 along = vb - normal_b * n;
+      along -= way * (way.dot(along) / (room * room));
+      const Vec3 change = normal_b * gain + drag * along;
+      for (const auto& [a, va] : moves) stiffness_(a, b) += change.dot(va);
+    }
+  }
+  // Skin that a region presses together stiffens together.
+  rate_ = across;
+  for (const RegionSum& r : region) {
+    if (!(r.force > 0.0)) continue;
+    const double more = kPower * (r.force / r.work - 1.0 / r.depth);
+    stiffness_ += more / r.force * r.opening * r.opening.transpose();
+    rate_ -= more * (grip_.force / grip_.sum_of_normals) * r.opening;
+  }
+  add_touches(state.posture);
+  arm_ = std::max(1.0, std::sqrt(spread / sum));
+  friction_use_ = friction_ > 0.0 ? rubbing / (friction_ * sum) : 0.0;
+  return true;
+}
+
+std::vector<Vec3> ContactForces::friction_force() const {
+  std::vector<Vec3> result(contact_.force.size(), Vec3::Zero());
+  const Quat product_from_hand = hand_from_product_.conjugate();
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    result[loaded_[k]] = product_from_hand * -pull_[k];
+  }
+  return result;
+}
+
+}  // namespace palmar::grasp

@@ -1,0 +1,89 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "palmar/contact/prepared/contact_solver.h"
+#include "palmar/grasp/equilibrium/coordinates.h"
+#include "palmar/grasp/equilibrium/grip_force.h"
+#include "palmar/product/product.h"
+
+namespace palmar::grasp {
+
+/// Contact and friction of a hand and a product in one state, in generalised coordinates x.
+///
+/// With the tissue's energy W of the gaps g(x), the contact's generalised forces are
+///
+///     -dW/dx = sum_v p_v dg_v/dx
+///
+/// p_v from the contact solver. Skin on skin of the same hand adds f_k dg_k/dx and does nothing to
+/// the product.
+///
+/// Friction: skin that has gone a way s over the product since it was taken pulls back with
+///
+///     t = mu p s / sqrt(|s|^2 + e^2),   e = 3/4 mu d
+///
+/// d the mean depth of the region's contact: for small s two thirds of the normal stiffness 2 p / d
+/// of tissue whose force grows with the square of its depth (Mindlin 1949, nu = 0.5), and never
+/// more than mu p. The root in place of a bound at which sticking turns into slip is ours: it makes
+/// the force smooth.
+///
+/// Stiffness: that of forces p_v which grow with the square of their own depth, and of a region's
+/// sum with the square of its mean depth; exact derivatives differ by a sixth. It steers a search
+/// that learns the rest.
+class ContactForces {
+ public:
+  /// Keeps references; skin sticks where it is in `start`.
+  ContactForces(const contact::PreparedHand& hand, const product::Product& product,
+                const contact::ContactOptions& options, double friction, const GripState& start);
+
+  /// Solves the contact of a state, to `accuracy` of its forces, and fills what follows. False if
+  /// it can't be solved.
+  bool look(const GripState& state, double accuracy);
+
+  const contact::ContactFallbacks& fallbacks() const { return fallbacks_; }
+  const GripVector& force() const { return force_; }  ///< on the coordinates, N and N mm
+  /// Forces that coordinates (columns) take from coordinates (rows) per mm and rad.
+  const GripMatrix& stiffness() const { return stiffness_; }
+  const Squeeze& grip() const { return grip_; }
+  const GripVector& squeeze_rate() const { return rate_; }  ///< of the grip force, N per mm and rad
+  /// Of the contact alone, without friction, N mm: what muscles are judged by.
+  const std::array<bool, kGripJoints>& is_loaded() const { return is_loaded_; }
+  const Vec3& centre() const { return centre_; }  ///< of the normal forces, hand frame, mm
+  double arm() const { return arm_; }  ///< root mean square distance of forces from it, mm
+  double friction_use() const { return friction_use_; }
+  /// Of the skin on the product, per skin vertex, product frame, N.
+  std::vector<Vec3> friction_force() const;
+
+ private:
+  /// d(posed vertex)/d(joint), hand frame, of those vertices that the joint moves.
+  struct Column {
+    std::vector<int> row;     ///< index into the vertices
+    std::vector<Vec3> speed;  ///< mm/rad
+  };
+  Column column(const hand::Posture& posture, int joint, const std::vector<int>& vertices) const;
+  void add_touches(const hand::Posture& posture);
+
+  const contact::PreparedHand* hand_;
+  const product::Product* product_;
+  double friction_ = 0.0;
+  contact::ContactSolver::Impl solver_;
+  contact::ContactResult contact_;
+  contact::ContactFallbacks fallbacks_;
+  std::vector<Vec3> posed_;
+  std::array<std::vector<char>, kGripJoints> is_moved_;  ///< per joint and skin vertex
+  std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm
+  std::vector<int> loaded_;
+  std::vector<Vec3> pull_;  ///< friction on the skin, per loaded vertex, hand frame, N
+  Quat hand_from_product_;
+  GripVector force_, rate_;
+  GripMatrix stiffness_;
+  std::array<bool, kGripJoints> is_loaded_{};
+  Vec3 centre_ = Vec3::Zero();
+  double arm_ = 1.0, friction_use_ = 0.0;
+  Squeeze grip_;
+};
+
+}  // namespace palmar::grasp

@@ -1,0 +1,140 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+//
+// The template hand holds a bar with least effort (grasp/equilibrium/least_effort.h).
+#include "palmar/grasp/equilibrium/least_effort.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "palmar/contact/contact_normals.h"
+#include "palmar/grasp/find/find_grasp.h"
+#include "palmar/hand/skin/skinning.h"
+#include "palmar/product/primitives.h"
+#include "template_fixture.h"
+
+namespace palmar::tests {
+namespace {
+
+class LeastEffort : public TemplateTest {
+ protected:
+  static const contact::PreparedHand& prepared() {
+    static const contact::PreparedHand made(std::make_shared<const hand::Hand>(hand()));
+    return made;
+  }
+  static const product::Product& bar() {
+    static const product::Product made =
+        product::make_cylinder_product({.diameter = 48.0, .length = 150.0});
+    return made;
+  }
+  static const grasp::GripState& closed() {
+    static const grasp::GripState made = [] {
+      const grasp::Grasp grasp = grasp::close_power_grasp(hand(), bar());
+      return grasp::GripState{grasp.posture, grasp.product_from_hand};
+    }();
+    return made;
+  }
+  static grasp::EffortRest rest(double grip_force, const contact::Wrench& load = {}) {
+    return grasp::rest_with_least_effort(prepared(), bar(), closed(),
+                                         {.grip_force = grip_force, .load = load}, {});
+  }
+};
+
+/// What pushes the product, added up anew from the solved contact and the friction: N, and N mm
+/// about the origin; product frame.
+contact::Wrench wrench_on_bar(const contact::PreparedHand& prepared, const product::Product& bar,
+                              const grasp::EffortRest& rest) {
+  const contact::ContactResult contact =
+      contact::solve_hand_contact(prepared, hand::pose_skin(prepared.hand(), rest.state.posture),
+                                  rest.state.product_from_hand, *bar.distance);
+  const std::vector<int> loaded = contact::loaded_vertices(contact);
+  const std::vector<Vec3> normals = contact::contact_normals(contact, *bar.distance, loaded);
+  contact::Wrench sum;
+  for (std::size_t k = 0; k < loaded.size(); ++k) {
+    const int v = loaded[k];
+    const Vec3 force = rest.friction_force[v] - contact.force[v] * normals[k];
+    sum.force += force;
+    sum.moment += contact.undeformed[v].cross(force);
+  }
+  return sum;
+}
+
+TEST_F(LeastEffort, MeritFallsInEveryStepAndForcesAddUpToNothing) {
+  for (const double grip_force : {107.0}) {
+    SCOPED_TRACE(grip_force);
+    const grasp::EffortRest found = rest(grip_force);
+    ASSERT_EQ(found.status, grasp::EffortRest::Status::kSolved);
+    for (std::size_t i = 1; i < found.merit.size(); ++i) {
+      EXPECT_LT(found.merit[i], found.merit[i - 1]) << i;
+    }
+    EXPECT_NEAR(found.grip.force, grip_force, 0.005 * grip_force);
+    EXPECT_GE(found.activation.minCoeff(), 0.0);
+    EXPECT_LE(found.activation.maxCoeff(), 1.0);
+    EXPECT_LT(found.missing.lpNorm<Eigen::Infinity>(), 0.02 * found.strongest_moment);
+    const contact::Wrench left = wrench_on_bar(prepared(), bar(), found);
+    EXPECT_LT(left.force.norm(), 0.01 * grip_force);
+    EXPECT_LT(left.moment.norm(), 0.01 * grip_force * found.arm);
+  }
+}
+
+TEST_F(LeastEffort, FirmerGripsTakeMoreEffortAndTouchMore) {
+  double effort = 0.0, sum = 0.0;
+  for (const double grip_force : {30.0, 90.0}) {
+    const grasp::EffortRest found = rest(grip_force);
+    EXPECT_GT(found.activation.array().cube().sum(), effort) << grip_force;
+    EXPECT_GT(found.grip.sum_of_normals, sum) << grip_force;
+    effort = found.activation.array().cube().sum();
+    sum = found.grip.sum_of_normals;
+  }
+}
+
+TEST_F(LeastEffort, CarriesALoadThatFrictionCanHold) {
+  const Vec3 weight(0.0, 0.0, -10.0);  // N, along the bar
+  const grasp::EffortRest found = rest(60.0, {.force = weight});
+  ASSERT_EQ(found.status, grasp::EffortRest::Status::kSolved);
+  const contact::Wrench held = wrench_on_bar(prepared(), bar(), found);
+  EXPECT_LT((held.force + weight).norm(), 0.6);
+}
+
+TEST_F(LeastEffort, SameInputGivesTheSameRest) {
+  const grasp::EffortRest first = rest(60.0), second = rest(60.0);
+  EXPECT_EQ(first.merit, second.merit);
+  EXPECT_EQ(first.state.posture.angle, second.state.posture.angle);
+  EXPECT_EQ(first.activation, second.activation);
+}
+
+// Without friction the contact has an energy: round a small rectangle of two coordinates its forces
+// do no work, against what they do along one side.
+TEST_F(LeastEffort, ContactForcesDoNoWorkRoundAClosedPath) {
+  grasp::ContactForces forces(prepared(), bar(), {}, 0.0, closed());
+  const auto force_at = [&](const grasp::GripVector& way) {
+    EXPECT_TRUE(forces.look(grasp::moved(closed(), way, Vec3::Zero()), 1e-6));
+    grasp::GripVector force = forces.force();
+    force.tail<3>() += forces.centre().cross(Vec3(force.segment<3>(grasp::kGripJoints)));
+    return force;
+  };
+  constexpr int kMiddleMcp = 8, kMiddlePip = 10, kShift = grasp::kGripJoints + 1;
+  for (const auto& [a, b, step_a, step_b] :
+       {std::tuple{kMiddleMcp, kMiddlePip, 0.02, 0.02}, {kMiddlePip, kShift, 0.02, 0.5}}) {
+    // Simpson's rule along each side.
+    const auto work = [&](grasp::GripVector from, int coordinate, double step) {
+      double sum = 0.0;
+      for (const double weight : {1.0, 4.0, 1.0}) {
+        sum += weight / 6.0 * force_at(from)[coordinate] * step;
+        from[coordinate] += 0.5 * step;
+      }
+      return sum;
+    };
+    grasp::GripVector at_a = grasp::GripVector::Zero(), at_b = at_a;
+    at_a[a] = step_a;
+    at_b[b] = step_b;
+    const double there = work(grasp::GripVector::Zero(), a, step_a) + work(at_a, b, step_b);
+    const double back = work(grasp::GripVector::Zero(), b, step_b) + work(at_b, a, step_a);
+    EXPECT_NEAR(there, back, 0.01 * (std::abs(there) + std::abs(back))) << a << " " << b;
+  }
+}
+
+}  // namespace
+}  // namespace palmar::tests
