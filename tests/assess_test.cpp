@@ -314,7 +314,7 @@ TEST(Assess, ForceIsHomogeneousInTheModuliOfAllRegions) {
   EXPECT_NEAR(contact.at("band").at("force_per_modulus_n").get<double>(), force, 1e-4 * force);
 }
 
-TEST(Assess, OneGivenModulusLeavesNoRange) {
+TEST(Assess, ThoroughOneGivenModulusLeavesNoRange) {
   const Json contact = assessed("--shear-modulus-kpa 40").at("contact");
   const Json& force = contact.at("band").at("force_n");
   const double nominal = contact.at("force_n");
@@ -322,7 +322,7 @@ TEST(Assess, OneGivenModulusLeavesNoRange) {
   EXPECT_NEAR(force.at("high").get<double>(), nominal, 1e-3 * nominal);
 }
 
-TEST(Assess, BandCanBeLeftOut) {
+TEST(Assess, ThoroughBandCanBeLeftOut) {
   const Json one = assessed("--no-error-band");
   EXPECT_TRUE(one.at("contact").at("band").is_null());
   EXPECT_TRUE(one.at("contact").at("regions").at(0).at("band").is_null());

@@ -215,7 +215,7 @@ TEST_F(StudyCommand, TwoProcessesOnOneFileAreRefused) {
   EXPECT_EQ(bytes("busy.palmar"), bytes("whole.palmar")) << "the first one went on undisturbed";
 }
 
-TEST_F(StudyCommand, ChangedInputsAreNamed) {
+TEST_F(StudyCommand, ThoroughChangedInputsAreNamed) {
   run_killed("study run study.toml --quiet --out changed.palmar", "KILL", 0.3);
   for (double seconds = 0.5; !fs::exists(folder_ + "/changed.palmar"); seconds *= 1.5) {
     ASSERT_LT(seconds, 60.0);

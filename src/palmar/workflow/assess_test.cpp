@@ -90,7 +90,7 @@ TEST(AssessProducts, ForcesOnAHeldProductAddUpToNothing) {
   EXPECT_LT(sum.norm(), 0.4);  // N; 1 % of the grip force counts as balanced
 }
 
-TEST(AssessProducts, DesignsAreComparedAtOneGripForce) {
+TEST(AssessProducts, ThoroughDesignsAreComparedAtOneGripForce) {
   product::PrismProductOptions prism;
   prism.width = 40.0;
   prism.depth = 30.0;

@@ -37,7 +37,7 @@ TEST(CapacityOfGrip, FrictionCarriesNoMoreThanItsShareOfTheNormalForces) {
   EXPECT_GT(capacity.torque, 0.1 * kRadius * most);
 }
 
-TEST(CapacityOfGrip, WeakerPeopleReachLessForceAndSlipperyProductsLessTorque) {
+TEST(CapacityOfGrip, ThoroughWeakerPeopleReachLessForceAndSlipperyProductsLessTorque) {
   CapacityRequest request = capacity_request(handle(44.0));
   request.strength = 400.0;
   const Capacity strong = capacity_of_grip(request);
