@@ -6,8 +6,10 @@
 #include "palmar/contact/bone/contact_test_skin.h"
 #include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/contact/contact.h"
+#include "palmar/contact/contact_normals.h"
 #include "palmar/contact/contact_test_hand.h"
 #include "palmar/contact/hand_family.h"
+#include "palmar/contact/prepared/contact_solver.h"
 #include "palmar/core/error.h"
 #include "palmar/hand/tissue.h"
 
@@ -77,6 +79,35 @@ TEST(HandOnBone, StiffensFasterThanHertzAndHoldsTheContactEquations) {
     }
   }
   EXPECT_NEAR(two.total.force_vector.z(), -two.total.force, 1e-9);
+}
+
+TEST(HandOnBone, StiffnessIsTheSlopeOfTheForces) {
+  const PreparedHand hand(usual_tip(), on_bone_model(), compliance_of_tip());
+  ContactSolver::Impl solver(hand, {});
+  const contact_test::HalfSpace plate(0.0);
+  ContactResult result;
+  const auto press = [&](double depth) {
+    geometry::Rigid3 placed;
+    placed.rotation = Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX()));
+    placed.translation = Vec3(0.0, 0.0, 9.0 - depth);
+    solver.solve_forces(usual_tip()->skin.vertices, placed, plate, 1e-9, result);
+    return result.total.force;
+  };
+  constexpr double kStep = 1e-3;  // mm
+  const double slope = (press(1.5 + kStep) - press(1.5 - kStep)) / (2.0 * kStep);
+  press(1.5);
+  const std::vector<int> loaded = loaded_vertices(result);
+  Eigen::MatrixXd change(loaded.size(), 2);
+  for (std::size_t k = 0; k < loaded.size(); ++k) {
+    change(static_cast<Eigen::Index>(k), 0) = 1.0;
+    change(static_cast<Eigen::Index>(k), 1) = usual_tip()->skin.vertices[loaded[k]].x();
+  }
+  const auto lost = solver.stiffness_times(change, 1e-8);
+  ASSERT_TRUE(lost);
+  EXPECT_NEAR(lost->col(0).sum(), slope, 0.002 * slope);  // skin joins and leaves the contact
+  const Eigen::Matrix2d both = change.transpose() * *lost;
+  EXPECT_NEAR(both(0, 1), both(1, 0), 1e-5 * std::sqrt(both(0, 0) * both(1, 1)));
+  EXPECT_GT(both(1, 1), 0.0);
 }
 
 TEST(HandOnBone, TissueThatIsPressedAwayBulgesBesideTheContact) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What ContactSolver does where the tissue lies on bone (block_energy.h).
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -306,6 +307,98 @@ ContactSolver::Impl::force_per_modulus_on_bone(const SkinOnProduct& skin, const 
     result[region_of(j)] -= both;
   }
   return result;
+}
+
+/// With t = tau p and v = C t = u / tau the conditions of a state are tau v + d = 0 on loaded skin
+/// and chi_b' = W_b in every block (block_energy.h). Linear in dp and dlambda, with r_b the change
+/// of t and U_b that of u with lambda_b at given forces, M the second derivatives of U* there:
+///
+///     tau C tau dp + U dlambda = -dd,     U' dp + M dlambda = 0.
+std::optional<Eigen::MatrixXd> ContactSolver::Impl::stiffness_times(const Eigen::MatrixXd& change,
+                                                                    double accuracy) {
+  if (!prepared->is_on_bone() || !options.coatings.empty() || !on_self_->is_empty()) return {};
+  const SkinLoad& load = last_;
+  std::vector<std::size_t> row;  // of the system, per loaded vertex
+  std::vector<char> in_contact(load.vertex.size(), 0);
+  for (std::size_t k = 0; k < load.vertex.size(); ++k) {
+    if (!(load.force[k] > 0.0)) continue;
+    in_contact[k] = 1;
+    row.push_back(k);
+  }
+  const auto count = static_cast<Eigen::Index>(row.size());
+  if (count == 0 || count != change.rows()) return {};
+  Eigen::VectorXd root(count), force(count), v(count);  // root: 1 / tau
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const std::size_t k = row[static_cast<std::size_t>(i)];
+    root[i] = load.root_modulus[k];
+    force[i] = load.force[k];
+    v[i] = -skin_.sample[load.vertex[k]].distance * root[i];
+  }
+  std::vector<double> full(load.vertex.size(), 0.0);
+  const auto spread = [&](const Eigen::VectorXd& x) {
+    for (Eigen::Index i = 0; i < count; ++i) full[row[static_cast<std::size_t>(i)]] = x[i];
+  };
+  const auto gathered = [&](const std::vector<double>& x) {
+    Eigen::VectorXd result(count);
+    for (Eigen::Index i = 0; i < count; ++i) result[i] = x[row[static_cast<std::size_t>(i)]];
+    return result;
+  };
+  const auto solved = [&](const Eigen::VectorXd& right) -> std::optional<Eigen::VectorXd> {
+    spread(right);
+    const auto x = system.solve_on(in_contact, full, accuracy);
+    return x ? std::optional(gathered(*x)) : std::nullopt;
+  };
+
+  Eigen::MatrixXd y(count, change.cols());  // tau dp with the moduli held
+  for (Eigen::Index c = 0; c < change.cols(); ++c) {
+    const auto x = solved(root.cwiseProduct(change.col(c)));
+    if (!x) return {};
+    y.col(c) = *x;
+  }
+
+  // Blocks that stiffen.
+  std::vector<std::size_t> block;
+  for (std::size_t b = 0; b < stiffening_.size(); ++b) {
+    if (!options.shear_modulus && stiffening_[b] > 1.0 + kSteadyStiffening) block.push_back(b);
+  }
+  const auto blocks = static_cast<Eigen::Index>(block.size());
+  Eigen::MatrixXd rate = Eigen::MatrixXd::Zero(count, blocks);  // of tau
+  Eigen::VectorXd bend = Eigen::VectorXd::Zero(blocks);         // sum of its second rates times p v
+  const BoneTissueBlocks& tissue = prepared->bone;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const int vertex = load.vertex[row[static_cast<std::size_t>(i)]];
+    const double g0 = std::sqrt(tissue.g0[index_of(load.level)][vertex]);
+    for (std::size_t s = tissue.begin[vertex]; s < tissue.begin[vertex + 1]; ++s) {
+      const auto [b, share] = tissue.share[s];
+      const auto at = std::find(block.begin(), block.end(), static_cast<std::size_t>(b));
+      if (at == block.end()) continue;
+      const double lambda = stiffening_[b];
+      const double first = -0.5 * share / (lambda * std::sqrt(lambda) * g0);
+      rate(i, at - block.begin()) += first;
+      bend[at - block.begin()] += -1.5 * first / lambda * force[i] * v[i];
+    }
+  }
+  Eigen::MatrixXd moved(count, blocks), followed(count, blocks);  // U / tau, C^-1 of it
+  Eigen::MatrixXd second = bend.asDiagonal();                     // M
+  const Eigen::MatrixXd r = force.asDiagonal() * rate;
+  for (Eigen::Index b = 0; b < blocks; ++b) {
+    spread(r.col(b));
+    const Eigen::VectorXd own = rate.col(b).cwiseProduct(v).cwiseProduct(root);
+    const Eigen::VectorXd response = gathered(system.times(full));
+    const auto x = solved(own);
+    if (!x) return {};
+    moved.col(b) = own + response;
+    followed.col(b) = *x + r.col(b);
+    second.col(b) += r.transpose() * response;
+    const double K = tissue.per_energy[index_of(load.level)][block[static_cast<std::size_t>(b)]];
+    second(b, b) += 2.0 * (stiffening_[block[static_cast<std::size_t>(b)]] - 1.0) / K;
+  }
+  if (blocks > 0) {
+    const Eigen::MatrixXd left = second - moved.transpose() * followed;
+    const Eigen::MatrixXd lambda = left.ldlt().solve(moved.transpose() * y);
+    y += followed * lambda;
+  }
+  return root.asDiagonal() * y;
 }
 
 }  // namespace palmar::contact

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
@@ -38,6 +39,13 @@ struct ContactSolver::Impl {
   /// forces with them.
   void solve_forces(const std::vector<Vec3>& posed_skin, const geometry::Rigid3& product_from_hand,
                     const geometry::DistanceField& product, double accuracy, ContactResult& result);
+
+  /// How the forces of the last solve_forces() change with the distances of loaded skin to the
+  /// product: -dp/dd, N/mm, symmetric and positive definite, applied to `change` [mm], a row for
+  /// each vertex of loaded_vertices(). The set of loaded skin and the directions in which it is
+  /// pressed are held, moduli follow (block_energy.h). `accuracy`: relative. Nothing where the
+  /// tissue isn't on bone, or with coatings or skin on skin in touch.
+  std::optional<Eigen::MatrixXd> stiffness_times(const Eigen::MatrixXd& change, double accuracy);
 
   const PreparedHand* hand;
   const PreparedHand::Impl* prepared;
@@ -120,6 +128,7 @@ struct ContactSolver::Impl {
   const std::vector<Vec3>* undeformed_ = nullptr;  ///< of the call under way
   BlockStiffening stiffening_ = no_stiffening();   ///< after the last solution on bone
   ModulusSearch search_;
+  SkinLoad last_;             ///< of the last solve_forces()
   bool forces_only_ = false;  ///< the call under way is solve_forces()
   double forces_accuracy_ = 0.0;
   SkinSampler sampler_;

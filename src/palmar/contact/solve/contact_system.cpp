@@ -449,8 +449,15 @@ ContactSystem::Outcome ContactSystem::solve(const std::vector<double>& b,
   return outcome;
 }
 
+std::vector<double> ContactSystem::times(const std::vector<double>& x) const {
+  std::vector<double> result;
+  multiply_all(x, result);
+  return result;
+}
+
 std::optional<std::vector<double>> ContactSystem::solve_on(const std::vector<char>& in_contact,
-                                                           const std::vector<double>& right) {
+                                                           const std::vector<double>& right,
+                                                           double accuracy) {
   if (!set_contact(in_contact)) return std::nullopt;
   const auto m = static_cast<std::size_t>(size());
   std::vector<double> x(m, 0.0);
@@ -464,9 +471,9 @@ std::optional<std::vector<double>> ContactSystem::solve_on(const std::vector<cha
       r -= right[i];
       error = std::max(error, std::abs(r));
     }
-    if (error <= kBestAccuracy * scale) break;
+    if (error <= accuracy * scale) break;
     int iterations = 0;
-    if (!correct(kInner, residual, x, iterations)) return std::nullopt;
+    if (!correct(std::max(kInner, kUnder * accuracy), residual, x, iterations)) return std::nullopt;
   }
   return x;
 }

@@ -62,10 +62,13 @@ class ContactSystem {
                 double accuracy = kBestAccuracy);
   static constexpr double kBestAccuracy = 1e-12;
 
-  /// x of A_FF x = right_F on the contact set F, zero elsewhere. Nothing if A_FF isn't positive
-  /// definite.
+  /// x of A_FF x = right_F on the contact set F, zero elsewhere, to `accuracy` of the largest
+  /// |right|. Nothing if A_FF isn't positive definite.
   std::optional<std::vector<double>> solve_on(const std::vector<char>& in_contact,
-                                              const std::vector<double>& right);
+                                              const std::vector<double>& right,
+                                              double accuracy = kBestAccuracy);
+  /// A x.
+  std::vector<double> times(const std::vector<double>& x) const;
 
   int size() const { return static_cast<int>(begin_.size()) - 1; }
   std::size_t entry_count() const { return column_.size(); }
