@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kPower = 2.0;       // of depth, with which forces grow
 constexpr double kLeastDepth = 0.3;  // mm; shallower contacts count as that deep
+constexpr double kRates = 1e-3;      // relative accuracy of derivatives
 constexpr double kTurn = 1e-3;       // rad; of the differences
 constexpr double kStick = 0.75;      // 3/4 mu d: where friction turns from sticking to slipping
 
@@ -110,6 +111,7 @@ bool ContactForces::look(const GripState& state, double accuracy) {
   force_.setZero();
   rate_.setZero();
   stiffness_.setZero();
+  drag_.setZero();
   is_loaded_.fill(false);
   pull_.clear();
   friction_use_ = 0.0;
@@ -119,7 +121,7 @@ bool ContactForces::look(const GripState& state, double accuracy) {
   if (loaded_.empty()) return true;
   hand_from_product_ = state.product_from_hand.rotation.conjugate();
 
-  std::vector<Vec3> normal = contact::contact_normals(contact_, *product_->distance, loaded_);
+  normal_ = contact::contact_normals(contact_, *product_->distance, loaded_);
   std::vector<Vec3> pressed(loaded_.size());
   std::array<RegionSum, hand::kRegionCount> region;
   double sum = 0.0;
@@ -127,8 +129,8 @@ bool ContactForces::look(const GripState& state, double accuracy) {
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
     const int v = loaded_[k];
     const double p = contact_.force[v];
-    normal[k] = hand_from_product_ * normal[k];
-    pressed[k] = -p * normal[k];
+    normal_[k] = hand_from_product_ * normal_[k];
+    pressed[k] = -p * normal_[k];
     sum += p;
     centre_ += p * posed_[v];
     RegionSum& r = region[index_of(hand.region[v])];
@@ -141,11 +143,11 @@ bool ContactForces::look(const GripState& state, double accuracy) {
   grip_ = grip_force(pressed);
 
   // Motions of each loaded vertex over the product, per coordinate.
-  std::vector<std::vector<std::pair<int, Vec3>>> motion(loaded_.size());
+  motion_.assign(loaded_.size(), {});
   for (int j = 0; j < kGripJoints; ++j) {
     const Column one = column(state.posture, j, loaded_);
     for (std::size_t i = 0; i < one.row.size(); ++i) {
-      motion[one.row[i]].emplace_back(j, one.speed[i]);
+      motion_[one.row[i]].emplace_back(j, one.speed[i]);
     }
     is_loaded_[j] = !one.row.empty();
   }
@@ -156,10 +158,10 @@ bool ContactForces::look(const GripState& state, double accuracy) {
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
     const int v = loaded_[k];
     const double p = contact_.force[v];
-    const Vec3& n = normal[k];
+    const Vec3& n = normal_[k];
     const Vec3 x = posed_[v] - centre_;
     spread += p * x.squaredNorm();
-    auto& moves = motion[k];
+    auto& moves = motion_[k];
     for (int c = 0; c < 3; ++c) {
       moves.emplace_back(kGripJoints + c, -Vec3::Unit(c));
       moves.emplace_back(kGripJoints + 3 + c, -Vec3::Unit(c).cross(x));
@@ -187,8 +189,10 @@ bool ContactForces::look(const GripState& state, double accuracy) {
       const double normal_b = n.dot(vb);
       Vec3 along = vb - normal_b * n;
       along -= way * (way.dot(along) / (room * room));
-      const Vec3 change = normal_b * gain + drag * along;
-      for (const auto& [a, va] : moves) stiffness_(a, b) += change.dot(va);
+      for (const auto& [a, va] : moves) {
+        stiffness_(a, b) += normal_b * gain.dot(va);
+        drag_(a, b) += drag * along.dot(va);
+      }
     }
   }
   // Skin that a region presses together stiffens together.
@@ -199,9 +203,32 @@ bool ContactForces::look(const GripState& state, double accuracy) {
     stiffness_ += more / r.force * r.opening * r.opening.transpose();
     rate_ -= more * (grip_.force / grip_.sum_of_normals) * r.opening;
   }
+  stiffness_ += drag_;
   add_touches(state.posture);
   arm_ = std::max(1.0, std::sqrt(spread / sum));
   friction_use_ = friction_ > 0.0 ? rubbing / (friction_ * sum) : 0.0;
+  return true;
+}
+
+bool ContactForces::differentiate() {
+  const auto count = static_cast<Eigen::Index>(loaded_.size());
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, kGripCoordinates>;
+  Rows opening = Rows::Zero(count, kGripCoordinates), pulled = opening;
+  Eigen::VectorXd share(count);  // of each normal force in the grip force
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Vec3& n = normal_[i];
+    share[k] = 0.5 * std::abs(n.dot(grip_.across));
+    const Vec3 along = n + pull_[i] / contact_.force[loaded_[i]];
+    for (const auto& [a, speed] : motion_[i]) {
+      opening(k, a) += n.dot(speed);
+      pulled(k, a) += along.dot(speed);
+    }
+  }
+  const auto lost = solver_.stiffness_times(opening, kRates);
+  if (!lost) return false;
+  stiffness_ = pulled.transpose() * *lost + drag_;
+  rate_ = -lost->transpose() * share;
   return true;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "palmar/contact/prepared/contact_solver.h"
@@ -31,8 +32,8 @@ namespace palmar::grasp {
 /// the force smooth.
 ///
 /// Stiffness: that of forces p_v which grow with the square of their own depth, and of a region's
-/// sum with the square of its mean depth; exact derivatives differ by a sixth. It steers a search
-/// that learns the rest.
+/// sum with the square of its mean depth, off by a sixth; or, at ten times the cost, the contact's
+/// own (differentiate()).
 class ContactForces {
  public:
   /// Keeps references; skin sticks where it is in `start`.
@@ -43,13 +44,18 @@ class ContactForces {
   /// it can't be solved.
   bool look(const GripState& state, double accuracy);
 
+  /// Stiffness and squeeze's rate of the state last looked at, with the forces' own derivatives in
+  /// place of what look() takes for them (ContactSolver::Impl::stiffness_times()). How normals
+  /// turn is left out: some per cent. False where the contact has none.
+  bool differentiate();
+
   const contact::ContactFallbacks& fallbacks() const { return fallbacks_; }
   const GripVector& force() const { return force_; }  ///< on the coordinates, N and N mm
   /// Forces that coordinates (columns) take from coordinates (rows) per mm and rad.
   const GripMatrix& stiffness() const { return stiffness_; }
   const Squeeze& grip() const { return grip_; }
   const GripVector& squeeze_rate() const { return rate_; }  ///< of the grip force, N per mm and rad
-  /// Of the contact alone, without friction, N mm: what muscles are judged by.
+  /// Whether skin that the angle moves is loaded.
   const std::array<bool, kGripJoints>& is_loaded() const { return is_loaded_; }
   const Vec3& centre() const { return centre_; }  ///< of the normal forces, hand frame, mm
   double arm() const { return arm_; }  ///< root mean square distance of forces from it, mm
@@ -76,10 +82,13 @@ class ContactForces {
   std::array<std::vector<char>, kGripJoints> is_moved_;  ///< per joint and skin vertex
   std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm
   std::vector<int> loaded_;
+  std::vector<Vec3> normal_;  ///< of the product, per loaded vertex, hand frame
+  /// Per loaded vertex: how coordinates move it over the product, mm per mm and rad.
+  std::vector<std::vector<std::pair<int, Vec3>>> motion_;
   std::vector<Vec3> pull_;  ///< friction on the skin, per loaded vertex, hand frame, N
   Quat hand_from_product_;
   GripVector force_, rate_;
-  GripMatrix stiffness_;
+  GripMatrix stiffness_, drag_;  ///< drag_: of stiffness_, friction at given normal forces
   std::array<bool, kGripJoints> is_loaded_{};
   Vec3 centre_ = Vec3::Zero();
   double arm_ = 1.0, friction_use_ = 0.0;

@@ -24,7 +24,7 @@ constexpr int kMostRefused = 10;     // steps one after the other
 constexpr double kLeastGain = 1e-3;  // of the merit: steps that promise less end it
 constexpr double kAccuracy = 1e-5;   // relative, of contact forces
 constexpr double kShiftStep = 0.03, kTurnStep = 1e-3;  // mm, rad; of differences
-constexpr int kMostDifferences = 6;
+constexpr int kMostDerivatives = 6;
 // Damping, of the spreads' own curvature: at first, of a correction, times which without solution.
 constexpr double kFirstDamping = 1.0, kBackDamping = 30.0, kNoStep = 8.0;
 // Share of the promised gain: less is corrected; less isn't taken.
@@ -260,19 +260,25 @@ void LeastEffort::learn(const Look& from, const Look& to, const GripVector& way)
   learnt_rate_ += (gained - (from.squeeze_rate + learnt_rate_).dot(way)) / size * scaled;
 }
 
-/// The contact's derivatives by differences. False if a state beside it has no solution.
+/// The contact's own derivatives at a state, by differences where it has none. False if a state
+/// beside it has no solution.
 bool LeastEffort::differentiate(const Look& at) {
-  GripMatrix stiffness;
-  GripVector rate;
-  for (int c = 0; c < kGripCoordinates; ++c) {
-    GripVector way = GripVector::Zero();
-    way[c] = c >= kGripJoints && c < kGripJoints + 3 ? kShiftStep : kTurnStep;
-    if (!forces_.look(moved(at.state, way, at.centre), kAccuracy)) return false;
-    GripVector force = forces_.force();
-    const Vec3 sum = force.segment<3>(kGripJoints);
-    force.tail<3>() += (forces_.centre() - at.centre).cross(sum);
-    stiffness.col(c) = (at.contact - force) / way[c];
-    rate[c] = (forces_.grip().force - at.grip.force) / way[c];
+  if (!forces_.look(at.state, kAccuracy)) return false;
+  GripMatrix stiffness = forces_.stiffness();
+  GripVector rate = forces_.squeeze_rate();
+  if (forces_.differentiate()) {
+    stiffness = forces_.stiffness();
+    rate = forces_.squeeze_rate();
+  } else {
+    for (int c = 0; c < kGripCoordinates; ++c) {
+      GripVector way = GripVector::Zero();
+      way[c] = c >= kGripJoints && c < kGripJoints + 3 ? kShiftStep : kTurnStep;
+      if (!forces_.look(moved(at.state, way, at.centre), kAccuracy)) return false;
+      GripVector force = forces_.force();
+      force.tail<3>() += (forces_.centre() - at.centre).cross(Vec3(force.segment<3>(kGripJoints)));
+      stiffness.col(c) = (at.contact - force) / way[c];
+      rate[c] = (forces_.grip().force - at.grip.force) / way[c];
+    }
   }
   learnt_ = stiffness - at.contact_stiffness;
   learnt_rate_ = rate - at.squeeze_rate;
@@ -320,7 +326,7 @@ EffortRest LeastEffort::run(const Progress& progress) {
   judge(now);
   rest.merit.push_back(now.merit());
   double damping = kFirstDamping;
-  int refused = 0, differences = 0;
+  int refused = 0, derivatives = 0;
   for (; rest.iterations < kMostTries && refused < kMostRefused; ++rest.iterations) {
     progress.throw_if_cancelled();
     const EffortSolution step = solve_effort(program(now, damping));
@@ -350,9 +356,9 @@ EffortRest LeastEffort::run(const Progress& progress) {
       rest.merit.push_back(now.merit());
       refused = 0;
     }
-    if (is_poor && !now.is_differentiated && differences < kMostDifferences) {
+    if (is_poor && !now.is_differentiated && derivatives < kMostDerivatives) {
       now.is_differentiated = true;
-      ++differences;
+      ++derivatives;
       if (differentiate(now)) damping = std::min(damping, kFirstDamping);
     }
   }
