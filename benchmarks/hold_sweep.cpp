@@ -29,6 +29,18 @@ int main(int argc, char** argv) {
   const double from = std::atof(argv[2]), to = std::atof(argv[3]), step = std::atof(argv[4]);
   const double force = argc > 5 ? std::atof(argv[5]) : 107.0;
   const std::string solver = argc > 6 ? argv[6] : "settling";
+  if (kind != "diameter" && kind != "length" && kind != "force") {
+    fmt::print(stderr, "KIND is \"{}\"; diameter, length or force is allowed\n", kind);
+    return 2;
+  }
+  if (solver != "settling" && solver != "least_effort") {
+    fmt::print(stderr, "SOLVER is \"{}\"; settling or least_effort is allowed\n", solver);
+    return 2;
+  }
+  if (!(from > 0.0 && to >= from && step > 0.0 && force > 0.0)) {
+    fmt::print(stderr, "FROM, STEP and FORCE_N have to be above 0, TO at least FROM\n");
+    return 2;
+  }
   workflow::HandChoice choice;
   const auto hand = workflow::load_hand(choice);
   const contact::PreparedHand prepared =
