@@ -12,6 +12,7 @@
 #include "palmar/contact/contact_normals.h"
 #include "palmar/grasp/find/find_grasp.h"
 #include "palmar/hand/skin/skinning.h"
+#include "palmar/hand/tendons/joint_limits.h"
 #include "palmar/product/primitives.h"
 #include "template_fixture.h"
 
@@ -62,21 +63,47 @@ contact::Wrench wrench_on_bar(const contact::PreparedHand& prepared, const produ
 }
 
 TEST_F(LeastEffort, MeritFallsInEveryStepAndForcesAddUpToNothing) {
-  for (const double grip_force : {107.0}) {
-    SCOPED_TRACE(grip_force);
-    const grasp::EffortRest found = rest(grip_force);
-    ASSERT_EQ(found.status, grasp::EffortRest::Status::kSolved);
-    for (std::size_t i = 1; i < found.merit.size(); ++i) {
-      EXPECT_LT(found.merit[i], found.merit[i - 1]) << i;
-    }
-    EXPECT_NEAR(found.grip.force, grip_force, 0.005 * grip_force);
-    EXPECT_GE(found.activation.minCoeff(), 0.0);
-    EXPECT_LE(found.activation.maxCoeff(), 1.0);
-    EXPECT_LT(found.missing.lpNorm<Eigen::Infinity>(), 0.02 * found.strongest_moment);
-    const contact::Wrench left = wrench_on_bar(prepared(), bar(), found);
-    EXPECT_LT(left.force.norm(), 0.01 * grip_force);
-    EXPECT_LT(left.moment.norm(), 0.01 * grip_force * found.arm);
+  constexpr double kGripForce = 107.0;  // N
+  const grasp::EffortRest found = rest(kGripForce);
+  ASSERT_EQ(found.status, grasp::EffortRest::Status::kSolved);
+  for (std::size_t i = 1; i < found.merit.size(); ++i) {
+    EXPECT_LT(found.merit[i], found.merit[i - 1]) << i;
   }
+  EXPECT_NEAR(found.grip.force, kGripForce, 0.005 * kGripForce);
+  EXPECT_GE(found.activation.minCoeff(), 0.0);
+  EXPECT_LE(found.activation.maxCoeff(), 1.0);
+  EXPECT_LT(found.missing.lpNorm<Eigen::Infinity>(), 0.02 * found.strongest_moment);
+  const contact::Wrench left = wrench_on_bar(prepared(), bar(), found);
+  EXPECT_LT(left.force.norm(), 0.01 * kGripForce);
+  EXPECT_LT(left.moment.norm(), 0.01 * kGripForce * found.arm);
+  // Ligaments keep joints near their ranges.
+  for (int j = 0; j < grasp::kGripJoints; ++j) {
+    const hand::JointDof& dof = hand().skeleton.dof(grasp::grip_dof(j));
+    EXPECT_GT(found.state.posture[dof.dof], dof.lower - 0.2) << name_of(dof.dof);
+    EXPECT_LT(found.state.posture[dof.dof], dof.upper + hand::kPassiveRange) << name_of(dof.dof);
+  }
+}
+
+TEST_F(LeastEffort, FrictionDragsTheProductAlongWithTheSkinAndKeepsItsBound) {
+  const grasp::EffortRest found = rest(90.0);
+  const contact::ContactResult contact =
+      contact::solve_hand_contact(prepared(), hand::pose_skin(hand(), found.state.posture),
+                                  found.state.product_from_hand, *bar().distance);
+  const std::vector<Vec3> start = hand::pose_skin(hand(), closed().posture);
+  const std::vector<int> loaded = contact::loaded_vertices(contact);
+  const std::vector<Vec3> normals = contact::contact_normals(contact, *bar().distance, loaded);
+  double power = 0.0, most = 0.0;
+  for (std::size_t k = 0; k < loaded.size(); ++k) {
+    const auto v = static_cast<std::size_t>(loaded[k]);
+    const Vec3& friction = found.friction_force[v];
+    EXPECT_LE(friction.norm(), 0.5 * contact.force[v] * 1.01 + 1e-6);
+    EXPECT_NEAR(friction.dot(normals[k]), 0.0, 1e-3 * contact.force[v] + 1e-6);
+    const Vec3 way = contact.undeformed[v] - closed().product_from_hand * start[v];
+    power += friction.dot(way);
+    most += friction.norm() * (way - way.dot(normals[k]) * normals[k]).norm();
+  }
+  EXPECT_GT(power, 0.99 * most);
+  EXPECT_GT(most, 0.0);
 }
 
 TEST_F(LeastEffort, FirmerGripsTakeMoreEffortAndTouchMore) {

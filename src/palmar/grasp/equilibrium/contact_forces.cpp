@@ -13,11 +13,8 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr double kPower = 2.0;       // of depth, with which forces grow
-constexpr double kLeastDepth = 0.3;  // mm; shallower contacts count as that deep
-constexpr double kRates = 1e-3;      // relative accuracy of derivatives
-constexpr double kTurn = 1e-3;       // rad; of the differences
-constexpr double kStick = 0.75;      // 3/4 mu d: where friction turns from sticking to slipping
+constexpr double kRates = 1e-3;  // relative accuracy of derivatives
+constexpr double kStick = 0.75;  // 3/4 mu d: where friction turns from sticking to slipping
 
 /// What one region of the skin carries.
 struct RegionSum {
@@ -32,75 +29,13 @@ struct RegionSum {
 ContactForces::ContactForces(const contact::PreparedHand& hand, const product::Product& product,
                              const contact::ContactOptions& options, double friction,
                              const GripState& start)
-    : hand_(&hand), product_(&product), friction_(friction), solver_(hand, options) {
-  const hand::Hand& h = hand.hand();
-  for (int j = 0; j < kGripJoints; ++j) {
-    is_moved_[j].assign(h.skin.vertices.size(), 0);
-    const hand::JointId id = grip_joint_id(j);
-    for (const hand::JointWeights& weights : h.weights) {
-      if (weights.joint != id) continue;
-      for (const int v : weights.vertex) is_moved_[j][v] = 1;
-    }
-    // The correction of the thumb's ball goes with the CMC joint.
-    if (id != hand::JointId::kThumbCmc) continue;
-    for (const int v : h.thumb_ball.vertex) is_moved_[j][v] = 1;
-  }
-  anchor_ = hand::pose_skin(h, start.posture);
+    : hand_(&hand),
+      skin_(hand.hand()),
+      product_(&product),
+      friction_(friction),
+      solver_(hand, options) {
+  anchor_ = hand::pose_skin(hand.hand(), start.posture);
   for (Vec3& point : anchor_) point = start.product_from_hand * point;
-}
-
-ContactForces::Column ContactForces::column(const hand::Posture& posture, int joint,
-                                            const std::vector<int>& vertices) const {
-  Column result;
-  std::vector<int> moved;
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    if (is_moved_[joint][vertices[k]] == 0) continue;
-    result.row.push_back(static_cast<int>(k));
-    moved.push_back(vertices[k]);
-  }
-  if (moved.empty()) return result;
-  hand::Posture turned = posture;
-  turned[grip_dof(joint)] += kTurn;
-  result.speed = hand::pose_skin_vertices(hand_->hand(), turned, moved);
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    result.speed[i] = (result.speed[i] - posed_[moved[i]]) / kTurn;
-  }
-  return result;
-}
-
-/// Forces of skin on skin, and how they stiffen the angles.
-void ContactForces::add_touches(const hand::Posture& posture) {
-  const std::vector<contact::SkinTouch>& touches = contact_.skin_touch;
-  if (touches.empty()) return;
-  constexpr std::size_t kCorners = 4;
-  std::vector<int> corners;
-  std::array<double, hand::kRegionCount> depth;
-  depth.fill(kLeastDepth);
-  for (const contact::SkinTouch& touch : touches) {
-    const contact::SkinMeeting& at = touch.meeting;
-    corners.insert(corners.end(), {at.vertex, at.on[0], at.on[1], at.on[2]});
-    double& d = depth[index_of(hand_->hand().region[at.vertex])];
-    d = std::max(d, -at.distance);
-  }
-  std::vector<GripVector> opening(touches.size(), GripVector::Zero());
-  for (int j = 0; j < kGripJoints; ++j) {
-    const Column one = column(posture, j, corners);
-    for (std::size_t i = 0; i < one.row.size(); ++i) {
-      const std::size_t k = static_cast<std::size_t>(one.row[i]) / kCorners;
-      const std::size_t corner = static_cast<std::size_t>(one.row[i]) % kCorners;
-      const contact::SkinMeeting& at = touches[k].meeting;
-      const double weight = corner == 0 ? 1.0 : -at.weight[corner - 1];
-      opening[k][j] += weight * one.speed[i].dot(hand_from_product_ * at.normal);
-    }
-    is_loaded_[j] = is_loaded_[j] || !one.row.empty();
-  }
-  for (std::size_t k = 0; k < touches.size(); ++k) {
-    const double force = touches[k].force;
-    const double stiff =
-        kPower * force / depth[index_of(hand_->hand().region[touches[k].meeting.vertex])];
-    force_ += force * opening[k];
-    stiffness_ += stiff * opening[k] * opening[k].transpose();
-  }
 }
 
 bool ContactForces::look(const GripState& state, double accuracy) {
@@ -145,7 +80,7 @@ bool ContactForces::look(const GripState& state, double accuracy) {
   // Motions of each loaded vertex over the product, per coordinate.
   motion_.assign(loaded_.size(), {});
   for (int j = 0; j < kGripJoints; ++j) {
-    const Column one = column(state.posture, j, loaded_);
+    const SkinMotion::Column one = skin_.column(state.posture, posed_, j, loaded_);
     for (std::size_t i = 0; i < one.row.size(); ++i) {
       motion_[one.row[i]].emplace_back(j, one.speed[i]);
     }
@@ -167,7 +102,7 @@ bool ContactForces::look(const GripState& state, double accuracy) {
       moves.emplace_back(kGripJoints + 3 + c, -Vec3::Unit(c).cross(x));
     }
     RegionSum& r = region[index_of(hand.region[v])];
-    const double stiff = kPower * p / r.depth;
+    const double stiff = kForcePower * p / r.depth;
     // Tangential way since the start, of the skin over the product.
     Vec3 way = hand_from_product_ * (contact_.undeformed[v] - anchor_[v]);
     way -= n * n.dot(way);
@@ -199,12 +134,12 @@ bool ContactForces::look(const GripState& state, double accuracy) {
   rate_ = across;
   for (const RegionSum& r : region) {
     if (!(r.force > 0.0)) continue;
-    const double more = kPower * (r.force / r.work - 1.0 / r.depth);
+    const double more = kForcePower * (r.force / r.work - 1.0 / r.depth);
     stiffness_ += more / r.force * r.opening * r.opening.transpose();
     rate_ -= more * (grip_.force / grip_.sum_of_normals) * r.opening;
   }
   stiffness_ += drag_;
-  add_touches(state.posture);
+  skin_.add_touches(contact_, state, posed_, force_, stiffness_, is_loaded_);
   arm_ = std::max(1.0, std::sqrt(spread / sum));
   friction_use_ = friction_ > 0.0 ? rubbing / (friction_ * sum) : 0.0;
   return true;

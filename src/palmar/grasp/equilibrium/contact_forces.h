@@ -9,6 +9,7 @@
 #include "palmar/contact/prepared/contact_solver.h"
 #include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/equilibrium/grip_force.h"
+#include "palmar/grasp/equilibrium/skin_motion.h"
 #include "palmar/product/product.h"
 
 namespace palmar::grasp {
@@ -64,22 +65,14 @@ class ContactForces {
   std::vector<Vec3> friction_force() const;
 
  private:
-  /// d(posed vertex)/d(joint), hand frame, of those vertices that the joint moves.
-  struct Column {
-    std::vector<int> row;     ///< index into the vertices
-    std::vector<Vec3> speed;  ///< mm/rad
-  };
-  Column column(const hand::Posture& posture, int joint, const std::vector<int>& vertices) const;
-  void add_touches(const hand::Posture& posture);
-
   const contact::PreparedHand* hand_;
+  SkinMotion skin_;
   const product::Product* product_;
   double friction_ = 0.0;
   contact::ContactSolver::Impl solver_;
   contact::ContactResult contact_;
   contact::ContactFallbacks fallbacks_;
   std::vector<Vec3> posed_;
-  std::array<std::vector<char>, kGripJoints> is_moved_;  ///< per joint and skin vertex
   std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm
   std::vector<int> loaded_;
   std::vector<Vec3> normal_;  ///< of the product, per loaded vertex, hand frame

@@ -12,13 +12,6 @@
 namespace palmar::grasp {
 namespace {
 
-// How far people vary in how they take a thing, one standard deviation. Our choice: wide, so that
-// they decide only what effort leaves open.
-constexpr double kFlexionSpread = 0.6, kAbductionSpread = 0.3;  // rad
-constexpr double kPlaceSpread = 16.0;                           // mm
-constexpr double kTurnSpread = 0.4;                             // rad
-// What is missing costs more than any muscle could save: per N, and per N mm at arms of 30 mm.
-constexpr double kForcePrice = 0.5, kSqueezePrice = 0.3, kMomentPrice = 0.015;
 constexpr int kMostTries = 60;
 constexpr int kMostRefused = 10;     // steps one after the other
 constexpr double kLeastGain = 1e-3;  // of the merit: steps that promise less end it
@@ -29,33 +22,18 @@ constexpr int kMostDerivatives = 6;
 constexpr double kFirstDamping = 1.0, kBackDamping = 30.0, kNoStep = 8.0;
 // Share of the promised gain: less is corrected; less isn't taken.
 constexpr double kPoor = 0.5, kLeastShare = 0.02;
-// Ligaments at the end of a joint's range: moment there, and over what angle it grows e-fold.
-constexpr double kStopMoment = 50.0, kStopRise = 0.035;  // N mm, rad
-constexpr double kLongestRise = 8.0;                     // e-folds, beyond which they stay
-// Collateral ligaments of an MCP tighten between these angles of flexion.
-constexpr double kTightFrom = 0.7854, kTightTo = 1.309;  // rad
-constexpr double kTightStiffness = 10000.0;              // N mm/rad, of abduction
 constexpr int kSqueezeRow = kGripCoordinates, kWristRow = kGripCoordinates + 1,
               kRows = kGripCoordinates + 2;
 
 /// One standard deviation of each coordinate.
-GripVector spread() {
+GripVector spread(const EffortModel& model) {
   GripVector s;
   for (int j = 0; j < kGripJoints; ++j) {
-    s[j] = hand::is_flexion(grip_dof(j)) ? kFlexionSpread : kAbductionSpread;
+    s[j] = hand::is_flexion(grip_dof(j)) ? model.flexion_spread : model.abduction_spread;
   }
-  s.segment<3>(kGripJoints).setConstant(kPlaceSpread);
-  s.tail<3>().setConstant(kTurnSpread);
+  s.segment<3>(kGripJoints).setConstant(model.place_spread);
+  s.tail<3>().setConstant(model.turn_spread);
   return s;
-}
-
-struct Eased {
-  double value = 0.0, slope = 0.0;
-};
-/// From 0 to 1 without a kink.
-Eased ease(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return {t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t)};
 }
 
 /// A state with all that acts in it.
@@ -89,15 +67,13 @@ class LeastEffort {
         has_skin_on_skin_(contact.skin_on_skin),
         forces_(hand, product, contact, task.friction, start),
         muscles_(hand.hand(), {.wrist = task.wrist}),
-        spread_(spread()),
-        weight_(spread_.cwiseAbs2().cwiseInverse()) {}
+        weight_(spread(task.model).cwiseAbs2().cwiseInverse()) {}
 
   EffortRest run(const Progress& progress);
 
  private:
   bool look(const GripState& state, Look& at);
   void add_muscles(Look& at) const;
-  void add_ligaments(Look& at) const;
   EffortProgram program(const Look& at, double damping) const;
   void judge(Look& at) const;
   GripVector departure(const GripState& state) const;
@@ -116,7 +92,7 @@ class LeastEffort {
   bool has_skin_on_skin_;
   ContactForces forces_;
   hand::HandMuscles muscles_;
-  GripVector spread_, weight_;
+  GripVector weight_;                            ///< of what coordinates have moved, in E
   GripMatrix learnt_ = GripMatrix::Zero();       ///< stiffness beyond the contact's own
   GripVector learnt_rate_ = GripVector::Zero();  ///< the same of the squeeze
 };
@@ -139,36 +115,15 @@ void LeastEffort::add_muscles(Look& at) const {
       }
       at.wrist[column] = strength * digit.wrist_arm[t].x();
     }
-    at.outside.segment<hand::kDigitDofs>(first) += digit.passive.moment;
-    at.stiffness.block<hand::kDigitDofs, hand::kDigitDofs>(first, first) += digit.passive.stiffness;
+    const hand::PassiveMoments ligaments = ligament_moments(
+        hand_->skeleton, digit.finger, at.state.posture, start_.posture, task_->model.ligaments);
+    at.outside.segment<hand::kDigitDofs>(first) += digit.passive.moment + ligaments.moment;
+    at.stiffness.block<hand::kDigitDofs, hand::kDigitDofs>(first, first) +=
+        digit.passive.stiffness + ligaments.stiffness;
   }
   const hand::WristMuscles& motors = muscles_.wrist();
   for (std::size_t i = 0; i < motors.arm.size(); ++i) {
     at.wrist[column++] = task_->strength * motors.strength[i] * motors.arm[i].x();
-  }
-}
-
-/// What passive_moments() leaves out: the other ends of the ranges, and abduction of a bent MCP.
-void LeastEffort::add_ligaments(Look& at) const {
-  for (int j = 0; j < kGripJoints; ++j) {
-    const hand::JointDof& dof = hand_->skeleton.dof(grip_dof(j));
-    const double q = at.state.posture[dof.dof];
-    const bool is_finger = grip_finger(j) != hand::Finger::kThumb;
-    const auto pushed = [&](double beyond, double sense) {
-      const double moment = kStopMoment * std::exp(std::min(kLongestRise, beyond / kStopRise));
-      at.outside[j] += sense * moment;
-      if (beyond < kLongestRise * kStopRise) at.stiffness(j, j) += moment / kStopRise;
-    };
-    pushed(dof.lower - q, 1.0);
-    if (!is_finger || !hand::is_flexion(dof.dof)) pushed(q - dof.upper, -1.0);
-    if (!is_finger || j % hand::kDigitDofs != 1) continue;
-    const int mcp = j - 1;
-    const Eased tight =
-        ease((at.state.posture[grip_dof(mcp)] - kTightFrom) / (kTightTo - kTightFrom));
-    const double off = q - start_.posture[dof.dof];
-    at.outside[j] -= kTightStiffness * tight.value * off;
-    at.stiffness(j, j) += kTightStiffness * tight.value;
-    at.stiffness(j, mcp) += kTightStiffness * tight.slope / (kTightTo - kTightFrom) * off;
   }
 }
 
@@ -187,7 +142,6 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   at.outside.tail<3>() += moment + (hand_from_product.translation - at.centre).cross(force);
   at.wrist_load = hand::wrist_moment(*hand_, force, hand_from_product.translation, moment);
   add_muscles(at);
-  add_ligaments(at);
   if (!has_skin_on_skin_) at.presses = meeting_.presses(state.posture);
   for (const ThumbPress& press : at.presses) {
     at.outside += press.force * press.moment;
@@ -219,9 +173,9 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.required.head<kGripCoordinates>() = -at.outside;
   program.required[kSqueezeRow] = target_ - at.grip.force;
   program.required[kWristRow] = -at.wrist_load;
-  program.price = Eigen::VectorXd::Constant(kRows, kMomentPrice);
-  program.price.segment<3>(kGripJoints).setConstant(kForcePrice);
-  program.price[kSqueezeRow] = kSqueezePrice;
+  program.price = Eigen::VectorXd::Constant(kRows, task_->model.moment_price);
+  program.price.segment<3>(kGripJoints).setConstant(task_->model.force_price);
+  program.price[kSqueezeRow] = task_->model.squeeze_price;
   const bool moves = damping >= 0.0;
   program.motion.resize(kRows, moves ? kGripCoordinates : 0);
   if (!moves) return program;

@@ -11,10 +11,24 @@
 #include "palmar/grasp/equilibrium/contact_forces.h"
 #include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/equilibrium/effort_program.h"
+#include "palmar/grasp/equilibrium/ligaments.h"
 #include "palmar/grasp/equilibrium/thumb_meeting.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
 namespace palmar::grasp {
+
+/// What shapes a rest with least effort beside the hand's own anatomy; all of it our choice
+/// (docs/method/equilibrium.md).
+struct EffortModel {
+  // How far people vary in how they take a thing, one standard deviation: wide, so that E decides
+  // only what effort leaves open.
+  double flexion_spread = 0.6, abduction_spread = 0.3;  ///< rad
+  double place_spread = 16.0;                           ///< mm
+  double turn_spread = 0.4;                             ///< rad
+  // What is missing costs more than any muscle could save: per N, and per N mm at arms of 30 mm.
+  double force_price = 0.5, squeeze_price = 0.3, moment_price = 0.015;
+  LigamentModel ligaments{};
+};
 
 /// What a hand is asked to do with what it holds.
 struct EffortTask {
@@ -23,6 +37,7 @@ struct EffortTask {
   double friction = 0.5;             ///< mu of skin on product
   double strength = 1.0;             ///< largest activation, times the muscles of HandMuscles
   hand::WristPosture wrist{};
+  EffortModel model{};
 };
 
 /// A hand and a product at rest, or what is missing to that.

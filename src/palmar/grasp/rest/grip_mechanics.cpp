@@ -12,9 +12,7 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr double kPower = 2.0;           // of depth, with which forces grow
 constexpr double kTangential = 2.0 / 3;  // tangential over normal stiffness; Mindlin 1949
-constexpr double kLeastDepth = 0.3;      // mm; shallower contacts count as that deep
 constexpr double kTurn = 1e-3;           // rad; of the differences
 
 }  // namespace
@@ -22,75 +20,13 @@ constexpr double kTurn = 1e-3;           // rad; of the differences
 GripMechanics::GripMechanics(const contact::PreparedHand& hand, const product::Product& product,
                              const contact::ContactOptions& options, double friction,
                              const GripState& start)
-    : hand_(&hand), product_(&product), friction_(friction), solver_(hand, options) {
-  const hand::Hand& h = hand.hand();
-  for (int j = 0; j < kGripJoints; ++j) {
-    is_moved_[j].assign(h.skin.vertices.size(), 0);
-    const hand::JointId id = grip_joint_id(j);
-    for (const hand::JointWeights& weights : h.weights) {
-      if (weights.joint != id) continue;
-      for (const int v : weights.vertex) is_moved_[j][v] = 1;
-    }
-    // The correction of the thumb's ball goes with the CMC joint.
-    if (id != hand::JointId::kThumbCmc) continue;
-    for (const int v : h.thumb_ball.vertex) is_moved_[j][v] = 1;
-  }
-  anchor_ = hand::pose_skin(h, start.posture);
+    : hand_(&hand),
+      skin_(hand.hand()),
+      product_(&product),
+      friction_(friction),
+      solver_(hand, options) {
+  anchor_ = hand::pose_skin(hand.hand(), start.posture);
   for (Vec3& point : anchor_) point = start.product_from_hand * point;
-}
-
-GripMechanics::Column GripMechanics::column(const hand::Posture& posture, int joint,
-                                            const std::vector<int>& vertices) const {
-  Column result;
-  std::vector<int> moved;
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    if (is_moved_[joint][vertices[k]] == 0) continue;
-    result.row.push_back(static_cast<int>(k));
-    moved.push_back(vertices[k]);
-  }
-  if (moved.empty()) return result;
-  hand::Posture turned = posture;
-  turned[grip_dof(joint)] += kTurn;
-  result.speed = hand::pose_skin_vertices(hand_->hand(), turned, moved);
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    result.speed[i] = (result.speed[i] - posed_[moved[i]]) / kTurn;
-  }
-  return result;
-}
-
-/// Forces of skin on skin, and how they stiffen the angles.
-void GripMechanics::add_touches(const hand::Posture& posture) {
-  const std::vector<contact::SkinTouch>& touches = contact_.skin_touch;
-  if (touches.empty()) return;
-  constexpr std::size_t kCorners = 4;
-  std::vector<int> corners;
-  std::array<double, hand::kRegionCount> depth;
-  depth.fill(kLeastDepth);
-  for (const contact::SkinTouch& touch : touches) {
-    const contact::SkinMeeting& at = touch.meeting;
-    corners.insert(corners.end(), {at.vertex, at.on[0], at.on[1], at.on[2]});
-    double& d = depth[index_of(hand_->hand().region[at.vertex])];
-    d = std::max(d, -at.distance);
-  }
-  std::vector<GripVector> opening(touches.size(), GripVector::Zero());
-  for (int j = 0; j < kGripJoints; ++j) {
-    const Column one = column(posture, j, corners);
-    for (std::size_t i = 0; i < one.row.size(); ++i) {
-      const std::size_t k = static_cast<std::size_t>(one.row[i]) / kCorners;
-      const std::size_t corner = static_cast<std::size_t>(one.row[i]) % kCorners;
-      const contact::SkinMeeting& at = touches[k].meeting;
-      const double weight = corner == 0 ? 1.0 : -at.weight[corner - 1];
-      opening[k][j] += weight * one.speed[i].dot(hand_from_product_ * at.normal);
-    }
-    is_loaded_[j] = is_loaded_[j] || !one.row.empty();
-  }
-  for (std::size_t k = 0; k < touches.size(); ++k) {
-    const double force = touches[k].force;
-    const double stiff =
-        kPower * force / depth[index_of(hand_->hand().region[touches[k].meeting.vertex])];
-    force_ += force * opening[k];
-    stiffness_ += stiff * opening[k] * opening[k].transpose();
-  }
 }
 
 bool GripMechanics::look(const GripState& state, double accuracy) {
@@ -133,7 +69,7 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
   // Motions of each loaded vertex: over the product, per coordinate.
   std::vector<std::vector<std::pair<int, Vec3>>> motion(loaded_.size());
   for (int j = 0; j < kGripJoints; ++j) {
-    const Column one = column(state.posture, j, loaded_);
+    const SkinMotion::Column one = skin_.column(state.posture, posed_, j, loaded_);
     for (std::size_t i = 0; i < one.row.size(); ++i) {
       motion[one.row[i]].emplace_back(j, one.speed[i]);
     }
@@ -152,7 +88,7 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
       moves.emplace_back(kGripJoints + 3 + c, -Vec3::Unit(c).cross(x));
     }
     const double p = contact_.force[v];
-    const double stiff = kPower * p / depth[index_of(hand.region[v])];
+    const double stiff = kForcePower * p / depth[index_of(hand.region[v])];
     // Tangential way since the start, of the skin over the product.
     Vec3 way = hand_from_product_ * (contact_.undeformed[v] - anchor_[v]);
     way -= n * n.dot(way);
@@ -188,7 +124,7 @@ bool GripMechanics::look(const GripState& state, double accuracy) {
       for (const auto& [a, va] : moves) stiffness_(a, b) += change.dot(va);
     }
   }
-  add_touches(state.posture);
+  skin_.add_touches(contact_, state, posed_, force_, stiffness_, is_loaded_);
   arm_ = std::max(1.0, std::sqrt(spread / sum));
   friction_use_ = limit > 0.0 ? rubbing / limit : 0.0;
   grip_ = squeeze_of_normals();
