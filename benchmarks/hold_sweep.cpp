@@ -1,10 +1,9 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// hold_sweep KIND FROM TO STEP [FORCE_N] [SOLVER]: a row per value: how the template hand holds a
-// cylinder, as CSV.
+// hold_sweep KIND FROM TO STEP [FORCE_N]: a row per value: how the template hand holds a cylinder,
+// as CSV.
 //   KIND    diameter (mm), length (mm; of a cylinder of 35 mm), force (N; of a cylinder of 50 mm)
-//   SOLVER  settling, least_effort
 #include <fmt/format.h>
 
 #include <array>
@@ -21,20 +20,15 @@
 
 int main(int argc, char** argv) {
   using namespace palmar;
-  if (argc < 5 || argc > 7) {
-    fmt::print(stderr, "usage: hold_sweep KIND FROM TO STEP [FORCE_N] [SOLVER]\n");
+  if (argc < 5 || argc > 6) {
+    fmt::print(stderr, "usage: hold_sweep KIND FROM TO STEP [FORCE_N]\n");
     return 2;
   }
   const std::string kind = argv[1];
   const double from = std::atof(argv[2]), to = std::atof(argv[3]), step = std::atof(argv[4]);
   const double force = argc > 5 ? std::atof(argv[5]) : 107.0;
-  const std::string solver = argc > 6 ? argv[6] : "settling";
   if (kind != "diameter" && kind != "length" && kind != "force") {
     fmt::print(stderr, "KIND is \"{}\"; diameter, length or force is allowed\n", kind);
-    return 2;
-  }
-  if (solver != "settling" && solver != "least_effort") {
-    fmt::print(stderr, "SOLVER is \"{}\"; settling or least_effort is allowed\n", solver);
     return 2;
   }
   if (!(from > 0.0 && to >= from && step > 0.0 && force > 0.0)) {
@@ -67,8 +61,6 @@ int main(int argc, char** argv) {
     study::AssessOptions options;
     options.grasp.grip = grasp::Grip::kMediumWrap;
     options.balance.grip_force = asked;
-    options.balance.solver =
-        solver == "settling" ? grasp::RestSolver::kSettling : grasp::RestSolver::kLeastEffort;
     options.footprint = false;
     const study::Assessment found = study::assess(prepared, product, options);
     std::array<double, hand::kFingerCount> finger{};

@@ -24,7 +24,7 @@ class AnswerCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = temporary_folder();
-    for (const char* made : {"cylinder --diameter-mm 22 --length-mm 120 --out thin.stl",
+    for (const char* made : {"prism --fillet-mm 1 --length-mm 120 --out thin.stl",
                              "cylinder --diameter-mm 40 --length-mm 120 --out thick.stl"}) {
       const ProgramRun run = palmar(std::string("product make ") + made);
       ASSERT_EQ(run.exit_code, 0) << run.err;

@@ -89,7 +89,7 @@ TEST_F(LeastEffort, FrictionDragsTheProductAlongWithTheSkinAndKeepsItsBound) {
   const contact::ContactResult contact =
       contact::solve_hand_contact(prepared(), hand::pose_skin(hand(), found.state.posture),
                                   found.state.product_from_hand, *bar().distance);
-  const std::vector<Vec3> start = hand::pose_skin(hand(), closed().posture);
+  const std::vector<Vec3> start = hand::pose_skin(hand(), found.start.posture);
   const std::vector<int> loaded = contact::loaded_vertices(contact);
   const std::vector<Vec3> normals = contact::contact_normals(contact, *bar().distance, loaded);
   double power = 0.0, most = 0.0;
@@ -98,7 +98,7 @@ TEST_F(LeastEffort, FrictionDragsTheProductAlongWithTheSkinAndKeepsItsBound) {
     const Vec3& friction = found.friction_force[v];
     EXPECT_LE(friction.norm(), 0.5 * contact.force[v] * 1.01 + 1e-6);
     EXPECT_NEAR(friction.dot(normals[k]), 0.0, 1e-3 * contact.force[v] + 1e-6);
-    const Vec3 way = contact.undeformed[v] - closed().product_from_hand * start[v];
+    const Vec3 way = contact.undeformed[v] - found.start.product_from_hand * start[v];
     power += friction.dot(way);
     most += friction.norm() * (way - way.dot(normals[k]) * normals[k]).norm();
   }

@@ -277,7 +277,7 @@ export interface HoldResult {
 
 /// Why a hold is to be doubted though the product is in the hand.
 export interface HoldDoubt {
-  key: "not_at_rest" | "slips_out" | "overloaded" | "few_contacts";
+  key: "not_at_rest" | "slips_out" | "few_contacts";
   words: string;
 }
 

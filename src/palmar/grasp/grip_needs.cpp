@@ -50,12 +50,12 @@ GripNeeds needs_of(Grip grip) {
   switch (grip) {
     case Grip::kMediumWrap:
     case Grip::kLargeDiameter:
-    case Grip::kSmallDiameter:
       return {{hand::Finger::kThumb}, kFingersOfWrap};
     case Grip::kPowerSphere:
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:
       return {{hand::Finger::kThumb}, kFingersOfSphere};
+    case Grip::kSmallDiameter:  // the thumb lies on the fingers
     case Grip::kFixedHook:
       return {{}, kFingersOfWrap};
     case Grip::kTipPinch:

@@ -21,10 +21,15 @@ TEST(GripNeeds, AWrapWithoutItsThumbIsNone) {
 }
 
 TEST(GripNeeds, TheBallOfTheThumbIsPalm) {
-  EXPECT_EQ(
-      lacking_contact(Grip::kSmallDiameter, {hand::Region::kThenar, hand::Region::kIndexDistal,
-                                             hand::Region::kMiddleDistal}),
-      "the thumb doesn't touch it, which a small diameter needs");
+  EXPECT_EQ(lacking_contact(Grip::kMediumWrap, {hand::Region::kThenar, hand::Region::kIndexDistal,
+                                                hand::Region::kMiddleDistal}),
+            "the thumb doesn't touch it, which a medium wrap needs");
+}
+
+TEST(GripNeeds, RoundAThinHandleTheThumbLiesOnTheFingers) {
+  EXPECT_EQ(lacking_contact(Grip::kSmallDiameter,
+                            {hand::Region::kIndexDistal, hand::Region::kMiddleDistal}),
+            "");
 }
 
 TEST(GripNeeds, AHookNeedsNoThumb) {

@@ -9,6 +9,7 @@
 #include "palmar/contact/prepared/contact_solver.h"
 #include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/equilibrium/grip_force.h"
+#include "palmar/grasp/equilibrium/skin_bed.h"
 #include "palmar/grasp/equilibrium/skin_motion.h"
 #include "palmar/product/product.h"
 
@@ -33,8 +34,8 @@ namespace palmar::grasp {
 /// the force smooth.
 ///
 /// Stiffness: that of forces p_v which grow with the square of their own depth, and of a region's
-/// sum with the square of its mean depth, off by a sixth; or, at ten times the cost, the contact's
-/// own (differentiate()).
+/// sum with the square of its mean depth, off by a sixth; or, at three times the cost of a contact,
+/// the contact's own (differentiate()). On springs (SkinBed) it is exact.
 class ContactForces {
  public:
   /// Keeps references; skin sticks where it is in `start`.
@@ -44,12 +45,21 @@ class ContactForces {
   /// Solves the contact of a state, to `accuracy` of its forces, and fills what follows. False if
   /// it can't be solved.
   bool look(const GripState& state, double accuracy);
+  /// The same with skin as a bed of springs; its stiffness is that of the springs, with how normals
+  /// and arms turn.
+  void look_on_springs(const GripState& state);
+
+  /// From now on skin sticks to the product where it is in `state`.
+  void stick(const GripState& state);
+  void set_friction(double friction) { friction_ = friction; }
 
   /// Stiffness and squeeze's rate of the state last looked at, with the forces' own derivatives in
-  /// place of what look() takes for them (ContactSolver::Impl::stiffness_times()). How normals
-  /// turn is left out: some per cent. False where the contact has none.
-  bool differentiate();
+  /// place of what look() takes for them (ContactSolver::Impl::stiffness_times()), and with how
+  /// arms and normals turn. Where the contact has no derivatives of its own, with the latter alone.
+  void differentiate();
 
+  const SkinMotion& skin_motion() const { return skin_; }
+  const std::vector<Vec3>& posed() const { return posed_; }  ///< skin, hand frame, mm
   const contact::ContactFallbacks& fallbacks() const { return fallbacks_; }
   const GripVector& force() const { return force_; }  ///< on the coordinates, N and N mm
   /// Forces that coordinates (columns) take from coordinates (rows) per mm and rad.
@@ -65,6 +75,9 @@ class ContactForces {
   std::vector<Vec3> friction_force() const;
 
  private:
+  void pose(const GripState& state);
+  void add_up();
+  GripMatrix geometric_stiffness() const;
   const contact::PreparedHand* hand_;
   SkinMotion skin_;
   const product::Product* product_;
@@ -74,12 +87,19 @@ class ContactForces {
   contact::ContactFallbacks fallbacks_;
   std::vector<Vec3> posed_;
   std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm
+  SkinBed bed_;
+  // Per loaded vertex.
   std::vector<int> loaded_;
-  std::vector<Vec3> normal_;  ///< of the product, per loaded vertex, hand frame
+  std::vector<double> pressed_;   ///< N
+  std::vector<double> depth_;     ///< mm
+  std::vector<double> spring_;    ///< N/mm; empty but on the bed
+  std::vector<Vec3> in_product_;  ///< skin, product frame, mm
+  std::vector<Vec3> normal_;      ///< of the product, hand frame
   /// Per loaded vertex: how coordinates move it over the product, mm per mm and rad.
   std::vector<std::vector<std::pair<int, Vec3>>> motion_;
   std::vector<Vec3> pull_;  ///< friction on the skin, per loaded vertex, hand frame, N
   Quat hand_from_product_;
+  GripState state_;
   GripVector force_, rate_;
   GripMatrix stiffness_, drag_;  ///< drag_: of stiffness_, friction at given normal forces
   std::array<bool, kGripJoints> is_loaded_{};

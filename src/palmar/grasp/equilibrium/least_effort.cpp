@@ -7,21 +7,40 @@
 #include <utility>
 
 #include "palmar/core/enum_index.h"
+#include "palmar/grasp/equilibrium/effort_program.h"
+#include "palmar/grasp/equilibrium/opposed_thumb.h"
+#include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/hand/skeleton.h"
 
 namespace palmar::grasp {
 namespace {
 
-constexpr int kMostTries = 60;
-constexpr int kMostRefused = 10;     // steps one after the other
-constexpr double kLeastGain = 1e-3;  // of the merit: steps that promise less end it
-constexpr double kAccuracy = 1e-5;   // relative, of contact forces
-constexpr double kShiftStep = 0.03, kTurnStep = 1e-3;  // mm, rad; of differences
-constexpr int kMostDerivatives = 6;
-// Damping, of the spreads' own curvature: at first, of a correction, times which without solution.
-constexpr double kFirstDamping = 1.0, kBackDamping = 30.0, kNoStep = 8.0;
-// Share of the promised gain: less is corrected; less isn't taken.
-constexpr double kPoor = 0.5, kLeastShare = 0.02;
+/// When a search ends, and how it begins.
+struct Descent {
+  double level;  // of the grip force asked for
+  int most_tries;
+  double least_gain;     // of the merit: steps that promise less end it
+  double first_damping;  // of the spreads' own curvature
+  double price;          // of what is missing, of the model's
+};
+// On the way prices are low, so that digits find their places before forces are exact.
+constexpr Descent kOnSprings[] = {{0.6, 30, 2e-2, 10.0, 1.0 / 3.0},
+                                  {1.0, 30, 2e-2, 1.0, 1.0 / 3.0}};
+constexpr Descent kOnTissue{1.0, 60, 1.5e-3, 1.0, 1.0};
+
+constexpr int kMostRefused = 5,
+              kMostInNeed = 12;     // steps one after the other; if things are missing
+constexpr double kAccuracy = 1e-4;  // relative, of contact forces
+constexpr double kTurnStep = 1e-3;  // rad; of differences
+constexpr double kBackDamping = 30.0,
+                 kNoStep = 8.0;  // of a correction; times which without solution
+constexpr int kMostCorrections = 4;
+// Shares of the promised gain: less is corrected; less that a correction promises isn't worth it;
+// less isn't taken.
+constexpr double kPoor = 0.5, kWorthwhile = 0.2, kLeastShare = 0.02;
+constexpr double kByWrist = 1.02;    // of the strength that the digits alone need
+constexpr double kNoMissing = 0.01;  // priced; so little is none
+constexpr double kTooMuch = 2000.0;  // N; no hand grips that hard
 constexpr int kSqueezeRow = kGripCoordinates, kWristRow = kGripCoordinates + 1,
               kRows = kGripCoordinates + 2;
 
@@ -39,10 +58,9 @@ GripVector spread(const EffortModel& model) {
 /// A state with all that acts in it.
 struct Look {
   GripState state;
-  GripVector contact = GripVector::Zero();  ///< forces of contact and friction, N and N mm
-  GripVector outside = GripVector::Zero();  ///< all but muscles
+  GripVector outside = GripVector::Zero();  ///< all that acts but muscles, N and N mm
+  GripVector contact = GripVector::Zero();  ///< of it contact and friction
   GripMatrix stiffness = GripMatrix::Zero(), contact_stiffness = GripMatrix::Zero();
-  bool is_differentiated = false;
   GripVector squeeze_rate = GripVector::Zero();
   Squeeze grip;
   Vec3 centre = Vec3::Zero();
@@ -50,6 +68,8 @@ struct Look {
   Eigen::RowVectorXd wrist;  ///< the same about the wrist
   double wrist_load = 0.0;
   std::vector<ThumbPress> presses;
+  VolarVector gap = VolarVector::Zero();  ///< over its spread; 0 where skin touches
+  VolarRates gap_rate = VolarRates::Zero();
   EffortSolution effort;  ///< with the state held
   double off = 0.0;       ///< E
   double merit() const { return effort.value + off; }
@@ -66,6 +86,7 @@ class LeastEffort {
         meeting_(hand.hand(), start.posture),
         has_skin_on_skin_(contact.skin_on_skin),
         forces_(hand, product, contact, task.friction, start),
+        gaps_(hand.hand(), forces_.skin_motion(), product),
         muscles_(hand.hand(), {.wrist = task.wrist}),
         weight_(spread(task.model).cwiseAbs2().cwiseInverse()) {}
 
@@ -74,12 +95,15 @@ class LeastEffort {
  private:
   bool look(const GripState& state, Look& at);
   void add_muscles(Look& at) const;
+  GripMatrix muscle_rate(const Look& at) const;
   EffortProgram program(const Look& at, double damping) const;
   void judge(Look& at) const;
   GripVector departure(const GripState& state) const;
   void learn(const Look& from, const Look& to, const GripVector& way);
   bool differentiate(const Look& at);
   bool go(const Look& from, const GripVector& way, Look& to);
+  void descend(Look& now, const Descent& how, const Progress& progress, EffortRest& rest);
+  double least_share(const Look& at, bool with_wrist) const;
   void finish(const Look& at, EffortRest& rest) const;
 
   const hand::Hand* hand_;
@@ -87,13 +111,17 @@ class LeastEffort {
   GripState start_;
   Vec3 held_point_ = Vec3::Zero();  ///< product frame: centre of contact at the start
   Vec3 held_at_ = Vec3::Zero();     ///< where that was, hand frame
-  double target_ = 0.0;             ///< grip force, N
+  bool on_springs_ = true;
+  double asked_ = 0.0;   ///< grip force, N
+  double target_ = 0.0;  ///< of the search under way, N
+  double price_ = 1.0;   ///< of what is missing, in the search under way
   ThumbMeeting meeting_;
   bool has_skin_on_skin_;
   ContactForces forces_;
+  VolarGaps gaps_;
   hand::HandMuscles muscles_;
   GripVector weight_;                            ///< of what coordinates have moved, in E
-  GripMatrix learnt_ = GripMatrix::Zero();       ///< stiffness beyond the contact's own
+  GripMatrix learnt_ = GripMatrix::Zero();       ///< stiffness beyond that of a look
   GripVector learnt_rate_ = GripVector::Zero();  ///< the same of the squeeze
 };
 
@@ -127,14 +155,48 @@ void LeastEffort::add_muscles(Look& at) const {
   }
 }
 
+/// How the moments of the muscles change with the angles at the activations held.
+GripMatrix LeastEffort::muscle_rate(const Look& at) const {
+  GripMatrix rate = GripMatrix::Zero();
+  Eigen::Index column = 0;
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    const auto finger = static_cast<hand::Finger>(f);
+    const int first = hand::kDigitDofs * f;
+    const auto count = static_cast<Eigen::Index>(hand::tendons_of(finger).size());
+    for (int k = 0; k < hand::kDigitDofs; ++k) {
+      hand::Posture posture = at.state.posture;
+      posture[grip_dof(first + k)] += kTurnStep;
+      const hand::DigitMuscles digit = muscles_.in(finger, posture);
+      for (Eigen::Index t = 0; t < count; ++t) {
+        const double force = task_->strength * digit.strength[t] * at.effort.activation[column + t];
+        for (int a = 0; a < hand::kDigitDofs; ++a)
+          rate(first + a, first + k) += force * digit.arm[t][a];
+      }
+      for (int a = 0; a < hand::kDigitDofs; ++a) {
+        rate(first + a, first + k) -= at.moments.row(first + a)
+                                          .segment(column, count)
+                                          .dot(at.effort.activation.segment(column, count));
+        rate(first + a, first + k) /= kTurnStep;
+      }
+    }
+    column += count;
+  }
+  return rate;
+}
+
 bool LeastEffort::look(const GripState& state, Look& at) {
   at.state = state;
-  if (!forces_.look(state, kAccuracy)) return false;
+  const Vec3 before = forces_.centre();
+  if (on_springs_) {
+    forces_.look_on_springs(state);
+  } else if (!forces_.look(state, kAccuracy)) {
+    return false;
+  }
   at.contact = at.outside = forces_.force();
   at.stiffness = at.contact_stiffness = forces_.stiffness();
   at.squeeze_rate = forces_.squeeze_rate();
-  at.centre = forces_.centre();
   at.grip = forces_.grip();
+  at.centre = at.grip.force > 0.0 ? forces_.centre() : before;
   const geometry::Rigid3 hand_from_product = state.product_from_hand.inverse();
   const Vec3 force = hand_from_product.rotation * task_->load.force;
   const Vec3 moment = hand_from_product.rotation * task_->load.moment;
@@ -142,6 +204,12 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   at.outside.tail<3>() += moment + (hand_from_product.translation - at.centre).cross(force);
   at.wrist_load = hand::wrist_moment(*hand_, force, hand_from_product.translation, moment);
   add_muscles(at);
+  const VolarVector gap = gaps_.look(state, forces_.posed());
+  at.gap_rate = gaps_.rates(state, forces_.posed(), at.centre);
+  for (int k = 0; k < kVolarParts; ++k) {
+    at.gap[k] = std::max(0.0, gap[k]) / task_->model.gap_spread;
+    at.gap_rate.row(k) *= at.gap[k] > 0.0 ? 1.0 / task_->model.gap_spread : 0.0;
+  }
   if (!has_skin_on_skin_) at.presses = meeting_.presses(state.posture);
   for (const ThumbPress& press : at.presses) {
     at.outside += press.force * press.moment;
@@ -176,11 +244,13 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.price = Eigen::VectorXd::Constant(kRows, task_->model.moment_price);
   program.price.segment<3>(kGripJoints).setConstant(task_->model.force_price);
   program.price[kSqueezeRow] = task_->model.squeeze_price;
+  program.price *= price_;
   const bool moves = damping >= 0.0;
   program.motion.resize(kRows, moves ? kGripCoordinates : 0);
   if (!moves) return program;
   program.motion.setZero();
   program.motion.topRows<kGripCoordinates>() = -(at.stiffness + learnt_);
+  program.motion.topRows<kGripCoordinates>() += muscle_rate(at);
   program.motion.row(kSqueezeRow) = (at.squeeze_rate + learnt_rate_).transpose();
   // Of E: a turn about the centre of contact moves the point that was held.
   GripMatrix jacobian = GripMatrix::Identity();
@@ -188,8 +258,10 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   for (int c = 0; c < 3; ++c) {
     jacobian.block<3, 1>(kGripJoints, kGripJoints + 3 + c) = Vec3::Unit(c).cross(x);
   }
-  program.gradient = jacobian.transpose() * weight_.cwiseProduct(departure(at.state));
-  program.hessian = jacobian.transpose() * weight_.asDiagonal() * jacobian;
+  program.gradient = jacobian.transpose() * weight_.cwiseProduct(departure(at.state)) +
+                     at.gap_rate.transpose() * at.gap;
+  program.hessian = jacobian.transpose() * weight_.asDiagonal() * jacobian +
+                    at.gap_rate.transpose() * at.gap_rate;
   program.hessian.diagonal() += damping * weight_;
   return program;
 }
@@ -197,7 +269,7 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
 void LeastEffort::judge(Look& at) const {
   at.effort = solve_effort(program(at, -1.0));
   const GripVector off = departure(at.state);
-  at.off = 0.5 * off.dot(weight_.cwiseProduct(off));
+  at.off = 0.5 * off.dot(weight_.cwiseProduct(off)) + 0.5 * at.gap.squaredNorm();
 }
 
 /// Broyden's update of the derivatives, in units of the spreads.
@@ -214,42 +286,55 @@ void LeastEffort::learn(const Look& from, const Look& to, const GripVector& way)
   learnt_rate_ += (gained - (from.squeeze_rate + learnt_rate_).dot(way)) / size * scaled;
 }
 
-/// The contact's own derivatives at a state, by differences where it has none. False if a state
-/// beside it has no solution.
+/// The tissue's own derivatives at a state. False if its contact has no solution.
 bool LeastEffort::differentiate(const Look& at) {
   if (!forces_.look(at.state, kAccuracy)) return false;
-  GripMatrix stiffness = forces_.stiffness();
-  GripVector rate = forces_.squeeze_rate();
-  if (forces_.differentiate()) {
-    stiffness = forces_.stiffness();
-    rate = forces_.squeeze_rate();
-  } else {
-    for (int c = 0; c < kGripCoordinates; ++c) {
-      GripVector way = GripVector::Zero();
-      way[c] = c >= kGripJoints && c < kGripJoints + 3 ? kShiftStep : kTurnStep;
-      if (!forces_.look(moved(at.state, way, at.centre), kAccuracy)) return false;
-      GripVector force = forces_.force();
-      force.tail<3>() += (forces_.centre() - at.centre).cross(Vec3(force.segment<3>(kGripJoints)));
-      stiffness.col(c) = (at.contact - force) / way[c];
-      rate[c] = (forces_.grip().force - at.grip.force) / way[c];
-    }
-  }
-  learnt_ = stiffness - at.contact_stiffness;
-  learnt_rate_ = rate - at.squeeze_rate;
+  forces_.differentiate();
+  learnt_ = forces_.stiffness() - at.contact_stiffness;
+  learnt_rate_ = forces_.squeeze_rate() - at.squeeze_rate;
   return true;
 }
 
+/// Least share of the muscles' strength that holds what is held in a state, to 1 %.
+double LeastEffort::least_share(const Look& at, bool with_wrist) const {
+  EffortProgram held = program(at, -1.0);
+  const auto leave_out = [&](int row) {
+    held.required[row] = 0.0;
+    held.muscles.row(row).setZero();
+  };
+  leave_out(kSqueezeRow);
+  if (!with_wrist) leave_out(kWristRow);
+  const Eigen::MatrixXd muscles = held.muscles;
+  const auto missing_with = [&](double share) {
+    held.muscles = share * muscles;
+    return solve_effort(held).missing.cwiseAbs().dot(held.price);
+  };
+  const double allowed = missing_with(1.0) + kNoMissing;
+  double low = 0.0, high = 1.0;
+  if (missing_with(0.0) <= allowed) return 0.0;
+  while (high - low > 0.01 * high) {
+    const double middle = 0.5 * (low + high);
+    (missing_with(middle) <= allowed ? high : low) = middle;
+  }
+  return high;
+}
+
 void LeastEffort::finish(const Look& at, EffortRest& rest) const {
+  rest.start = start_;
   rest.state = at.state;
   rest.grip = at.grip;
   rest.activation = at.effort.activation;
   rest.missing = at.effort.missing.head<kGripCoordinates>();
   rest.strongest_moment = (at.moments * at.effort.activation).lpNorm<Eigen::Infinity>();
   rest.arm = forces_.arm();
-  rest.wrist_load = at.wrist_load;
-  rest.contact_force = at.contact;
-  rest.presses = at.presses;
-  rest.is_loaded = forces_.is_loaded();
+  rest.load.wrist = at.wrist_load;
+  GripVector load = at.contact;
+  for (const ThumbPress& press : at.presses) load += press.force * press.moment;
+  for (int j = 0; j < kGripJoints; ++j) {
+    rest.load.digit[j / hand::kDigitDofs][j % hand::kDigitDofs] = load[j];
+  }
+  rest.share = least_share(at, true);
+  rest.is_by_wrist = rest.share > kByWrist * least_share(at, false);
   rest.friction_use = forces_.friction_use();
   rest.friction_force = forces_.friction_force();
   rest.fallbacks = forces_.fallbacks();
@@ -260,10 +345,60 @@ void LeastEffort::finish(const Look& at, EffortRest& rest) const {
 }
 
 bool LeastEffort::go(const Look& from, const GripVector& way, Look& to) {
-  if (!look(moved(from.state, way, from.centre), to) || to.grip.force == 0.0) return false;
+  if (!look(moved(from.state, way, from.centre), to)) return false;
+  if (to.grip.force == 0.0 && !on_springs_) return false;
   judge(to);
-  learn(from, to, way);
+  if (!on_springs_) learn(from, to, way);
   return true;
+}
+
+/// Goes down from a state until steps promise too little.
+void LeastEffort::descend(Look& now, const Descent& how, const Progress& progress,
+                          EffortRest& rest) {
+  target_ = how.level * asked_;
+  price_ = how.price;
+  judge(now);
+  rest.merit.assign(1, now.merit());
+  double damping = how.first_damping;
+  bool is_new = true;  // the state, since its derivatives were taken
+  int refused = 0;
+  const auto gives_up = [&] {
+    const double missing = now.effort.value - now.effort.activation.array().cube().sum();
+    return refused >= (missing > kNoMissing * now.merit() ? kMostInNeed : kMostRefused);
+  };
+  for (int tries = 0; tries < how.most_tries && !gives_up(); ++tries) {
+    progress.throw_if_cancelled();
+    ++rest.iterations;
+    if (is_new && !on_springs_ && !differentiate(now)) return;
+    is_new = false;
+    const EffortSolution step = solve_effort(program(now, damping));
+    const double promised = now.merit() - (step.value + now.off);
+    if (promised < how.least_gain * now.merit()) break;
+    Look next;
+    if (!go(now, step.motion, next)) {
+      damping *= kNoStep;
+      ++refused;
+      continue;
+    }
+    // Forces bend away from their tangent: from there back onto the equilibrium, by ways as short
+    // as can be (second-order correction; Nocedal & Wright 2006, section 18.3).
+    for (int c = 0; c < kMostCorrections && now.merit() - next.merit() < kPoor * promised; ++c) {
+      const EffortSolution back = solve_effort(program(next, kBackDamping));
+      if (next.merit() - (back.value + next.off) < kWorthwhile * promised) break;
+      Look corrected;
+      if (!go(next, back.motion, corrected) || corrected.merit() >= next.merit()) break;
+      next = std::move(corrected);
+    }
+    const double share = (now.merit() - next.merit()) / promised;
+    if (share > 0.75) damping /= 3.0;
+    if (share < 0.25) damping *= 4.0;
+    ++refused;
+    if (share <= kLeastShare) continue;
+    refused = 0;
+    now = std::move(next);
+    is_new = true;
+    rest.merit.push_back(now.merit());
+  }
 }
 
 EffortRest LeastEffort::run(const Progress& progress) {
@@ -274,48 +409,26 @@ EffortRest LeastEffort::run(const Progress& progress) {
     rest.status = EffortRest::Status::kNoContact;
     return rest;
   }
-  target_ = task_->grip_force.value_or(now.grip.force);
   held_at_ = now.centre;
   held_point_ = start_.product_from_hand * held_at_;
-  judge(now);
-  rest.merit.push_back(now.merit());
-  double damping = kFirstDamping;
-  int refused = 0, derivatives = 0;
-  for (; rest.iterations < kMostTries && refused < kMostRefused; ++rest.iterations) {
-    progress.throw_if_cancelled();
-    const EffortSolution step = solve_effort(program(now, damping));
-    const double promised = now.merit() - (step.value + now.off);
-    if (promised < kLeastGain * now.merit()) break;
-    Look next;
-    if (!go(now, step.motion, next)) {
-      damping *= kNoStep;
-      ++refused;
-      continue;
-    }
-    const bool is_poor = now.merit() - next.merit() < kPoor * promised;
-    if (is_poor) {
-      // Forces bend away from their tangent: from there back onto the equilibrium, by a way as
-      // short as can be (second-order correction; Nocedal & Wright 2006, section 18.3).
-      Look corrected;
-      const GripVector back = solve_effort(program(next, kBackDamping)).motion;
-      if (go(next, back, corrected) && corrected.merit() < next.merit())
-        next = std::move(corrected);
-    }
-    const double share = (now.merit() - next.merit()) / promised;
-    if (share > 0.75) damping /= 3.0;
-    if (share < 0.25) damping *= 4.0;
-    ++refused;
-    if (share > kLeastShare) {
-      now = std::move(next);
-      rest.merit.push_back(now.merit());
-      refused = 0;
-    }
-    if (is_poor && !now.is_differentiated && derivatives < kMostDerivatives) {
-      now.is_differentiated = true;
-      ++derivatives;
-      if (differentiate(now)) damping = std::min(damping, kFirstDamping);
-    }
+  if (task_->is_hardest) {
+    asked_ = kTooMuch;
+  } else if (task_->grip_force) {
+    asked_ = *task_->grip_force;
+  } else if (forces_.look(start_, kAccuracy)) {
+    asked_ = forces_.grip().force;
+  } else {
+    return rest;
   }
+  for (const Descent& how : kOnSprings) descend(now, how, progress, rest);
+  on_springs_ = false;
+  const GripState state = now.state;
+  if (!look(state, now)) return rest;
+  if (now.grip.force == 0.0) {
+    rest.status = EffortRest::Status::kNoContact;
+    return rest;
+  }
+  descend(now, kOnTissue, progress, rest);
   if (!forces_.look(now.state, kAccuracy)) return rest;
   rest.status = EffortRest::Status::kSolved;
   finish(now, rest);
@@ -325,9 +438,11 @@ EffortRest LeastEffort::run(const Progress& progress) {
 }  // namespace
 
 EffortRest rest_with_least_effort(const contact::PreparedHand& hand,
-                                  const product::Product& product, const GripState& start,
+                                  const product::Product& product, const GripState& closed,
                                   const EffortTask& task, const contact::ContactOptions& contact,
                                   const Progress& progress) {
+  GripState start = closed;
+  start.posture = with_opposed_thumb(hand.hand(), product, closed);
   return LeastEffort(hand, product, start, task, contact).run(progress);
 }
 

@@ -10,9 +10,9 @@ namespace palmar::grasp {
 /// Ligaments that hand::passive_moments() leaves out, as moments without a step in place of
 /// hand::JointStops; the figures are our choice.
 struct LigamentModel {
-  /// At the end of a range: moment there, N mm, and the angle over which it grows e-fold, rad (2
+  /// At the end of a range: moment there, N mm, and the angle over which it grows e-fold, rad (3.4
   /// degrees). The upper end of a finger's flexion is passive_moments()'.
-  double stop_moment = 50.0, stop_rise = 0.035;
+  double stop_moment = 500.0, stop_rise = 0.06;
   /// Collateral ligaments of an MCP tighten between these angles of its flexion (45 and 75
   /// degrees), rad; they resist abduction from where it was by that stiffness, N mm/rad.
   double tight_from = 0.7854, tight_to = 1.309, tight_stiffness = 10000.0;

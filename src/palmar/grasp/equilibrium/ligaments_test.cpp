@@ -26,7 +26,7 @@ TEST(Ligaments, PushJointsBackFromTheEndsOfTheirRanges) {
     hand::Posture below, above;
     below[dof.dof] = dof.lower - 0.1;
     above[dof.dof] = dof.upper + 0.1;
-    const double least = 50.0 * std::exp(0.1 / 0.035);
+    const double least = 500.0 * std::exp(0.1 / 0.06);
     EXPECT_NEAR(moments(hand, hand::Finger::kThumb, below).moment[k], least, 1e-3 * least);
     EXPECT_NEAR(moments(hand, hand::Finger::kThumb, above).moment[k], -least, 1e-3 * least);
   }

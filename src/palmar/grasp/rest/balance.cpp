@@ -13,6 +13,7 @@
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/rest/press_down.h"
 #include "palmar/grasp/rest/settling.h"
+#include "palmar/grasp/rest/way_words.h"
 
 namespace palmar::grasp {
 namespace {
@@ -36,7 +37,7 @@ Balance settle_precision(const contact::PreparedHand& hand, const product::Produ
     Grasp there = grasp;
     if (i > 0) take_runner_up(hand.hand(), product, i - 1, there);
     if (i > 0 && there.status != GraspStatus::kHeld) continue;
-    Settling settling(hand, product, there, options, contact, SettlingWay::kStiff);
+    Settling settling(hand, product, there, options, contact);
     Balance balance = settling.run(progress);
     const bool is_at_rest = balance.status == BalanceStatus::kBalanced;
     const bool is_near = balance.status == BalanceStatus::kNotConverged;
@@ -64,6 +65,7 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
                                  Grasp& grasp, const BalanceOptions& options,
                                  const contact::ContactOptions& contact, const Progress& progress) {
   EffortTask task{.grip_force = options.asked_grip_force(grasp.grip),
+                  .is_hardest = options.activation.has_value(),
                   .load = {},
                   .friction = options.friction,
                   .strength = options.activation.value_or(options.strength),
@@ -72,8 +74,8 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
       !options.load.torque.isZero(0.0)) {
     task.load = contact::wrench_of(options.load, geometry::centre_of_volume(product.mesh));
   }
-  const GripState start{grasp.posture, grasp.product_from_hand};
-  const EffortRest rest = rest_with_least_effort(hand, product, start, task, contact, progress);
+  const GripState closed{grasp.posture, grasp.product_from_hand};
+  const EffortRest rest = rest_with_least_effort(hand, product, closed, task, contact, progress);
   Balance balance;
   balance.iterations = rest.iterations;
   balance.fallbacks = rest.fallbacks;
@@ -100,35 +102,35 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
   balance.friction_force = rest.friction_force;
   balance.moved = rest.moved;
   balance.turned = rest.turned;
+  balance.strength_use = rest.share * task.strength / options.strength;
+  balance.is_by_wrist = rest.is_by_wrist;
+  balance.joint_load = rest.load;
 
-  GripEffort effort(hand.hand(), task.strength, start.posture, options.wrist);
-  effort.look(rest.state.posture, rest.is_loaded, rest.presses, rest.wrist_load);
-  const GripEffort::Strength strength = effort.strength_of(rest.contact_force);
-  const double share = strength.share * task.strength / options.strength;
-  if (std::isfinite(share)) balance.strength_use = share;
-  balance.is_by_wrist = strength.is_by_wrist;
-  balance.joint_load = strength.load;
-
-  const double joints =
-      rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>() / rest.strongest_moment;
-  const double asked = task.grip_force.value_or(rest.grip.force);
-  if (balance.residual_share < kBalanced && joints < kJointSaid) {
+  const double at_joints = rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>();
+  if (balance.residual_share < kBalanced && at_joints < kJointSaid * rest.strongest_moment) {
     balance.status = BalanceStatus::kBalanced;
     balance.message = fmt::format("in balance at a grip force of {:.0f} N", rest.grip.force);
-    if (std::abs(rest.grip.force / asked - 1.0) > kLevelSaid) {
+    const double asked = task.grip_force.value_or(rest.grip.force);
+    if (!task.is_hardest && std::abs(rest.grip.force / asked - 1.0) > kLevelSaid) {
       balance.message +=
           fmt::format("; {:.0f} N were requested, which the hand doesn't reach", asked);
     }
-  } else {
-    balance.status = BalanceStatus::kSlipsOut;
-    const Vec3 missing = rest.missing.segment<3>(kGripJoints);
-    if (missing.norm() > 0.0) balance.slip = missing.normalized();
-    balance.message = fmt::format(
-        "slips: {:.1f} N and {:.0f} N mm on it and {:.0f} N mm about a joint are missing at a "
-        "grip force of {:.0f} N",
-        balance.residual_force, balance.residual_moment,
-        rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>(), rest.grip.force);
+    return balance;
   }
+  balance.status = BalanceStatus::kSlipsOut;
+  // What is missing is what would have to push the product back.
+  const Vec3 missing = rest.missing.segment<3>(kGripJoints);
+  balance.slip = missing.norm() > 0.0 ? Vec3(-missing.normalized()) : Vec3(Vec3::UnitY());
+  if (balance.residual_share >= kBalanced) {
+    balance.message = fmt::format("slips out, towards {}: {:.1f} N and {:.0f} N mm are missing",
+                                  way_words(hand.hand(), *balance.slip), balance.residual_force,
+                                  balance.residual_moment);
+  } else {
+    balance.message = fmt::format(
+        "slips out: the muscles lack {:.0f} N mm about a joint of a finger or the thumb",
+        at_joints);
+  }
+  balance.message += fmt::format(" at a grip force of {:.0f} N", rest.grip.force);
   return balance;
 }
 
@@ -148,38 +150,16 @@ Balance balance_grasp(const contact::PreparedHand& hand, const product::Product&
   if (!is_power(grasp.grip)) {
     return settle_precision(hand, product, grasp, options, plain, progress);
   }
-  // A large body slips past muscles of least effort. Then they are tried so that it stays where it
-  // is, and last the hand stiff: all joints held as they were closed. Hooked fingers meet no palm
-  // that would hold against them: stiff from the start.
-  const bool has_muscles = grasp.grip != Grip::kFixedHook;
-  Balance balance;
-  if (has_muscles && options.solver == RestSolver::kLeastEffort) {
+  if (grasp.grip != Grip::kFixedHook) {
     return settle_with_least_effort(hand, product, grasp, options, plain, progress);
   }
-  for (const SettlingWay way :
-       {SettlingWay::kLeastEffort, SettlingWay::kInPlace, SettlingWay::kStiff}) {
-    if (way != SettlingWay::kStiff && !has_muscles) continue;
-    Settling settling(hand, product, grasp, options, plain, way);
-    Balance attempt = settling.run(progress);
-    const bool is_first = way == SettlingWay::kLeastEffort || !has_muscles;
-    const bool is_at_rest = attempt.status == BalanceStatus::kBalanced;
-    const bool slips = attempt.status == BalanceStatus::kSlipsOut;
-    if (is_at_rest || (is_first && attempt.status == BalanceStatus::kNotConverged)) {
-      grasp.posture = settling.state().posture;
-      grasp.product_from_hand = settling.state().product_from_hand;
-    }
-    if (is_at_rest || is_first) balance = std::move(attempt);
-    if (is_at_rest && way == SettlingWay::kStiff && has_muscles) {
-      balance.message += ", by fingers that are held stiff";
-    }
-    if (is_at_rest && balance.is_overloaded) {
-      balance.message +=
-          balance.strength_use
-              ? fmt::format(", which takes {:.1f} times the strength of the muscles{}",
-                            *balance.strength_use, balance.is_by_wrist ? " of the wrist" : "")
-              : ", which no muscles could";
-    }
-    if (is_at_rest || (is_first && !slips)) break;
+  // Hooked fingers meet no palm that would hold against them: all joints stay as they were closed.
+  Settling settling(hand, product, grasp, options, plain);
+  Balance balance = settling.run(progress);
+  if (balance.status == BalanceStatus::kBalanced ||
+      balance.status == BalanceStatus::kNotConverged) {
+    grasp.posture = settling.state().posture;
+    grasp.product_from_hand = settling.state().product_from_hand;
   }
   return balance;
 }

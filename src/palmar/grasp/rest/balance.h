@@ -28,13 +28,8 @@ namespace palmar::grasp {
 /// (choices).
 inline constexpr double kRestingForce = 8.2;
 
-/// How a power grip comes to rest: the switch between the present search and the one that takes its
-/// place.
-enum class RestSolver { kSettling, kLeastEffort };
-
 struct BalanceOptions {
   bool is_on = true;
-  RestSolver solver = RestSolver::kSettling;
   /// Of skin on product while they settle; 0: none. 0.5: skin on usual products (Derler & Gerhardt
   /// 2012, Tribol Lett 45:1-27: mean 0.46, SD 0.15).
   double friction = 0.5;
@@ -84,12 +79,9 @@ struct Balance {
   double residual_share = 0.0;   ///< the larger of force / grip force, moment / (grip force arm)
   double friction_use = 0.0;     ///< sum of tangential forces over the most they could be
   /// Least share of the person's strength with which the muscles of all digits and the wrist hold
-  /// these contact forces and the load (least_strength()); nothing where no strength could, and for
-  /// grips other than power grips.
+  /// these contact forces and the load; nothing for grips other than power grips.
   std::optional<double> strength_use;
   bool is_by_wrist = false;  ///< the muscles of the digits alone would need a smaller share
-  /// A power grip that came to rest only with more than its muscles can give.
-  bool is_overloaded = false;
   /// Moments about the angles of the digits of contact forces, friction and of thumb and fingers on
   /// each other, and of the load about the wrist, of the grasp at rest.
   std::optional<hand::HandLoad> joint_load;
@@ -104,12 +96,12 @@ struct Balance {
 
 /// Lets product (6 degrees of freedom) and fingers come to rest against each other: contact forces,
 /// friction and load add up to nothing on the product; in a power grip also about every angle of a
-/// digit in contact and about the wrist, with the moments that the muscles give at least effort
-/// (GripEffort). The palm holds against them. `grasp` gets the new posture and placement. Precision
-/// grips: joints are held stiff and fingertips press straight into the product, all alike, to reach
-/// a grip force (fingertip_closing.h). One that doesn't come to rest where fingertips were first
-/// put is tried at its runners-up; `grasp` is then the first of those that does, and its message
-/// says so.
+/// digit and about the wrist, with the moments that the muscles give at least effort
+/// (rest_with_least_effort()). The palm holds against them. `grasp` gets the new posture and
+/// placement. Precision grips: joints are held stiff and fingertips press straight into the
+/// product, all alike, to reach a grip force (fingertip_closing.h). One that doesn't come to rest
+/// where fingertips were first put is tried at its runners-up; `grasp` is then the first of those
+/// that does, and its message says so.
 ///
 /// Friction is that of skin that sticks where it was when the hand was closed and gives way
 /// tangentially with 2/3 of its normal stiffness (Mindlin 1949, nu = 0.5) up to mu times the normal

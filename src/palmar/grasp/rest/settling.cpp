@@ -17,10 +17,7 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr double kBalanced = 0.01;  // residual over grip force; what counts as balanced
-constexpr double kJointAim =
-    hand::kNegligibleMoment;         // residual moment over the strongest muscle moment
-constexpr double kJointSaid = 0.05;  // the same; more is reported
+constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
 constexpr double kLevelAim = 0.005;  // of the grip force asked for
 constexpr int kMostSettlingSteps = 120;
 constexpr int kUsualSteps = 60;   // not there by then, the search goes on only while it gets nearer
@@ -28,8 +25,6 @@ constexpr int kVainSteps = 25;    // without getting nearer: it goes round in ci
 constexpr int kLastSteps = 5;     // the same, where the nearest state so far counts as balanced
 constexpr double kNothing = 0.1;  // N; less left over is nothing to a hand: the weight of 10 g
 constexpr double kOut = 25.0;     // mm; a product that went farther has left the hand
-// the same, with muscles of least effort: then others are tried that keep it in place; our choice
-constexpr double kWandered = 12.0;
 constexpr double kOutTurn = 0.8;  // rad
 // Of what is missing to rest, to which the forces that say so are found; and at most.
 constexpr double kForcesShare = 0.2, kRoughForces = 0.1;
@@ -39,22 +34,16 @@ constexpr double kLostShare = 0.05;  // of the grip force at the start; less is 
 
 Settling::Settling(const contact::PreparedHand& hand, const product::Product& product,
                    const Grasp& grasp, const BalanceOptions& options,
-                   const contact::ContactOptions& contact, SettlingWay way)
+                   const contact::ContactOptions& contact)
     : hand_(&hand.hand()),
       options_(&options),
-      way_(way),
-      is_by_muscles_(way != SettlingWay::kStiff),
-      squeezes_(is_power(grasp.grip) && grasp.grip != Grip::kFixedHook),
       asked_(options.asked_grip_force(grasp.grip)),
       has_level_(is_power(grasp.grip) || asked_),
       start_{grasp.posture, grasp.product_from_hand},
       state_(start_),
       meeting_(hand.hand(), start_.posture),
-      has_skin_on_skin_(contact.skin_on_skin),
       closing_(hand.hand(), grasp),
-      mechanics_(hand, product, contact, options.friction, start_),
-      effort_(hand.hand(), options.activation.value_or(options.strength), start_.posture,
-              options.wrist) {
+      mechanics_(hand, product, contact, options.friction, start_) {
   const bool needs_centre = options.load.weight > 0.0 || !options.load.force.isZero(0.0);
   has_load_ = needs_centre || !options.load.torque.isZero(0.0);
   load_ = contact::wrench_of(
@@ -65,7 +54,7 @@ Settling::Settling(const contact::PreparedHand& hand, const product::Product& pr
 }
 
 bool Settling::Misfit::is_near() const {
-  return of_product < 0.5 * kBalanced && of_joints < kJointAim && of_level < kLevelAim;
+  return of_product < 0.5 * kBalanced && of_level < kLevelAim;
 }
 
 void Settling::add_load(GripVector& residual) const {
@@ -75,11 +64,6 @@ void Settling::add_load(GripVector& residual) const {
   residual.segment<3>(kGripJoints) += load_share_ * (hand_from_product.rotation * load_.force);
   residual.tail<3>() +=
       load_share_ * (hand_from_product.rotation * (load_.moment - centre.cross(load_.force)));
-}
-
-/// Of the thumb on fingers, unless the contact has it.
-std::vector<ThumbPress> Settling::presses() const {
-  return has_skin_on_skin_ ? std::vector<ThumbPress>{} : meeting_.presses(state_.posture);
 }
 
 /// Moment of the load about the wrist: what the grip itself does there adds up to nothing.
@@ -97,30 +81,12 @@ double Settling::extra_grip() const {
   return options_->friction > 0.0 ? 0.5 * load_.force.norm() / options_->friction : 0.0;
 }
 
-/// As far as the joint goes and pushed against it.
-bool Settling::is_stuck(int joint, double residual) const {
-  const hand::JointDof& dof = hand_->skeleton.dof(grip_dof(joint));
-  const double angle = state_.posture[dof.dof];
-  const double upper = dof.upper + (GripEffort::is_free(joint) ? hand::kPassiveRange : 0.0);
-  return (angle >= upper - 1e-9 && residual > 0.0) || (angle <= dof.lower + 1e-9 && residual < 0.0);
-}
-
 /// What is missing to rest in the state that mechanics_ looks at.
 Settling::Misfit Settling::misfit(double grip) const {
   Misfit result;
   result.residual = mechanics_.force();
   result.stiffness = mechanics_.stiffness();
   add_load(result.residual);
-  if (is_by_muscles_) {
-    effort_.add_passive(result.residual, result.stiffness);
-    result.outside = result.residual;
-    result.residual += effort_.moments();
-    const double strongest = effort_.strongest();
-    for (int j = 0; j < kGripJoints; ++j) {
-      if (!effort_.is_judged(j) || is_stuck(j, result.residual[j])) continue;
-      result.of_joints = std::max(result.of_joints, std::abs(result.residual[j]) / strongest);
-    }
-  }
   if (has_level_) result.of_level = std::abs(grip / target_ - 1.0);
   result.force = result.residual.segment<3>(kGripJoints).norm();
   result.moment = result.residual.tail<3>().norm();
@@ -132,8 +98,7 @@ bool Settling::judge_way(Balance& balance) const {
   const geometry::Rigid3 motion = state_.product_from_hand.inverse() * start_.product_from_hand;
   balance.turned = Eigen::AngleAxisd(motion.rotation).angle();
   balance.moved = moved_.norm();
-  const double out = way_ == SettlingWay::kLeastEffort ? kWandered : kOut;
-  return balance.moved > out || balance.turned > kOutTurn;
+  return balance.moved > kOut || balance.turned > kOutTurn;
 }
 
 void Settling::finish(Balance& balance) {
@@ -144,22 +109,11 @@ void Settling::finish(Balance& balance) {
   balance.friction_use = mechanics_.friction_use();
   balance.friction_force = mechanics_.friction_force();
   balance.fallbacks = mechanics_.fallbacks();
-  if (squeezes_) {
-    const double limit = options_->activation.value_or(options_->strength);
-    effort_.look(state_.posture, mechanics_.is_loaded(), presses(), wrist_load());
-    const GripEffort::Strength strength = effort_.strength_of(mechanics_.force());
-    const double share = strength.share * limit / options_->strength;
-    if (std::isfinite(share)) balance.strength_use = share;
-    balance.is_by_wrist = strength.is_by_wrist;
-    balance.is_overloaded = !(share <= 1.0 + (is_by_muscles_ ? kJointSaid : 0.0));
-    balance.joint_load = strength.load;
-  } else {
-    hand::HandLoad& load = balance.joint_load.emplace();
-    for (int j = 0; j < kGripJoints; ++j) {
-      load.digit[j / hand::kDigitDofs][j % hand::kDigitDofs] = mechanics_.force()[j];
-    }
-    load.wrist = wrist_load();
+  hand::HandLoad& load = balance.joint_load.emplace();
+  for (int j = 0; j < kGripJoints; ++j) {
+    load.digit[j / hand::kDigitDofs][j % hand::kDigitDofs] = mechanics_.force()[j];
   }
+  load.wrist = wrist_load();
   judge_way(balance);
 }
 
@@ -170,7 +124,6 @@ Balance Settling::run(const Progress& progress) {
   struct {
     GripState state;
     Misfit misfit;
-    GripEffort::Activations muscles;
     Vec3 moved = Vec3::Zero();
     int step = 0;
   } best;
@@ -185,9 +138,6 @@ Balance Settling::run(const Progress& progress) {
       balance.status = BalanceStatus::kFailed;
       balance.message = "the contact could not be solved while the grasp came to rest";
       break;
-    }
-    if (is_by_muscles_) {
-      effort_.look(state_.posture, mechanics_.is_loaded(), presses(), wrist_load());
     }
     const double grip = mechanics_.grip().force;
     if (i == 0) {
@@ -217,8 +167,7 @@ Balance Settling::run(const Progress& progress) {
     balance.residual_force = now.force;
     balance.residual_moment = now.moment;
     balance.residual_share = now.of_product;
-    const bool is_there = now.of_product < options_->aim && now.of_joints < kJointAim &&
-                          (now.of_level < kLevelAim || is_at_limit_);
+    const bool is_there = now.of_product < options_->aim && now.of_level < kLevelAim;
     if (is_there && accuracy > kForcesAccuracy) {
       accuracy = kForcesAccuracy;  // the same state again
       continue;
@@ -229,7 +178,7 @@ Balance Settling::run(const Progress& progress) {
                            : BalanceStatus::kNotConverged;
       break;
     }
-    if (now.sum() < best.misfit.sum()) best = {state_, now, effort_.activations(), moved_, i};
+    if (now.sum() < best.misfit.sum()) best = {state_, now, moved_, i};
     progress.update(std::min(1.0, static_cast<double>(i) / kMostSettlingSteps),
                     "letting the grasp come to rest");
     accuracy = std::clamp(kForcesShare * now.sum(), kForcesAccuracy, kRoughForces);
@@ -237,11 +186,10 @@ Balance Settling::run(const Progress& progress) {
                (best.misfit.is_near() && i - best.step >= kLastSteps);
     if (!gives_up) {
       const double missing = (target_ / grip - 1.0) * mechanics_.grip().sum_of_normals;
-      is_by_muscles_ || closing_.is_empty() ? step(now, missing) : step_fingertips(now, missing);
+      closing_.is_empty() ? step(now, missing) : step_fingertips(now, missing);
     } else {
       accuracy = kForcesAccuracy;
       state_ = best.state;
-      effort_.set(best.muscles);
       moved_ = best.moved;
     }
   }
@@ -260,10 +208,6 @@ Balance Settling::run(const Progress& progress) {
     if (now.of_level > 0.05) {
       balance.message +=
           fmt::format("; {:.0f} N were requested, which the hand doesn't reach", target_);
-    }
-    if (now.of_joints > kJointSaid) {
-      balance.message += fmt::format("; a finger joint is still {:.0f} % off its muscles' moment",
-                                     100.0 * now.of_joints);
     }
   } else if (balance.status == BalanceStatus::kNotConverged) {
     balance.message = fmt::format("not in balance after {} steps: ", balance.iterations) +

@@ -9,53 +9,37 @@
 #include "palmar/grasp/equilibrium/thumb_meeting.h"
 #include "palmar/grasp/rest/balance.h"
 #include "palmar/grasp/rest/fingertip_closing.h"
-#include "palmar/grasp/rest/grip_effort.h"
 #include "palmar/grasp/rest/grip_mechanics.h"
 
 namespace palmar::grasp {
 
-/// How a grasp is brought to rest.
-enum class SettlingWay {
-  kLeastEffort,  ///< by the muscles, wherever the product comes to rest
-  kInPlace,      ///< by the muscles, so that the product stays where it was taken hold of
-  kStiff         ///< joints held as they were closed
-};
-
-/// One run of the search for rest.
+/// One run of the search for rest of a hand whose joints are held stiff: precision grips and hooks.
 class Settling {
  public:
   /// Keeps references. Skin sticks where it is in `grasp`.
   Settling(const contact::PreparedHand& hand, const product::Product& product, const Grasp& grasp,
-           const BalanceOptions& options, const contact::ContactOptions& contact, SettlingWay way);
+           const BalanceOptions& options, const contact::ContactOptions& contact);
 
   Balance run(const Progress& progress);
   const GripState& state() const { return state_; }
 
  private:
   struct Misfit {
-    GripVector outside = GripVector::Zero();   ///< without muscles; N, N mm
-    GripVector residual = GripVector::Zero();  ///< with them
+    GripVector residual = GripVector::Zero();  ///< N, N mm
     GripMatrix stiffness = GripMatrix::Zero();
     double force = 0.0, moment = 0.0;  ///< on the product, N and N mm
     double of_product = 0.0;           ///< those over the grip force
-    double of_joints = 0.0;            ///< largest moment left over the strongest muscle moment
     double of_level = 0.0;             ///< of the grip force against the one asked for
-    double sum() const { return of_product + of_joints + of_level; }
+    double sum() const { return of_product + of_level; }
     /// All but at rest.
     bool is_near() const;
   };
 
-  bool is_stuck(int joint, double residual) const;
   void add_load(GripVector& residual) const;
   double wrist_load() const;
-  std::vector<ThumbPress> presses() const;
   double extra_grip() const;
   Misfit misfit(double grip) const;
   void step(const Misfit& misfit, double missing);
-  GripVector step_by_muscles(const Misfit& misfit, const std::vector<int>& free,
-                             const Eigen::MatrixXd& k, double missing);
-  GripVector step_stiff(const Misfit& misfit, const std::vector<int>& free,
-                        const Eigen::MatrixXd& k, double missing) const;
   void step_fingertips(const Misfit& misfit, double missing);
   double share_of(const GripVector& way, double longest);
   void move_product(const Vec3& shift, const Vec3& turn);
@@ -64,23 +48,17 @@ class Settling {
 
   const hand::Hand* hand_;
   const BalanceOptions* options_;
-  SettlingWay way_;
-  bool is_by_muscles_;
-  bool squeezes_;            // fingers against the palm or the thumb: a power grip, but for a hook
   double load_share_ = 1.0;  // of the load that is put on; all of it once the grip is firm enough
   std::optional<double> asked_;  // grip force, N
   bool has_level_;               // the squeeze is brought to the grip force asked for
   GripState start_, state_;
   ThumbMeeting meeting_;
-  bool has_skin_on_skin_;     // what fingers do to each other is in the contact
   FingertipClosing closing_;  // how a precision grip presses
   GripMechanics mechanics_;
   contact::Wrench load_;  // product frame
   bool has_load_ = false;
-  double target_ = 0.0;  // grip force, N
-  GripEffort effort_;
-  bool is_at_limit_ = false;  // the muscles can't give the squeeze asked for
-  double relaxation_ = 1.0;   // share of a step that is taken
+  double target_ = 0.0;      // grip force, N
+  double relaxation_ = 1.0;  // share of a step that is taken
   GripVector last_way_ = GripVector::Zero();
   Vec3 moved_ = Vec3::Zero();  // of the product, hand frame, mm
 };

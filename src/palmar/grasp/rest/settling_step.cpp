@@ -16,102 +16,62 @@ namespace {
 constexpr double kLongestStep = 4.0;  // mm, of any skin or of the product
 constexpr double kReach = 40.0;       // mm; arm by which turns are counted as way
 constexpr double kLeastRelaxation = 0.3;
-constexpr double kLongestPress = 0.7;                   // mm, of fingertips in one step
-constexpr double kLongestTurn = 0.06;                   // rad, of what they hold
-constexpr double kMostLooser = 0.4, kMostFirmer = 0.6;  // of the squeeze, in one step
+constexpr double kLongestPress = 0.7;  // mm, of fingertips in one step
+constexpr double kLongestTurn = 0.06;  // rad, of what they hold
 // mm; pulp of thumb and finger pressed together, 2 mm each: stiff ones close no further; our choice
 constexpr double kPulpGive = 4.0;
 constexpr double kSoftest = 0.02;  // of the mean stiffness of joints and of the product: the least
 
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Stiffness of the product's own coordinates, no way softer than a share of the mean.
+Matrix6 softened(const GripMatrix& stiffness) {
+  Matrix6 k = stiffness.bottomRightCorner<6, 6>();
+  for (const int begin : {0, 3}) {
+    k.diagonal().segment<3>(begin).array() +=
+        kSoftest * k.diagonal().segment<3>(begin).mean() + 1e-9;
+  }
+  return k;
+}
+
 }  // namespace
 
-/// One Newton step towards rest and the grip force asked for, with the activations of the muscles
-/// (GripEffort) or, where joints are stiff, the level of a common closing as unknowns beside the
-/// coordinates:
+/// One Newton step towards rest, and by a common closing of all loaded joints that flex towards the
+/// grip force asked for:
 ///
-///     stiffness dx = residual + muscles,    squeeze . dx = missing sum of normal forces.
+///     stiffness dx = residual,    squeeze . dx = missing sum of normal forces.
 void Settling::step(const Misfit& misfit, double missing) {
-  std::vector<int> free;
-  for (int j = 0; j < kGripJoints; ++j) {
-    if (is_by_muscles_ && GripEffort::is_free(j) && effort_.is_judged(j) &&
-        !is_stuck(j, misfit.residual[j])) {
-      free.push_back(j);
-    }
-  }
-  const auto joints = static_cast<Eigen::Index>(free.size());
-  for (int j = kGripJoints; j < kGripCoordinates; ++j) free.push_back(j);
-  Eigen::MatrixXd k = misfit.stiffness(free, free);
-  const auto stiffen = [&](Eigen::Index begin, Eigen::Index count) {
-    if (count == 0) return;
-    k.diagonal().segment(begin, count).array() +=
-        kSoftest * k.diagonal().segment(begin, count).mean() + 1e-9;
-  };
-  stiffen(0, joints);
-  stiffen(joints, 3);
-  stiffen(joints + 3, 3);
-  GripVector way = is_by_muscles_ ? step_by_muscles(misfit, free, k, missing)
-                                  : step_stiff(misfit, free, k, missing);
-  double longest = std::max(way.segment<3>(kGripJoints).norm(), kReach * way.tail<3>().norm());
-  for (int j = 0; j < kGripJoints; ++j) longest = std::max(longest, kReach * std::abs(way[j]));
-  way *= share_of(way, longest);
-
-  hand::Posture turned = state_.posture;
-  for (int j = 0; j < kGripJoints; ++j) {
-    const hand::JointDof& dof = hand_->skeleton.dof(grip_dof(j));
-    const double angle = state_.posture[dof.dof];
-    const double upper = dof.upper + (GripEffort::is_free(j) ? hand::kPassiveRange : 0.0);
-    turned[dof.dof] =
-        std::clamp(angle + way[j], std::min(dof.lower, angle), std::max(upper, angle));
-  }
-  state_.posture = turned;
-  move_product(way.segment<3>(kGripJoints), way.tail<3>());
-}
-
-GripVector Settling::step_by_muscles(const Misfit& misfit, const std::vector<int>& free,
-                                     const Eigen::MatrixXd& k, double missing) {
-  std::optional<double> asked;
-  if (!options_->activation) {
-    const double sum = mechanics_.grip().sum_of_normals;
-    asked = has_level_ ? std::clamp(missing, -kMostLooser * sum, kMostFirmer * sum) : 0.0;
-  }
-  const GripEffort::Step step =
-      effort_.solve({.free = free,
-                     .k = k,
-                     .force = misfit.outside,
-                     .stiffness = misfit.stiffness,
-                     .squeeze = mechanics_.squeeze(),
-                     .missing = asked,
-                     .moved = way_ == SettlingWay::kInPlace ? &moved_ : nullptr});
-  is_at_limit_ = step.is_short;
-  return step.way;
-}
-
-GripVector Settling::step_stiff(const Misfit& misfit, const std::vector<int>& free,
-                                const Eigen::MatrixXd& k, double missing) const {
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(k);
+  const Eigen::PartialPivLU<Matrix6> factor(softened(misfit.stiffness));
   const auto solved = [&](const GripVector& right) {
-    const Eigen::VectorXd part = factor.solve(Eigen::VectorXd(right(free)));
     GripVector whole = GripVector::Zero();
-    for (std::size_t i = 0; i < free.size(); ++i) {
-      whole[free[i]] = part[static_cast<Eigen::Index>(i)];
-    }
+    whole.tail<6>() = factor.solve(Vector6(right.tail<6>()));
     return whole;
   };
   GripVector way = solved(misfit.residual);
-  if (!has_level_) return way;
-  GripVector closing = GripVector::Zero();
-  std::array<bool, hand::kFingerCount> has_met{};
-  for (const ThumbPress& press : meeting_.presses(state_.posture)) {
-    if (press.overlap > kPulpGive) has_met[index_of(press.finger)] = true;
+  if (has_level_) {
+    GripVector closing = GripVector::Zero();
+    std::array<bool, hand::kFingerCount> has_met{};
+    for (const ThumbPress& press : meeting_.presses(state_.posture)) {
+      if (press.overlap > kPulpGive) has_met[index_of(press.finger)] = true;
+    }
+    for (int j = 0; j < kGripJoints; ++j) {
+      const bool closes = hand::is_flexion(grip_dof(j)) && mechanics_.is_loaded()[j];
+      if (closes && !has_met[index_of(grip_finger(j))]) closing[j] = 1.0;
+    }
+    const GripVector gain = solved(-(misfit.stiffness * closing)) + closing;
+    const double rate = mechanics_.squeeze().dot(gain);
+    if (rate > 1e-12) way += (missing - mechanics_.squeeze().dot(way)) / rate * gain;
   }
+  double longest = std::max(way.segment<3>(kGripJoints).norm(), kReach * way.tail<3>().norm());
+  for (int j = 0; j < kGripJoints; ++j) longest = std::max(longest, kReach * std::abs(way[j]));
+  way *= share_of(way, longest);
   for (int j = 0; j < kGripJoints; ++j) {
-    const bool closes = hand::is_flexion(grip_dof(j)) && mechanics_.is_loaded()[j];
-    if (closes && !has_met[index_of(grip_finger(j))]) closing[j] = 1.0;
+    const hand::JointDof& dof = hand_->skeleton.dof(grip_dof(j));
+    double& angle = state_.posture[dof.dof];
+    angle = std::clamp(angle + way[j], std::min(dof.lower, angle), std::max(dof.upper, angle));
   }
-  const GripVector gain = solved(-(misfit.stiffness * closing)) + closing;
-  const double rate = mechanics_.squeeze().dot(gain);
-  if (rate > 1e-12) way += (missing - mechanics_.squeeze().dot(way)) / rate * gain;
-  return way;
+  move_product(way.segment<3>(kGripJoints), way.tail<3>());
 }
 
 /// How much of a step is taken; `longest` is the longest way that something goes in it, mm.
@@ -142,13 +102,8 @@ void Settling::move_product(const Vec3& shift, const Vec3& turn) {
 /// The same for a precision grip: joints are held stiff, and fingertips go straight into the
 /// product, all alike, until the grip force is there.
 void Settling::step_fingertips(const Misfit& misfit, double missing) {
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
-  Eigen::Matrix<double, 6, 6> k = misfit.stiffness.bottomRightCorner<6, 6>();
-  for (const int begin : {0, 3}) {
-    k.diagonal().segment<3>(begin).array() +=
-        kSoftest * k.diagonal().segment<3>(begin).mean() + 1e-9;
-  }
-  const Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>> factor(k);
+  const Matrix6 k = softened(misfit.stiffness);
+  const Eigen::PartialPivLU<Matrix6> factor(k);
   const Vector6 squeeze = mechanics_.squeeze().tail<6>();
   Vector6 force = misfit.residual.tail<6>();
   hand::Posture rate;

@@ -17,9 +17,6 @@ std::vector<HoldDoubt> doubts_of(const Assessment& assessment) {
              rest != grasp::BalanceStatus::kSupported) {
     doubts.push_back({"not_at_rest", assessment.balance.message});
   }
-  if (assessment.balance.is_overloaded) {
-    doubts.push_back({"overloaded", "the muscles can't hold it so: " + assessment.balance.message});
-  }
   std::vector<hand::Region> touching;
   for (const contact::RegionContact& region : assessment.contact.regions)
     touching.push_back(region.region);

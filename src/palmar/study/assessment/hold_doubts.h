@@ -11,7 +11,7 @@ namespace palmar::study {
 
 /// Why a hold is to be doubted although the product is in the hand.
 struct HoldDoubt {
-  std::string key;    ///< "not_at_rest", "slips_out", "overloaded", "few_contacts"
+  std::string key;    ///< "not_at_rest", "slips_out", "few_contacts"
   std::string words;  ///< a clause for people
 };
 

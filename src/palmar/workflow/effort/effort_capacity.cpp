@@ -24,8 +24,6 @@ namespace {
 constexpr std::array<double, 7> kShares = {0.4, 0.3, 0.22, 0.15, 0.1, 0.06, 0.03};
 constexpr int kHalvings = 3;
 // How far above the firmest hold found a firmer one is looked for at a time, and how often.
-constexpr double kClimb = 1.15;
-constexpr int kMostClimbs = 5;
 constexpr double kExhausted = 0.9;  // of the strength: from there on muscles limit; our choice
 constexpr double kReached = 0.98;   // of the force asked for; less isn't held with it
 
@@ -121,7 +119,7 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
         study::assess(prepared, product, options, progress, [&](const Progress&) { return grasp; });
     const grasp::Balance& balance = tried.assessment.balance;
     tried.is_held = balance.status == grasp::BalanceStatus::kBalanced && balance.strength_use &&
-                    !balance.is_overloaded && balance.grip_force >= kReached * asked.value_or(0.0);
+                    balance.grip_force >= kReached * asked.value_or(0.0);
     return tried;
   };
   if (grasp.status == grasp::GraspStatus::kNotGraspable ||
@@ -143,16 +141,6 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
     result.message =
         "the fingers can't press the product into the palm: " + best.assessment.balance.message;
     return result;
-  }
-  // Muscles that give all they can may end where others, asked for a force, give more.
-  for (int i = 0; i < kMostClimbs && lost == 0.0; ++i) {
-    const double asked = kClimb * best.assessment.balance.grip_force;
-    Tried tried = gripped(asked);
-    if (tried.is_held) {
-      best = std::move(tried);
-    } else {
-      lost = asked;
-    }
   }
   for (int i = 0; i < kHalvings && lost > 0.0; ++i) {
     const double middle = 0.5 * (best.assessment.balance.grip_force + lost);

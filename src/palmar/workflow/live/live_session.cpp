@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/workflow/live/live_session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "palmar/core/progress_part.h"
 #include "palmar/grasp/given_grasp.h"
 #include "palmar/hand/skin/skinning.h"
+#include "palmar/hand/tendons/joint_limits.h"
 #include "palmar/workflow/grasp/contact_with_band.h"
 #include "palmar/workflow/grasp/hold_product.h"
 #include "palmar/workflow/hand/tissue_on_bone.h"
@@ -26,7 +28,14 @@ LivePose checked(const hand::Hand& hand, const LivePose& pose) {
   if (!is_finite) {
     throw UsageError("live session: an angle or the placement is not finite");
   }
-  return {hand::clamp_to_range(hand.skeleton, pose.posture).posture, pose.product_from_hand};
+  // Joints give way a little beyond their ranges.
+  LivePose held = pose;
+  for (int d = 0; d < hand::kDofCount; ++d) {
+    const hand::JointDof& dof = hand.skeleton.dof(static_cast<hand::Dof>(d));
+    double& angle = held.posture[dof.dof];
+    angle = std::clamp(angle, dof.lower - hand::kPassiveRange, dof.upper + hand::kPassiveRange);
+  }
+  return held;
 }
 
 }  // namespace
