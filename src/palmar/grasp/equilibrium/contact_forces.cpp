@@ -55,6 +55,12 @@ void ContactForces::pose(const GripState& state) {
   in_product_.clear();
 }
 
+bool ContactForces::is_at(const GripState& state) const {
+  const geometry::Rigid3 &a = state_.product_from_hand, &b = state.product_from_hand;
+  return state_.posture.angle == state.posture.angle && a.translation == b.translation &&
+         a.rotation.coeffs() == b.rotation.coeffs();
+}
+
 void ContactForces::look_on_springs(const GripState& state) {
   pose(state);
   std::vector<Vec3> skin(posed_.size());

@@ -58,6 +58,8 @@ class ContactForces {
   /// arms and normals turn. Where the contact has no derivatives of its own, with the latter alone.
   void differentiate();
 
+  /// Whether the state last looked at is this one.
+  bool is_at(const GripState& state) const;
   const SkinMotion& skin_motion() const { return skin_; }
   const std::vector<Vec3>& posed() const { return posed_; }  ///< skin, hand frame, mm
   const contact::ContactFallbacks& fallbacks() const { return fallbacks_; }

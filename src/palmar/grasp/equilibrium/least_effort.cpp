@@ -210,10 +210,10 @@ bool LeastEffort::look(const GripState& state, Look& at) {
     at.gap[k] = std::max(0.0, gap[k]) / task_->model.gap_spread;
     at.gap_rate.row(k) *= at.gap[k] > 0.0 ? 1.0 / task_->model.gap_spread : 0.0;
   }
-  if (!has_skin_on_skin_) at.presses = meeting_.presses(state.posture);
-  for (const ThumbPress& press : at.presses) {
-    at.outside += press.force * press.moment;
-    at.stiffness += press.stiffness * press.moment * press.moment.transpose();
+  if (!has_skin_on_skin_) {
+    at.presses = meeting_.presses(state.posture);
+    for (const ThumbPress& press : at.presses) at.outside += press.force * press.moment;
+    at.stiffness += meeting_.stiffness(state.posture);
   }
   return true;
 }
@@ -288,7 +288,7 @@ void LeastEffort::learn(const Look& from, const Look& to, const GripVector& way)
 
 /// The tissue's own derivatives at a state. False if its contact has no solution.
 bool LeastEffort::differentiate(const Look& at) {
-  if (!forces_.look(at.state, kAccuracy)) return false;
+  if (!forces_.is_at(at.state) && !forces_.look(at.state, kAccuracy)) return false;
   forces_.differentiate();
   learnt_ = forces_.stiffness() - at.contact_stiffness;
   learnt_rate_ = forces_.squeeze_rate() - at.squeeze_rate;
@@ -429,7 +429,7 @@ EffortRest LeastEffort::run(const Progress& progress) {
     return rest;
   }
   descend(now, kOnTissue, progress, rest);
-  if (!forces_.look(now.state, kAccuracy)) return rest;
+  if (!forces_.is_at(now.state) && !forces_.look(now.state, kAccuracy)) return rest;
   rest.status = EffortRest::Status::kSolved;
   finish(now, rest);
   return rest;

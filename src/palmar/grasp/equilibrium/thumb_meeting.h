@@ -9,8 +9,8 @@
 
 namespace palmar::grasp {
 
-/// A phalanx of a finger and one of the thumb that lie against each other and press with one force
-/// along the line between their bones. It does nothing to the product.
+/// A place along the thumb that lies in the flesh of a finger's phalanx, and both press on each
+/// other with one force. It does nothing to the product.
 struct ThumbPress {
   hand::Finger finger{};
   double overlap = 0.0;                    ///< of their flesh beyond that at the start, mm
@@ -19,29 +19,37 @@ struct ThumbPress {
   GripVector moment = GripVector::Zero();  ///< of 1 N of it about the angles, mm
 };
 
-/// Where the thumb meets fingers while a grasp comes to rest. Flesh that overlaps by D beyond what
-/// it did at the start pushes the bones apart with
+/// Where the thumb meets fingers while a grasp comes to rest. At each of five places along a
+/// phalanx of the thumb flesh that overlaps with a finger's by D beyond what it did at the start
+/// pushes the bones apart with
 ///
-///     N = 2 N (D / 4 mm)^4.
+///     N = 1 N (D / 4 mm)^4.
 ///
 /// A fingertip pressed 2 mm deep gives 1.5 to 2.5 N (thesis band, ball of 7 mm); two of them, 2 mm
-/// each, make D = 4 mm. The power is our choice: bones don't pass each other.
+/// each, make D = 4 mm, at some two of the places. The power is our choice: bones don't pass each
+/// other. Places, and not the nearest points of two bones, which jump where these are parallel.
 class ThumbMeeting {
  public:
   /// Keeps a reference to the hand.
   ThumbMeeting(const hand::Hand& hand, const hand::Posture& start);
 
-  /// Of all phalanges that overlap with the thumb's.
+  /// Of all places that overlap.
   std::vector<ThumbPress> presses(const hand::Posture& posture) const;
 
+  /// How the moments of all presses [N mm] change with the angles, N mm/rad: the loss per angle
+  /// (columns), with the presses' own way of turning.
+  GripMatrix stiffness(const hand::Posture& posture) const;
+
  private:
+  struct Place {
+    std::size_t thumb = 0, finger = 0;  ///< of the cones
+    double along = 0.0;                 ///< the thumb's cone
+    double at_start = 0.0;              ///< overlap, at least 0, mm
+  };
+
   const hand::Hand* hand_;
   FingerCones cones_;
-  std::vector<RoundCone> start_;
+  std::vector<Place> places_;
 };
-
-/// Force and moments of two cones of one hand that overlap by so much more than at the start.
-ThumbPress thumb_press(const hand::Skeleton& skeleton, const hand::Posture& posture,
-                       const RoundCone& thumb, const RoundCone& finger, double overlap);
 
 }  // namespace palmar::grasp
