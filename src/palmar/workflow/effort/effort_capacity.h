@@ -48,10 +48,10 @@ struct Capacity {
 };
 
 /// The largest grip force that a hand reaches on a product at rest with no muscle above its full
-/// strength (rest_with_least_effort()), or as hard as the product stays in the hand; then the largest
-/// torque about an axis through the middle of the grip and push and pull along the grip axis that
-/// friction holds at that force (solve_friction(), limit load). Power grips only. Throws UsageError
-/// (also for a product that isn't held in a power grip), InputError, Cancelled.
+/// strength (rest_with_least_effort()), or as hard as the product stays in the hand; then the
+/// largest torque about an axis through the middle of the grip and push and pull along the grip
+/// axis that friction holds at that force (solve_friction(), limit load). Power grips only. Throws
+/// UsageError (also for a product that isn't held in a power grip), InputError, Cancelled.
 Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progress = {});
 
 }  // namespace palmar::workflow
