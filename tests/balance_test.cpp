@@ -224,6 +224,7 @@ TEST_F(BalanceTest, ASmoothBarSlipsOutAlongItsLoad) {
     const grasp::Balance balance = grasp::balance_grasp(prepared(), bar(), grasp, options);
     ASSERT_EQ(balance.status, grasp::BalanceStatus::kSlipsOut) << balance.message;
     const Vec3 pull = closed().product_from_hand.rotation.conjugate() * options.load.gravity;
+    ASSERT_TRUE(balance.slip);
     EXPECT_GT(balance.slip->dot(pull), 0.8);
     EXPECT_THAT(balance.message, HasSubstr("slips out, towards "));
   }

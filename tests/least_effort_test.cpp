@@ -251,5 +251,44 @@ TEST_F(LeastEffort, RatesOfTheGapsAreTheirSlopes) {
   }
 }
 
+// What thumb and fingers do to each other has an energy, sum N D / 5 for N that grows with the
+// fourth power of D: moments are its slopes, stiffness theirs.
+TEST_F(LeastEffort, ThumbAndFingersPressLikeSomethingElastic) {
+  const grasp::ThumbMeeting meeting(hand(), {});
+  hand::Posture met = closed().posture;
+  for (int k = 0; k < hand::kDigitDofs; ++k) {
+    const hand::JointDof& dof = hand().skeleton.dof(grasp::grip_dof(k));
+    met[dof.dof] = dof.lower + 0.8 * (dof.upper - dof.lower);
+  }
+  const auto energy = [&](const hand::Posture& posture) {
+    double sum = 0.0;
+    for (const grasp::ThumbPress& press : meeting.presses(posture)) {
+      sum += press.force * press.overlap / 5.0;
+    }
+    return sum;
+  };
+  const auto moments = [&](const hand::Posture& posture) {
+    grasp::GripVector sum = grasp::GripVector::Zero();
+    for (const grasp::ThumbPress& press : meeting.presses(posture)) {
+      sum += press.force * press.moment;
+    }
+    return sum;
+  };
+  const grasp::GripVector moment = moments(met);
+  const grasp::GripMatrix stiffness = meeting.stiffness(met);
+  ASSERT_GT(moment.norm(), 10.0);  // N mm
+  constexpr double kStep = 1e-4;
+  for (int j = 0; j < grasp::kGripJoints; ++j) {
+    hand::Posture more = met, less = met;
+    more[grasp::grip_dof(j)] += kStep;
+    less[grasp::grip_dof(j)] -= kStep;
+    EXPECT_NEAR(moment[j], (energy(less) - energy(more)) / (2.0 * kStep), 0.03 * moment.norm())
+        << j;
+    EXPECT_LT((stiffness.col(j) - (moments(less) - moments(more)) / (2.0 * kStep)).norm(),
+              0.02 * stiffness.norm())
+        << j;
+  }
+}
+
 }  // namespace
 }  // namespace palmar::tests

@@ -36,12 +36,8 @@ ContactForces::ContactForces(const contact::PreparedHand& hand, const product::P
       friction_(friction),
       solver_(hand, options),
       bed_(hand.hand(), *product.distance) {
-  stick(start);
-}
-
-void ContactForces::stick(const GripState& state) {
-  anchor_ = hand::pose_skin(hand_->hand(), state.posture);
-  for (Vec3& point : anchor_) point = state.product_from_hand * point;
+  anchor_ = hand::pose_skin(hand.hand(), start.posture);
+  for (Vec3& point : anchor_) point = start.product_from_hand * point;
 }
 
 void ContactForces::pose(const GripState& state) {

@@ -35,7 +35,7 @@ namespace palmar::grasp {
 ///
 /// Stiffness: that of forces p_v which grow with the square of their own depth, and of a region's
 /// sum with the square of its mean depth, off by a sixth; or, at three times the cost of a contact,
-/// the contact's own (differentiate()). On springs (SkinBed) it is exact.
+/// the contact's own (differentiate()). On springs (SkinBed) that of the springs, 2 % off.
 class ContactForces {
  public:
   /// Keeps references; skin sticks where it is in `start`.
@@ -48,10 +48,6 @@ class ContactForces {
   /// The same with skin as a bed of springs; its stiffness is that of the springs, with how normals
   /// and arms turn.
   void look_on_springs(const GripState& state);
-
-  /// From now on skin sticks to the product where it is in `state`.
-  void stick(const GripState& state);
-  void set_friction(double friction) { friction_ = friction; }
 
   /// Stiffness and squeeze's rate of the state last looked at, with the forces' own derivatives in
   /// place of what look() takes for them (ContactSolver::Impl::stiffness_times()), and with how

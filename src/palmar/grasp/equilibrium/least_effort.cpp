@@ -35,6 +35,7 @@ constexpr double kTurnStep = 1e-3;  // rad; of differences
 constexpr double kBackDamping = 30.0,
                  kNoStep = 8.0;  // of a correction; times which without solution
 constexpr int kMostCorrections = 4;
+constexpr double kUsualSteps = 50.0;  // of all searches; of what progress is a share
 // Shares of the promised gain: less is corrected; less that a correction promises isn't worth it;
 // less isn't taken.
 constexpr double kPoor = 0.5, kWorthwhile = 0.2, kLeastShare = 0.02;
@@ -369,6 +370,7 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
   for (int tries = 0; tries < how.most_tries && !gives_up(); ++tries) {
     progress.throw_if_cancelled();
     ++rest.iterations;
+    progress.update(std::min(1.0, rest.iterations / kUsualSteps), "letting the grasp come to rest");
     if (is_new && !on_springs_ && !differentiate(now)) return;
     is_new = false;
     const EffortSolution step = solve_effort(program(now, damping));
@@ -416,7 +418,10 @@ EffortRest LeastEffort::run(const Progress& progress) {
   } else if (task_->grip_force) {
     asked_ = *task_->grip_force;
   } else if (forces_.look(start_, kAccuracy)) {
-    asked_ = forces_.grip().force;
+    // Under a load what two opposed contacts need to hold it by friction is added.
+    const double more =
+        task_->friction > 0.0 ? 0.5 * task_->load.force.norm() / task_->friction : 0.0;
+    asked_ = forces_.grip().force + more;
   } else {
     return rest;
   }

@@ -31,7 +31,8 @@ struct EffortModel {
 
 /// What a hand is asked to do with what it holds.
 struct EffortTask {
-  std::optional<double> grip_force;  ///< N, as grip_force(); unset: as firm as it was closed
+  std::optional<double> grip_force;  ///< N, as grip_force(); unset: as firm as it was
+                                     ///< closed, under a load half of it over mu more
   bool is_hardest = false;           ///< as hard as `strength` can, whatever `grip_force` says
   contact::Wrench load;              ///< on the product, about its origin, product frame
   double friction = 0.5;             ///< mu of skin on product

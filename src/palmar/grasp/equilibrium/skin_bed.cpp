@@ -20,9 +20,9 @@ struct Spring {
 constexpr Spring kDistal{0.013, 0.013, 5.0}, kProximal{0.008, 0.003, 7.0},
     kPadSpring{0.011, 0.0, 10.0}, kPalm{0.0065, 0.0, 12.0}, kDorsum{0.02, 0.01, 3.0};
 
-const Spring& spring_of(const hand::Hand& hand, int v) {
+const Spring& spring_of(hand::Region region) {
   using hand::Region;
-  switch (hand.region[v]) {
+  switch (region) {
     case Region::kDorsum:
       return kDorsum;
     case Region::kThumbProximal:
@@ -46,37 +46,29 @@ const Spring& spring_of(const hand::Hand& hand, int v) {
 }  // namespace
 
 SkinBed::SkinBed(const hand::Hand& hand, const geometry::DistanceField& product)
-    : hand_(&hand), product_(&product) {
-  const std::vector<double> area = geometry::vertex_areas(hand.skin);
-  for (std::size_t v = 0; v < hand.region.size(); ++v) {
-    vertex_.push_back(static_cast<int>(v));
-    area_.push_back(area[v]);
-  }
-  point_.resize(vertex_.size());
-}
+    : hand_(&hand), product_(&product), area_(geometry::vertex_areas(hand.skin)) {}
 
-const std::vector<SkinBed::Load>& SkinBed::look(const std::vector<Vec3>& posed) {
-  for (std::size_t k = 0; k < vertex_.size(); ++k) point_[k] = posed[vertex_[k]];
+const std::vector<SkinBed::Load>& SkinBed::look(const std::vector<Vec3>& skin) {
   if (sample_.empty()) {
-    sample_.resize(vertex_.size());
-    product_->sample(point_, kBedRange, sample_);
+    sample_.resize(skin.size());
+    product_->sample(skin, kBedRange, sample_);
   } else {
-    product_->resample(point_, kBedRange, sample_);
+    product_->resample(skin, kBedRange, sample_);
   }
   load_.clear();
-  for (std::size_t k = 0; k < vertex_.size(); ++k) {
-    const double depth = -sample_[k].distance;
+  for (std::size_t v = 0; v < skin.size(); ++v) {
+    const double depth = -sample_[v].distance;
     if (!(depth > 0.0)) continue;
-    const Spring& spring = spring_of(*hand_, vertex_[k]);
+    const Spring& spring = spring_of(hand_->region[v]);
     const double soft = depth * (spring.linear + spring.square * depth);
     const double hard = std::pow(depth / spring.depth, kHard);
     load_.push_back(
-        {.vertex = vertex_[k],
+        {.vertex = static_cast<int>(v),
          .depth = depth,
-         .force = area_[k] * soft * (1.0 + hard),
-         .stiffness = area_[k] * ((spring.linear + 2.0 * spring.square * depth) * (1.0 + hard) +
+         .force = area_[v] * soft * (1.0 + hard),
+         .stiffness = area_[v] * ((spring.linear + 2.0 * spring.square * depth) * (1.0 + hard) +
                                   soft * kHard * hard / depth),
-         .normal = sample_[k].normal});
+         .normal = sample_[v].normal});
   }
   return load_;
 }

@@ -10,14 +10,15 @@
 
 namespace palmar::grasp {
 
-/// Palmar skin as a bed of springs that know nothing of each other: what a search for a grasp's
-/// rest takes for the tissue on its way, before the tissue's own contact decides. At a depth d [mm]
-/// the skin presses with
+/// Skin as a bed of springs that know nothing of each other: what a search for a grasp's rest takes
+/// for the tissue on its way, before the tissue's own contact decides. At a depth d [mm] the skin
+/// of a region presses with
 ///
-///     0.010 d + 0.010 d^2 MPa on phalanges,   0.0065 d MPa in the palm,
+///     (a d + b d^2) (1 + (d / h)^4) MPa
 ///
-/// rounded means of the tissue's own contact per region of the template hand on cylinders of 44 and
-/// 60 mm. What is found in the end doesn't depend on it.
+/// a, b and h rounded after the tissue's own contact of the template hand on cylinders of 22 to 60
+/// mm (those of the back of the hand are a guess: so stiff that it stays out). They don't enter the
+/// problem, but where it has more than one minimum they can decide which is found.
 class SkinBed {
  public:
   /// Keeps references.
@@ -30,16 +31,14 @@ class SkinBed {
     double stiffness = 0.0;       ///< N/mm
     Vec3 normal = Vec3::UnitZ();  ///< of the product, product frame
   };
-  /// Loaded skin, ascending; `posed`: the whole skin, product frame, mm.
-  const std::vector<Load>& look(const std::vector<Vec3>& posed);
+  /// Loaded skin, ascending by vertex; `skin`: the whole of it, product frame, mm.
+  const std::vector<Load>& look(const std::vector<Vec3>& skin);
 
  private:
   const hand::Hand* hand_;
   const geometry::DistanceField* product_;
-  std::vector<int> vertex_;  ///< palmar skin
-  std::vector<double> area_;
+  std::vector<double> area_;                      ///< per vertex, mm^2
   std::vector<geometry::DistanceSample> sample_;  ///< of the last call
-  std::vector<Vec3> point_;
   std::vector<Load> load_;
 };
 

@@ -60,11 +60,16 @@ std::vector<ThumbPress> ThumbMeeting::presses(const hand::Posture& posture) cons
     ThumbPress press{.finger = finger.finger, .overlap = more};
     press.force = kPulpForce * std::pow(more / kPulps, kPulpPower);
     press.stiffness = kPulpPower * press.force / more;
-    const Vec3 on_thumb = place_on(thumb, place.along);
-    const Vec3 on_finger = place_on(finger, nearest_share(finger.a, finger.b, on_thumb));
-    const Vec3 away = (on_thumb - on_finger).normalized();
-    add_moments(thumb, on_thumb, away, press);
-    add_moments(finger, on_finger, -away, press);
+    // The way out of the flesh, which tapers: the slope of -overlap.
+    const Vec3 at = place_on(thumb, place.along);
+    const double share = nearest_share(finger.a, finger.b, at);
+    Vec3 push = (at - place_on(finger, share)).normalized();
+    if (share > 0.0 && share < 1.0) {
+      const Vec3 along = finger.b - finger.a;
+      push -= (finger.radius_b - finger.radius_a) / along.squaredNorm() * along;
+    }
+    add_moments(thumb, at, push, press);
+    add_moments(finger, at, -push, press);
     presses.push_back(press);
   }
   return presses;

@@ -102,13 +102,13 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
   balance.friction_force = rest.friction_force;
   balance.moved = rest.moved;
   balance.turned = rest.turned;
-  balance.strength_use = rest.share * task.strength / options.strength;
   balance.is_by_wrist = rest.is_by_wrist;
   balance.joint_load = rest.load;
 
   const double at_joints = rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>();
   if (balance.residual_share < kBalanced && at_joints < kJointSaid * rest.strongest_moment) {
     balance.status = BalanceStatus::kBalanced;
+    balance.strength_use = rest.share * task.strength / options.strength;
     balance.message = fmt::format("in balance at a grip force of {:.0f} N", rest.grip.force);
     const double asked = task.grip_force.value_or(rest.grip.force);
     if (!task.is_hardest && std::abs(rest.grip.force / asked - 1.0) > kLevelSaid) {
@@ -118,13 +118,15 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
     return balance;
   }
   balance.status = BalanceStatus::kSlipsOut;
-  // What is missing is what would have to push the product back.
-  const Vec3 missing = rest.missing.segment<3>(kGripJoints);
-  balance.slip = missing.norm() > 0.0 ? Vec3(-missing.normalized()) : Vec3(Vec3::UnitY());
-  if (balance.residual_share >= kBalanced) {
+  if (balance.residual_force >= kBalanced * rest.grip.force) {
+    // What is missing is what would have to push the product back.
+    balance.slip = -rest.missing.segment<3>(kGripJoints).normalized();
     balance.message = fmt::format("slips out, towards {}: {:.1f} N and {:.0f} N mm are missing",
                                   way_words(hand.hand(), *balance.slip), balance.residual_force,
                                   balance.residual_moment);
+  } else if (balance.residual_share >= kBalanced) {
+    balance.message =
+        fmt::format("turns in the hand: {:.0f} N mm are missing", balance.residual_moment);
   } else {
     balance.message = fmt::format(
         "slips out: the muscles lack {:.0f} N mm about a joint of a finger or the thumb",

@@ -43,8 +43,8 @@ struct BalanceOptions {
   /// Largest activation: the person's muscles over those of HandMuscles.
   double strength = 1.0;
   hand::WristPosture wrist{};  ///< of a power grip; changes what muscles can, not the picture
-  /// Share of the grip force that forces and moments may leave over when settling ends; 0.01 counts
-  /// as balanced.
+  /// Share of the grip force that forces and moments may leave over when a precision grip or a hook
+  /// ends settling; 0.01 counts as balanced.
   double aim = 0.002;
 
   /// N; nothing if a grasp of that grip stays as firm as it was closed, as hooked fingers always
@@ -57,11 +57,11 @@ struct BalanceOptions {
 
 enum class BalanceStatus {
   kOff,
-  kBalanced,      ///< forces and moments add up to less than 1 % of the grip force
-  kSlipsOut,      ///< the product leaves the hand; `slip` says which way
-  kSupported,     ///< the hand rests on it or pushes it with the force asked for; what the
-                  ///< product stands on carries that
-  kNoContact,     ///< nothing is touched
+  kBalanced,   ///< forces and moments add up to less than 1 % of the grip force
+  kSlipsOut,   ///< the product leaves the hand or turns in it, or muscles are too weak for the hold
+  kSupported,  ///< the hand rests on it or pushes it with the force asked for; what the
+               ///< product stands on carries that
+  kNoContact,  ///< nothing is touched
   kNotConverged,  ///< neither within the allowed number of steps
   kFailed         ///< the contact couldn't be solved on the way
 };
@@ -79,7 +79,7 @@ struct Balance {
   double residual_share = 0.0;   ///< the larger of force / grip force, moment / (grip force arm)
   double friction_use = 0.0;     ///< sum of tangential forces over the most they could be
   /// Least share of the person's strength with which the muscles of all digits and the wrist hold
-  /// these contact forces and the load; nothing for grips other than power grips.
+  /// these contact forces and the load; nothing but for power grips that came to rest.
   std::optional<double> strength_use;
   bool is_by_wrist = false;  ///< the muscles of the digits alone would need a smaller share
   /// Moments about the angles of the digits of contact forces, friction and of thumb and fingers on
@@ -87,7 +87,8 @@ struct Balance {
   std::optional<hand::HandLoad> joint_load;
   double moved = 0.0;                ///< of the product in the hand since it was closed, mm
   double turned = 0.0;               ///< rad
-  std::optional<Vec3> slip;          ///< kSlipsOut: unit direction, hand frame
+  std::optional<Vec3> slip;          ///< kSlipsOut: unit direction, hand frame; unset where
+                                     ///< nothing pushes it out
   std::vector<Vec3> friction_force;  ///< per skin vertex, of the skin on the product, product
                                      ///< frame, N
   int iterations = 0;
