@@ -24,15 +24,15 @@ class AnswerCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = temporary_folder();
-    for (const char* made : {"prism --fillet-mm 1 --length-mm 120 --out thin.stl",
-                             "cylinder --diameter-mm 40 --length-mm 120 --out thick.stl"}) {
+    for (const char* made : {"cylinder --diameter-mm 56 --length-mm 120 --out thick.stl",
+                             "cylinder --diameter-mm 24 --length-mm 120 --out thin.stl"}) {
       const ProgramRun run = palmar(std::string("product make ") + made);
       ASSERT_EQ(run.exit_code, 0) << run.err;
     }
   }
   static ProgramRun palmar(const std::string& arguments) { return run_palmar(arguments, folder_); }
   static Json assessed(const std::string& options) {
-    const ProgramRun run = palmar("assess thin.stl thick.stl --unit mm --quiet --json " + options);
+    const ProgramRun run = palmar("assess thick.stl thin.stl --unit mm --quiet --json " + options);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return run.exit_code == 0 ? Json::parse(run.out) : Json();
   }
@@ -44,15 +44,16 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 TEST_F(AnswerCommand, IsTheSameInTheTextTheJsonAndThePage) {
   const ProgramRun text = palmar(
-      "assess thin.stl thick.stl --unit mm --grip-force-n 40 --no-pictures --out two --quiet");
+      "assess thick.stl thin.stl --unit mm --grip-force-n 40 --no-pictures --out two --quiet");
   ASSERT_EQ(text.exit_code, 0) << text.err;
   const Json json = Json::parse(read_text(folder_ + "/two/assessment.json"));
   const std::string sentence = json.at("verdict").at("sentence");
   EXPECT_EQ(first_line(text.out), sentence);
   EXPECT_THAT(read_text(folder_ + "/two/report.html"), HasSubstr(sentence + "</p>"));
-  EXPECT_THAT(sentence, StartsWith("thick presses "));
-  EXPECT_THAT(sentence, HasSubstr("% less than thin at its hardest place, in the same grip of 40"));
-  EXPECT_EQ(json.at("verdict").at("best"), "thick");
+  EXPECT_THAT(sentence, StartsWith("thin presses "));
+  EXPECT_THAT(sentence,
+              HasSubstr("% less than thick at its hardest place, in the same grip of 40"));
+  EXPECT_EQ(json.at("verdict").at("best"), "thin");
   // The percentage is that of the figures.
   const auto peak = [&](int i) {
     return json.at("assessments").at(i).at("contact").at("peak_pressure_cells_mpa").get<double>();
@@ -85,7 +86,7 @@ TEST_F(AnswerCommand, ComfortIsWhatItsFiguresSay) {
 
 TEST_F(AnswerCommand, SpeaksGerman) {
   const ProgramRun run = palmar(
-      "assess thin.stl thick.stl --unit mm --grip-force-n 40 --no-pictures --out de --quiet "
+      "assess thick.stl thin.stl --unit mm --grip-force-n 40 --no-pictures --out de --quiet "
       "--language de");
   EXPECT_THAT(first_line(run.out), HasSubstr("drückt an der härtesten Stelle"));
   const ProgramRun wrong = palmar("assess thin.stl --unit mm --language fr");
@@ -121,7 +122,7 @@ TEST_F(AnswerCommand, ThoroughALeftHandIsTheMirrorImage) {
 
 TEST_F(AnswerCommand, OfManyHandsIsASmallStudy) {
   const ProgramRun run = palmar(
-      "assess thin.stl thick.stl --unit mm --grip-force-n 40 --population ansur2_women --hands 3 "
+      "assess thick.stl thin.stl --unit mm --grip-force-n 40 --population ansur2_women --hands 3 "
       "--no-pictures --out many --quiet");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("3 hands agree"));

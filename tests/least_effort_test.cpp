@@ -17,6 +17,8 @@
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/tendons/joint_limits.h"
 #include "palmar/product/primitives.h"
+#include "palmar/records/hand/compliance_file.h"
+#include "palmar/records/hand/hand_file.h"
 #include "template_fixture.h"
 
 namespace palmar::tests {
@@ -227,8 +229,60 @@ TEST_F(LeastEffort, OnSpringsStiffnessIsTheSlopeOfTheForces) {
       return force;
     };
     const grasp::GripVector slope = (force_at(-kStep) - force_at(kStep)) / (2.0 * kStep);
-    EXPECT_LT((stiffness.col(c) - slope).norm(), 0.02 * slope.norm() + 1.0) << c;
+    EXPECT_LT((stiffness.col(c) - slope).norm(), 0.03 * slope.norm() + 1.0) << c;
   }
+}
+
+/// The built template hand with its tissue on bone.
+const contact::PreparedHand& hand_on_bone() {
+  static const contact::PreparedHand made = [] {
+    const std::string share = PALMAR_SHARE;
+    const auto hand =
+        std::make_shared<const hand::Hand>(records::read_hand(share + "/template.hand.glb"));
+    auto compliance = records::read_compliance(share + "/template.compliance",
+                                               records::compliance_key(*hand), *hand);
+    return contact::PreparedHand(
+        hand, contact::palmar_model(),
+        std::make_shared<const contact::SkinCompliance>(std::move(compliance.value())));
+  }();
+  return made;
+}
+
+// Contact and friction of a hand at rest: forces with their directions and arms, friction with how
+// far it has slid and how deep its region is pressed, skin that turns under the product.
+TEST_F(LeastEffort, OnTissueStiffnessIsTheSlopeOfTheForces) {
+  const contact::PreparedHand& hand = hand_on_bone();
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand.hand(), bar());
+  const grasp::GripState start{grasp.posture, grasp.product_from_hand};
+  const grasp::EffortRest found =
+      grasp::rest_with_least_effort(hand, bar(), start, {.grip_force = 90.0}, {});
+  grasp::ContactForces forces(hand, bar(), {}, 0.5, start);
+  constexpr double kExact = 1e-7;
+  ASSERT_TRUE(forces.look(found.state, kExact));
+  forces.differentiate();
+  const grasp::GripMatrix stiffness = forces.stiffness();
+  const Vec3 centre = forces.centre();
+  double mean = 0.0;
+  for (int c = 0; c < grasp::kGripCoordinates; ++c) {
+    const bool is_shift = c >= grasp::kGripJoints && c < grasp::kGripJoints + 3;
+    const double step = is_shift ? 0.01 : 2e-4;  // mm, rad
+    const auto force_at = [&](double way) {
+      EXPECT_TRUE(forces.look(grasp::moved(found.state, one_way(c, way), centre), kExact));
+      grasp::GripVector force = forces.force();
+      force.tail<3>() +=
+          (forces.centre() - centre).cross(Vec3(force.segment<3>(grasp::kGripJoints)));
+      return force;
+    };
+    const grasp::GripVector slope = (force_at(-step) - force_at(step)) / (2.0 * step);
+    const auto size = [](grasp::GripVector force) {  // moments count as forces at 30 mm
+      force.segment<3>(grasp::kGripJoints) *= 30.0;
+      return force.norm();
+    };
+    const double off = size(stiffness.col(c) - slope) / size(slope);
+    EXPECT_LT(off, 0.08) << c;
+    mean += off / grasp::kGripCoordinates;
+  }
+  EXPECT_LT(mean, 0.015);
 }
 
 TEST_F(LeastEffort, RatesOfTheGapsAreTheirSlopes) {

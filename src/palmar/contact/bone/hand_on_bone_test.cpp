@@ -102,12 +102,57 @@ TEST(HandOnBone, StiffnessIsTheSlopeOfTheForces) {
     change(static_cast<Eigen::Index>(k), 0) = 1.0;
     change(static_cast<Eigen::Index>(k), 1) = usual_tip()->skin.vertices[loaded[k]].x();
   }
-  const auto lost = solver.stiffness_times(change, 1e-8);
+  const auto lost = solver.stiffness_times(change, {}, 1e-8);
   ASSERT_TRUE(lost);
   EXPECT_NEAR(lost->col(0).sum(), slope, 0.002 * slope);  // skin joins and leaves the contact
   const Eigen::Matrix2d both = change.transpose() * *lost;
   EXPECT_NEAR(both(0, 1), both(1, 0), 1e-5 * std::sqrt(both(0, 0) * both(1, 1)));
   EXPECT_GT(both(1, 1), 0.0);
+}
+
+TEST(HandOnBone, TurningTheProductAgainstTheSkinChangesForcesAsTheirRateSays) {
+  // A plate turns about an axis through the fingertip: depths change, and so do the directions in
+  // which the skin is pressed.
+  const PreparedHand hand(usual_tip(), on_bone_model(), compliance_of_tip());
+  ContactSolver::Impl solver(hand, {});
+  const contact_test::HalfSpace plate(0.0);
+  const std::vector<Vec3>& skin = usual_tip()->skin.vertices;
+  const Vec3 axis = Vec3(1.0, 0.4, 0.0).normalized();  // hand frame
+  ContactResult result;
+  const auto press = [&](double turn) -> const std::vector<double>& {
+    geometry::Rigid3 placed;
+    placed.rotation =
+        Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX())) * Quat(Eigen::AngleAxisd(turn, axis));
+    placed.translation = Vec3(0.0, 0.0, 7.5);
+    solver.solve_forces(skin, placed, plate, 1e-9, result);
+    return result.force;
+  };
+  constexpr double kStep = 2e-4;  // rad
+  const std::vector<double> more = press(kStep), less = press(-kStep);
+  press(0.0);
+  const std::vector<int> loaded = loaded_vertices(result);
+  Eigen::MatrixXd change(loaded.size(), 1);
+  LoadedSkin::Turns turns;
+  const Vec3 turn = Quat(Eigen::AngleAxisd(M_PI, Vec3::UnitX())) * axis;  // of the skin
+  for (std::size_t k = 0; k < loaded.size(); ++k) {
+    const Vec3 moved = turn.cross(Vec3(result.undeformed[loaded[k]] - Vec3(0.0, 0.0, 7.5)));
+    change(static_cast<Eigen::Index>(k), 0) = moved.z();
+    turns.push_back({{0, -turn.cross(Vec3::UnitZ())}});
+  }
+  const auto rate = [&](const LoadedSkin::Turns& with) {
+    return Eigen::VectorXd(*solver.stiffness_times(change, with, 1e-8));
+  };
+  const Eigen::VectorXd exact = rate(turns), held = rate({});
+  double off = 0.0, off_held = 0.0, size = 0.0;
+  for (std::size_t k = 0; k < loaded.size(); ++k) {
+    const double lost = (less[loaded[k]] - more[loaded[k]]) / (2.0 * kStep);
+    const auto i = static_cast<Eigen::Index>(k);
+    off += std::pow(exact[i] - lost, 2);
+    off_held += std::pow(held[i] - lost, 2);
+    size += lost * lost;
+  }
+  EXPECT_LT(std::sqrt(off / size), 0.01);
+  EXPECT_GT(std::sqrt(off_held / size), 0.03);  // else the test would say nothing
 }
 
 TEST(HandOnBone, TissueThatIsPressedAwayBulgesBesideTheContact) {

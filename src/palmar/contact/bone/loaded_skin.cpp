@@ -9,8 +9,7 @@ namespace palmar::contact {
 
 LoadedSkin::LoadedSkin(const SkinGeometry& skin, const SkinCompliance& compliance,
                        const SkinResponse* half_space, const std::vector<double>& scale)
-    : skin_(&skin),
-      compliance_(&compliance),
+    : compliance_(&compliance),
       half_space_(half_space),
       root_scale_(static_cast<std::size_t>(skin.vertex_count()), 1.0F),
       row_of_(root_scale_.size(), -1),
@@ -33,12 +32,12 @@ void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& 
   vertex_ = vertices;
   const std::size_t m = vertex_.size();
   scaled_.resize(m);
-  cosine_.resize(m);
+  direction_.resize(m);
   for (std::size_t i = 0; i < m; ++i) {
     const int v = vertex_[i];
     set_local(v, static_cast<int>(i));
-    scaled_[i] = directions[i].cast<float>() * root_scale_[v];
-    cosine_[i] = static_cast<float>(-directions[i].dot(skin_->normal[v]));
+    direction_[i] = directions[i].cast<float>();
+    scaled_[i] = direction_[i] * root_scale_[v];
   }
   // What is listed for a row stands left of its diagonal; the rest follows by symmetry.
   lower_.begin.assign(1, 0);
@@ -75,8 +74,9 @@ void LoadedSkin::set(const std::vector<int>& vertices, const std::vector<Vec3>& 
       for (std::size_t k = half_space_->begin[v]; k < half_space_->begin[v + 1]; ++k) {
         const int w = half_space_->vertex[k];
         if (w > v || row_of_[w] >= 0) continue;
-        add(local_[w],
-            [&](std::size_t j) { return half_space_->response[k] * cosine_[i] * cosine_[j]; });
+        add(local_[w], [&](std::size_t j) {
+          return half_space_->response[k] * direction_[i].dot(direction_[j]);
+        });
       }
     }
     lower_.begin.push_back(lower_.column.size());
@@ -136,9 +136,9 @@ std::vector<double> LoadedSkin::displacement(const std::vector<double>& force,
                                              const std::vector<int>& at,
                                              const std::vector<Vec3>& along) const {
   const std::vector<Eigen::Vector3f> moved = moved_rows(force, at);
-  std::vector<float> normal_load(row_of_.size(), 0.0F);  // per vertex
+  std::vector<Eigen::Vector3f> load(row_of_.size(), Eigen::Vector3f::Zero());  // per vertex
   for (std::size_t j = 0; j < vertex_.size(); ++j) {
-    normal_load[vertex_[j]] = static_cast<float>(force[j]) * cosine_[j];
+    load[vertex_[j]] = static_cast<float>(force[j]) * direction_[j];
   }
   std::vector<double> result(at.size(), 0.0);
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -148,15 +148,63 @@ std::vector<double> LoadedSkin::displacement(const std::vector<double>& force,
           static_cast<double>(root_scale_[v]) * along[i].dot(moved[row_of_[v]].cast<double>());
       continue;
     }
-    double sum = 0.0;
+    Vec3 sum = Vec3::Zero();
     for (std::size_t k = half_space_->begin[v]; k < half_space_->begin[v + 1]; ++k) {
       const int w = half_space_->vertex[k];
       if (row_of_[w] >= 0) continue;
-      sum += static_cast<double>(half_space_->response[k]) * static_cast<double>(normal_load[w]);
+      sum += static_cast<double>(half_space_->response[k]) * load[w].cast<double>();
     }
-    result[i] = -along[i].dot(skin_->normal[v]) * sum;
+    result[i] = along[i].dot(sum);
   }
   return result;
+}
+
+Eigen::MatrixXd LoadedSkin::turned(const std::vector<double>& force, const Turns& turns,
+                                   int columns) const {
+  const SkinCompliance& C = *compliance_;
+  const std::size_t m = vertex_.size();
+  // Per vertex its force, and how that turns: (column, force times change), one after the other.
+  std::vector<Eigen::Vector3f> load(m, Eigen::Vector3f::Zero()), moved = load;
+  std::vector<std::size_t> begin{0};
+  std::vector<std::pair<int, Eigen::Vector3f>> turn;
+  for (std::size_t i = 0; i < m; ++i) {
+    load[i] = static_cast<float>(force[i]) * scaled_[i];
+    for (const auto& [column, change] : turns[i]) {
+      if (row_of_[vertex_[i]] < 0) break;
+      turn.emplace_back(column, change.cast<float>() * root_scale_[vertex_[i]]);
+    }
+    begin.push_back(turn.size());
+  }
+  using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Rows result = Rows::Zero(static_cast<Eigen::Index>(m), columns);
+  const auto add = [&](std::size_t to, const Eigen::Vector3f& row, std::size_t from) {
+    float* const sum = result.data() + to * static_cast<std::size_t>(columns);
+    const Eigen::Vector3f pressed = static_cast<float>(force[from]) * row;
+    for (std::size_t t = begin[from]; t < begin[from + 1]; ++t) {
+      sum[turn[t].first] += pressed.dot(turn[t].second);
+    }
+  };
+  for (std::size_t i = 0; i < m; ++i) {
+    const int row = row_of_[vertex_[i]];
+    if (row < 0) continue;
+    for (std::size_t k = C.begin[row]; k < C.begin[row + 1]; ++k) {
+      const int other = local_of_row_[C.other[k]];
+      if (other < 0) continue;
+      const auto j = static_cast<std::size_t>(other);
+      const Eigen::Matrix3f& tensor = C.tensor[k];
+      moved[i] += tensor * load[j];
+      add(i, tensor.transpose() * scaled_[i], j);
+      if (i == j) continue;
+      moved[j] += tensor.transpose() * load[i];
+      add(j, tensor * scaled_[j], i);
+    }
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t t = begin[i]; t < begin[i + 1]; ++t) {
+      result(static_cast<Eigen::Index>(i), turn[t].first) += moved[i].dot(turn[t].second);
+    }
+  }
+  return result.cast<double>();
 }
 
 std::vector<Vec3> LoadedSkin::motion(const std::vector<double>& force,

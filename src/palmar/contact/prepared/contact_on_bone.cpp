@@ -16,6 +16,7 @@ namespace palmar::contact {
 namespace {
 
 constexpr int kMostRounds = 60;
+constexpr double kPressedNear = 2.0;        // mm; skin that far off the product says nothing of it
 constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modulus, for results
 // Accuracy of the solutions on the way, per relative change of the moduli: the last one's; in the
 // end; and at most, from nothing or from another posture.
@@ -45,13 +46,30 @@ Eigen::Matrix3d ContactSolver::Impl::to_reference(const SkinOnProduct& skin, int
   return before * posed.transpose();
 }
 
+/// The direction in which the product presses the skin: the mean of its normals at the vertex and
+/// its neighbours, by their area. Skin is no finer than its vertices: it doesn't turn from one
+/// facet of a mesh to the next.
+Vec3 ContactSolver::Impl::pressed_along(const SkinOnProduct& skin, int v) const {
+  const SkinGeometry& surface = prepared->skin;
+  const Vec3& own = skin.sample[v].normal;
+  Vec3 sum = surface.area[v] * own;
+  for (const int w : surface.neighbours(v)) {
+    const geometry::DistanceSample& sample = skin.sample[w];
+    const double near = std::clamp(1.0 - sample.distance / kPressedNear, 0.0, 1.0);
+    if (near == 0.0) continue;
+    // Not of the other side of something thin.
+    sum += near * std::max(0.0, own.dot(sample.normal)) * surface.area[w] * sample.normal;
+  }
+  return sum.normalized();
+}
+
 /// The directions in which the product presses the skin, turned back with it.
 std::vector<Vec3> ContactSolver::Impl::reference_directions(
     const SkinOnProduct& skin, const std::vector<int>& vertices) const {
   std::vector<Vec3> result;
   result.reserve(vertices.size());
   for (const int v : vertices) {
-    result.emplace_back(to_reference(skin, v) * skin.sample[v].normal);
+    result.emplace_back(to_reference(skin, v) * pressed_along(skin, v));
   }
   return result;
 }
@@ -313,8 +331,11 @@ ContactSolver::Impl::force_per_modulus_on_bone(const SkinOnProduct& skin, const 
 /// and chi_b' = W_b in every block (block_energy.h). Linear in dp and dlambda, with r_b the change
 /// of t and U_b that of u with lambda_b at given forces, M the second derivatives of U* there:
 ///
-///     tau C tau dp + U dlambda = -dd,     U' dp + M dlambda = 0.
+///     tau C tau dp + U dlambda = -dd - tau D,     U' dp + M dlambda = -r' D,
+///
+/// D = dC t what turning directions do at given forces.
 std::optional<Eigen::MatrixXd> ContactSolver::Impl::stiffness_times(const Eigen::MatrixXd& change,
+                                                                    const LoadedSkin::Turns& turns,
                                                                     double accuracy) {
   if (!prepared->is_on_bone() || !options.coatings.empty() || !on_self_->is_empty()) return {};
   const SkinLoad& load = last_;
@@ -349,9 +370,26 @@ std::optional<Eigen::MatrixXd> ContactSolver::Impl::stiffness_times(const Eigen:
     return x ? std::optional(gathered(*x)) : std::nullopt;
   };
 
+  Eigen::MatrixXd turned = Eigen::MatrixXd::Zero(count, change.cols());  // D
+  if (!turns.empty()) {
+    LoadedSkin::Turns of_load(load.vertex.size());
+    std::vector<double> q(load.force);
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] /= load.root_modulus[k];
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const std::size_t k = row[static_cast<std::size_t>(i)];
+      const Eigen::Matrix3d back = to_reference(skin_, load.vertex[k]);
+      for (const auto& [column, turn] : turns[static_cast<std::size_t>(i)]) {
+        of_load[k].emplace_back(column, back * turn);
+      }
+    }
+    const Eigen::MatrixXd all = loaded_->turned(q, of_load, static_cast<int>(change.cols()));
+    for (Eigen::Index i = 0; i < count; ++i) {
+      turned.row(i) = all.row(static_cast<Eigen::Index>(row[static_cast<std::size_t>(i)]));
+    }
+  }
   Eigen::MatrixXd y(count, change.cols());  // tau dp with the moduli held
   for (Eigen::Index c = 0; c < change.cols(); ++c) {
-    const auto x = solved(root.cwiseProduct(change.col(c)));
+    const auto x = solved(root.cwiseProduct(change.col(c)) + turned.col(c));
     if (!x) return {};
     y.col(c) = *x;
   }
@@ -395,7 +433,8 @@ std::optional<Eigen::MatrixXd> ContactSolver::Impl::stiffness_times(const Eigen:
   }
   if (blocks > 0) {
     const Eigen::MatrixXd left = second - moved.transpose() * followed;
-    const Eigen::MatrixXd lambda = left.ldlt().solve(moved.transpose() * y);
+    const Eigen::MatrixXd lambda =
+        left.ldlt().solve(moved.transpose() * y - r.transpose() * turned);
     y += followed * lambda;
   }
   return root.asDiagonal() * y;

@@ -40,12 +40,15 @@ struct ContactSolver::Impl {
   void solve_forces(const std::vector<Vec3>& posed_skin, const geometry::Rigid3& product_from_hand,
                     const geometry::DistanceField& product, double accuracy, ContactResult& result);
 
-  /// How the forces of the last solve_forces() change with the distances of loaded skin to the
-  /// product: -dp/dd, N/mm, symmetric and positive definite, applied to `change` [mm], a row for
-  /// each vertex of loaded_vertices(). The set of loaded skin and the directions in which it is
-  /// pressed are held, moduli follow (block_energy.h). `accuracy`: relative. Nothing where the
-  /// tissue isn't on bone, or with coatings or skin on skin in touch.
-  std::optional<Eigen::MatrixXd> stiffness_times(const Eigen::MatrixXd& change, double accuracy);
+  /// How the forces of the last solve_forces() change, -dp [N], with the distances of loaded skin
+  /// to the product, `change` [mm], a row for each vertex of loaded_vertices(), and with the
+  /// directions in which it is pressed: `turns`, per such vertex (column, turn of the direction
+  /// against the skin, product frame, rad); empty: they are held. The set of loaded skin is held,
+  /// moduli follow (block_energy.h). With directions held -dp/dd is symmetric and positive
+  /// definite. `accuracy`: relative. Nothing where the tissue isn't on bone, or with coatings or
+  /// skin on skin in touch.
+  std::optional<Eigen::MatrixXd> stiffness_times(const Eigen::MatrixXd& change,
+                                                 const LoadedSkin::Turns& turns, double accuracy);
 
   const PreparedHand* hand;
   const PreparedHand::Impl* prepared;
@@ -57,12 +60,18 @@ struct ContactSolver::Impl {
   /// In place of what find_skin_on_product() finds at these vertices; empty in any call of ours.
   std::vector<std::pair<int, geometry::DistanceSample>> aimed;
   const SkinOnProduct& skin() const { return skin_; }  ///< of the last call
+  /// Unit, out of the product: the direction in which it pressed a loaded vertex in the last call
+  /// (on bone; else its normal there).
+  Vec3 pressed_along(int vertex) const {
+    return prepared->is_on_bone() ? pressed_along(skin_, vertex) : skin_.sample[vertex].normal;
+  }
   /// How the forces of a result move skin on bone at some vertices, product frame, mm; after
   /// solve().
   std::vector<Vec3> motion_on_bone(const ContactResult& result, const std::vector<int>& at) const;
 
  private:
   void take_aimed();
+  Vec3 pressed_along(const SkinOnProduct& skin, int v) const;
   void find_meetings(const std::vector<Vec3>& posed, std::optional<hand::Region> only);
   void add_touches(ContactResult& result) const;
   SkinLoad find_forces(const std::vector<Vec3>& posed_skin,

@@ -48,6 +48,8 @@ class BlockMatrix {
   using AddProduct = std::function<void(const std::vector<float>& x, std::vector<float>& y)>;
   bool solve(const std::vector<float>& b, double tolerance, std::vector<float>& x, int& iterations,
              const AddProduct& also = {});
+  /// y = A x.
+  void multiply(const std::vector<float>& x, std::vector<float>& y) const;
 
  private:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -60,7 +62,6 @@ class BlockMatrix {
   std::size_t pair(int row_block, int column_block) const {
     return static_cast<std::size_t>(row_block) * sizes_.size() + column_block;
   }
-  void multiply(const std::vector<float>& x, std::vector<float>& y) const;
   void precondition(const std::vector<float>& r, std::vector<float>& z);
 
   std::vector<int> sizes_;

@@ -83,9 +83,10 @@ class ContactSystem {
   void add_far(const std::vector<int>& rows, const Force& force, const Add& add) const;
   void multiply_all(const std::vector<double>& p, std::vector<double>& s) const;
   bool solve_dense(const std::vector<double>& b, std::vector<char>& in_contact,
-                   std::vector<double>& force, std::vector<double>& gap, Outcome& outcome) const;
-  void find_gap(const std::vector<double>& b, const std::vector<double>& force,
-                std::vector<double>& gap) const;
+                   std::vector<double>& force, std::vector<double>& gap, Outcome& outcome);
+  void multiply_roughly(const std::vector<double>& p, std::vector<double>& s);
+  void find_gap(const std::vector<double>& b, const std::vector<double>& force, bool is_rough,
+                std::vector<double>& gap);
   void take_off_forces(const std::vector<char>& in_contact, bool has_gap,
                        std::vector<double>& force, std::vector<double>& gap) const;
   static void measure(const std::vector<double>& b, const std::vector<double>& force,

@@ -79,10 +79,11 @@ bool ContactForces::look(const GripState& state, double accuracy) {
   fallbacks_ += contact_.fallbacks;
   if (contact_.status == contact::ContactStatus::kNotConverged) return false;
   loaded_ = contact::loaded_vertices(contact_);
-  normal_ = contact::contact_normals(contact_, *product_->distance, loaded_);
-  for (std::size_t k = 0; k < loaded_.size(); ++k) {
-    const int v = loaded_[k];
-    normal_[k] = hand_from_product_ * normal_[k];
+  normal_.clear();
+  slope_.clear();
+  for (const int v : loaded_) {
+    normal_.push_back(hand_from_product_ * solver_.pressed_along(v));
+    slope_.push_back(hand_from_product_ * solver_.skin().sample[v].normal);
     pressed_.push_back(contact_.force[v]);
     depth_.push_back(std::max(kLeastDepth, -solver_.skin().sample[v].distance));
     in_product_.push_back(contact_.undeformed[v]);
@@ -101,6 +102,8 @@ void ContactForces::add_up() {
   drag_.setZero();
   is_loaded_.fill(false);
   pull_.clear();
+  way_.clear();
+  room_.clear();
   friction_use_ = 0.0;
   grip_ = {};
   if (loaded_.empty()) return;
@@ -122,6 +125,10 @@ void ContactForces::add_up() {
   centre_ /= sum;
   grip_ = grip_force(pressed);
 
+  for (int f = 0; f < hand::kFingerCount; ++f) {
+    digit_[static_cast<std::size_t>(f)] =
+        hand::pose_digit(hand.skeleton, static_cast<hand::Finger>(f), state_.posture);
+  }
   // Motions of each loaded vertex over the product, per coordinate.
   motion_.assign(loaded_.size(), {});
   for (int j = 0; j < kGripJoints; ++j) {
@@ -152,6 +159,8 @@ void ContactForces::add_up() {
     Vec3 way = hand_from_product_ * (in_product_[k] - anchor_[v]);
     way -= n * n.dot(way);
     const double room = std::hypot(way.norm(), kStick * friction_ * r.work / r.force);
+    way_.push_back(way);
+    room_.push_back(room);
     const double drag = friction_ > 0.0 ? friction_ * p / room : 0.0;
     const Vec3 pull = -drag * way;
     pull_.push_back(pull);
@@ -176,7 +185,7 @@ void ContactForces::add_up() {
     }
   }
   if (is_on_bed) {
-    stiffness_ += geometric_stiffness();
+    stiffness_ += geometric_stiffness(bends());
   } else {
     // Skin that a region presses together stiffens together.
     for (const RegionSum& r : region) {
@@ -187,12 +196,17 @@ void ContactForces::add_up() {
     }
   }
   stiffness_ += drag_;
+  for (std::size_t r = 0; r < region.size(); ++r) {
+    depth_of_[r] = {region[r].force,
+                    region[r].force > 0.0 ? region[r].work / region[r].force : 0.0};
+  }
   arm_ = std::max(1.0, std::sqrt(spread / sum));
   friction_use_ = friction_ > 0.0 ? rubbing / (friction_ * sum) : 0.0;
 }
 
 void ContactForces::differentiate() {
-  const GripMatrix turning = geometric_stiffness();
+  const std::vector<Eigen::Matrix3d> bend = bends();
+  const GripMatrix turning = geometric_stiffness(bend);
   const auto count = static_cast<Eigen::Index>(loaded_.size());
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, kGripCoordinates>;
   Rows opening = Rows::Zero(count, kGripCoordinates), pulled = opening;
@@ -203,29 +217,44 @@ void ContactForces::differentiate() {
     share[k] = 0.5 * std::abs(n.dot(grip_.across));
     const Vec3 along = n + pull_[i] / pressed_[i];
     for (const auto& [a, speed] : motion_[i]) {
-      opening(k, a) += n.dot(speed);
+      opening(k, a) += slope_[i].dot(speed);
       pulled(k, a) += along.dot(speed);
     }
   }
-  const auto lost = solver_.stiffness_times(opening, kRates);
+  const auto lost = solver_.stiffness_times(opening, turns(bend), kRates);
   if (lost) {
     stiffness_ = pulled.transpose() * *lost + drag_;
     rate_ = -lost->transpose() * share;
+    if (friction_ > 0.0) stiffness_ += depth_stiffness(opening, *lost);
   }
   stiffness_ += turning;
 }
 
-/// What the forces' arms and directions, turning at forces held, add to the stiffness.
-GripMatrix ContactForces::geometric_stiffness() const {
-  std::array<Vec3, kGripJoints> axis;
-  for (int f = 0; f < hand::kFingerCount; ++f) {
-    const hand::PosedDigit digit =
-        hand::pose_digit(hand_->hand().skeleton, static_cast<hand::Finger>(f), state_.posture);
-    for (int k = 0; k < hand::kDigitDofs; ++k) {
-      axis[hand::kDigitDofs * f + k] = digit.twist[k].omega;
+/// What friction loses as regions are pressed deeper: e = 3/4 mu d grows with their mean depth.
+GripMatrix ContactForces::depth_stiffness(const Eigen::MatrixXd& opening,
+                                          const Eigen::MatrixXd& lost) const {
+  std::array<GripVector, hand::kRegionCount> deeper, held;  // d; the forces that e takes
+  for (GripVector& v : deeper) v.setZero();
+  for (GripVector& v : held) v.setZero();
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const std::size_t r = index_of(hand_->hand().region[loaded_[k]]);
+    const RegionDepth& region = depth_of_[r];
+    deeper[r] -= (depth_[k] - region.mean) / region.force * lost.row(i).transpose();
+    if (depth_[k] > kLeastDepth) {
+      deeper[r] -= pressed_[k] / region.force * opening.row(i).transpose();
     }
+    const double e = kStick * friction_ * region.mean;
+    const double loss = kStick * friction_ * e / (room_[k] * room_[k]);
+    for (const auto& [a, speed] : motion_[k]) held[r][a] += loss * pull_[k].dot(speed);
   }
-  // How the product's normals turn along two tangents.
+  GripMatrix result = GripMatrix::Zero();
+  for (std::size_t r = 0; r < deeper.size(); ++r) result += held[r] * deeper[r].transpose();
+  return result;
+}
+
+/// How the product's normals turn with motion over it, per loaded vertex, hand frame, 1/mm.
+std::vector<Eigen::Matrix3d> ContactForces::bends() const {
   constexpr int kSides = 4;
   const std::size_t count = loaded_.size();
   std::vector<std::array<Vec3, 2>> tangent(count);
@@ -242,23 +271,66 @@ GripMatrix ContactForces::geometric_stiffness() const {
   }
   std::vector<geometry::DistanceSample> sample(at.size());
   product_->distance->sample(at, kBendRange, sample);
-  GripMatrix result = GripMatrix::Zero();
+  std::vector<Eigen::Matrix3d> bend(count, Eigen::Matrix3d::Zero());
   for (std::size_t k = 0; k < count; ++k) {
-    const Vec3 total = pressed_[k] * normal_[k] + pull_[k];
-    Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();  // of the normal, per motion over the product
     for (std::size_t t = 0; t < 2; ++t) {
       const Vec3 turn = sample[kSides * k + 2 * t].normal - sample[kSides * k + 2 * t + 1].normal;
-      bend += hand_from_product_ * turn / (2.0 * kBendStep) * tangent[k][t].transpose();
+      bend[k] += hand_from_product_ * turn / (2.0 * kBendStep) * tangent[k][t].transpose();
     }
+  }
+  return bend;
+}
+
+/// How the directions in which the product presses turn against the skin, product frame.
+contact::LoadedSkin::Turns ContactForces::turns(const std::vector<Eigen::Matrix3d>& bend) const {
+  contact::LoadedSkin::Turns result(loaded_.size());
+  const Quat product_from_hand = hand_from_product_.conjugate();
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const Vec3& n = normal_[k];
+    for (const auto& [a, speed] : motion_[k]) {
+      Vec3 turn = bend[k] * speed;
+      if (a >= kGripJoints + 3) {
+        turn += Vec3::Unit(a - kGripJoints - 3).cross(n);
+      } else if (a < kGripJoints) {
+        // The share of the angle in the skin's motion turns the skin, too.
+        const hand::Twist& twist = digit_[static_cast<std::size_t>(a / hand::kDigitDofs)]
+                                       .twist[static_cast<std::size_t>(a % hand::kDigitDofs)];
+        const Vec3 whole = twist.at(posed_[loaded_[k]]);
+        const double share = speed.dot(whole) / std::max(1e-12, whole.squaredNorm());
+        turn -= share * twist.omega.cross(n);
+      }
+      result[k].emplace_back(a, product_from_hand * turn);
+    }
+  }
+  return result;
+}
+
+/// What the forces' arms and directions, turning at forces held, add to the stiffness.
+GripMatrix ContactForces::geometric_stiffness(const std::vector<Eigen::Matrix3d>& bend) const {
+  GripMatrix result = GripMatrix::Zero();
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const Vec3 total = pressed_[k] * normal_[k] + pull_[k];
+    const Vec3 raw = hand_from_product_ * (in_product_[k] - anchor_[loaded_[k]]);
+    const double drag = friction_ > 0.0 ? friction_ * pressed_[k] / room_[k] : 0.0;
     for (const auto& [b, vb] : motion_[k]) {
-      Vec3 change = pressed_[k] * (bend * vb);
+      const Vec3 turn = bend[k] * vb;
+      Vec3 change = pressed_[k] * turn;
+      if (drag > 0.0) {  // friction lies in the surface, which turns
+        Vec3 slid = -turn * normal_[k].dot(raw) - normal_[k] * turn.dot(raw);
+        slid -= way_[k] * (way_[k].dot(slid) / (room_[k] * room_[k]));
+        change -= drag * slid;
+      }
       const bool turns_product = b >= kGripJoints + 3;
       if (turns_product) change += Vec3::Unit(b - kGripJoints - 3).cross(total);
       for (const auto& [a, va] : motion_[k]) {
         double gain = change.dot(va);
         // Of two angles the one nearer to the palm turns what the other moves.
         if (std::max(a, b) < kGripJoints && grip_finger(a) == grip_finger(b)) {
-          gain += total.dot(axis[std::min(a, b)].cross(a < b ? vb : va));
+          const int nearer = std::min(a, b);
+          const Vec3& axis = digit_[static_cast<std::size_t>(nearer / hand::kDigitDofs)]
+                                 .twist[static_cast<std::size_t>(nearer % hand::kDigitDofs)]
+                                 .omega;
+          gain += total.dot(axis.cross(a < b ? vb : va));
         }
         if (a >= kGripJoints + 3 && b < kGripJoints) {
           gain -= Vec3::Unit(a - kGripJoints - 3).cross(vb).dot(total);

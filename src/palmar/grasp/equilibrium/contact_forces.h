@@ -11,6 +11,7 @@
 #include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/grasp/equilibrium/skin_bed.h"
 #include "palmar/grasp/equilibrium/skin_motion.h"
+#include "palmar/hand/tendons/digit_pose.h"
 #include "palmar/product/product.h"
 
 namespace palmar::grasp {
@@ -75,7 +76,10 @@ class ContactForces {
  private:
   void pose(const GripState& state);
   void add_up();
-  GripMatrix geometric_stiffness() const;
+  std::vector<Eigen::Matrix3d> bends() const;
+  GripMatrix geometric_stiffness(const std::vector<Eigen::Matrix3d>& bend) const;
+  GripMatrix depth_stiffness(const Eigen::MatrixXd& opening, const Eigen::MatrixXd& lost) const;
+  contact::LoadedSkin::Turns turns(const std::vector<Eigen::Matrix3d>& bend) const;
   const contact::PreparedHand* hand_;
   SkinMotion skin_;
   const product::Product* product_;
@@ -92,14 +96,22 @@ class ContactForces {
   std::vector<double> depth_;     ///< mm
   std::vector<double> spring_;    ///< N/mm; empty but on the bed
   std::vector<Vec3> in_product_;  ///< skin, product frame, mm
-  std::vector<Vec3> normal_;      ///< of the product, hand frame
+  std::vector<Vec3> normal_;      ///< in which the product presses, out of it, hand frame
+  std::vector<Vec3> slope_;       ///< of the distance to the product, the same; not on the bed
   /// Per loaded vertex: how coordinates move it over the product, mm per mm and rad.
   std::vector<std::vector<std::pair<int, Vec3>>> motion_;
-  std::vector<Vec3> pull_;  ///< friction on the skin, per loaded vertex, hand frame, N
+  std::vector<Vec3> pull_;    ///< friction on the skin, per loaded vertex, hand frame, N
+  std::vector<Vec3> way_;     ///< of the skin over the product since it stuck, the same, mm
+  std::vector<double> room_;  ///< sqrt(|s|^2 + e^2), mm
+  struct RegionDepth {
+    double force = 0.0, mean = 0.0;  ///< N; mm
+  };
+  std::array<RegionDepth, hand::kRegionCount> depth_of_;
   Quat hand_from_product_;
   GripState state_;
   GripVector force_, rate_;
   GripMatrix stiffness_, drag_;  ///< drag_: of stiffness_, friction at given normal forces
+  std::array<hand::PosedDigit, hand::kFingerCount> digit_;
   std::array<bool, kGripJoints> is_loaded_{};
   Vec3 centre_ = Vec3::Zero();
   double arm_ = 1.0, friction_use_ = 0.0;

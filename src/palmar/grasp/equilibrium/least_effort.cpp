@@ -8,7 +8,6 @@
 
 #include "palmar/core/enum_index.h"
 #include "palmar/grasp/equilibrium/effort_program.h"
-#include "palmar/grasp/equilibrium/opposed_thumb.h"
 #include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/hand/skeleton.h"
 
@@ -20,7 +19,7 @@ struct Descent {
   double level;  // of the grip force asked for
   int most_tries;
   double least_gain;     // of the merit: steps that promise less end it
-  double first_damping;  // of the spreads' own curvature
+  double first_damping;  // as hard as skin that has moved by kStep
   double price;          // of what is missing, of the model's
 };
 // On the way prices are low, so that digits find their places before forces are exact.
@@ -29,16 +28,17 @@ constexpr Descent kOnSprings[] = {{0.6, 30, 2e-2, 10.0, 1.0 / 3.0},
 constexpr Descent kOnTissue{1.0, 60, 1.5e-3, 1.0, 1.0};
 
 constexpr int kMostRefused = 5,
-              kMostInNeed = 12;     // steps one after the other; if things are missing
-constexpr double kAccuracy = 1e-4;  // relative, of contact forces
-constexpr double kTurnStep = 1e-3;  // rad; of differences
-constexpr double kBackDamping = 30.0,
-                 kNoStep = 8.0;  // of a correction; times which without solution
+              kMostInNeed = 12;             // steps one after the other; if things are missing
+constexpr double kAccuracy = 1e-4;          // relative, of contact forces
+constexpr double kTurnStep = 1e-3;          // rad; of differences
+constexpr double kStep = 8.0, kArm = 50.0;  // mm; angles count by what they move at that arm
+constexpr double kBackDamping = 30.0;       // of a correction
 constexpr int kMostCorrections = 4;
 constexpr double kUsualSteps = 50.0;  // of all searches; of what progress is a share
 // Shares of the promised gain: less is corrected; less that a correction promises isn't worth it;
 // less isn't taken.
 constexpr double kPoor = 0.5, kWorthwhile = 0.2, kLeastShare = 0.02;
+constexpr double kKept = 0.9;        // less, and derivatives are taken anew
 constexpr double kByWrist = 1.02;    // of the strength that the digits alone need
 constexpr double kNoMissing = 0.01;  // priced; so little is none
 constexpr double kTooMuch = 2000.0;  // N; no hand grips that hard
@@ -54,6 +54,13 @@ GripVector spread(const EffortModel& model) {
   s.segment<3>(kGripJoints).setConstant(model.place_spread);
   s.tail<3>().setConstant(model.turn_spread);
   return s;
+}
+
+/// Of steps: 1 for what moves skin by kStep.
+GripVector step_weight() {
+  GripVector w = GripVector::Constant(kArm * kArm);
+  w.segment<3>(kGripJoints).setOnes();
+  return w / (kStep * kStep);
 }
 
 /// A state with all that acts in it.
@@ -89,7 +96,8 @@ class LeastEffort {
         forces_(hand, product, contact, task.friction, start),
         gaps_(hand.hand(), forces_.skin_motion(), product),
         muscles_(hand.hand(), {.wrist = task.wrist}),
-        weight_(spread(task.model).cwiseAbs2().cwiseInverse()) {}
+        weight_(spread(task.model).cwiseAbs2().cwiseInverse()),
+        damped_(step_weight()) {}
 
   EffortRest run(const Progress& progress);
 
@@ -100,7 +108,6 @@ class LeastEffort {
   EffortProgram program(const Look& at, double damping) const;
   void judge(Look& at) const;
   GripVector departure(const GripState& state) const;
-  void learn(const Look& from, const Look& to, const GripVector& way);
   bool differentiate(const Look& at);
   bool go(const Look& from, const GripVector& way, Look& to);
   void descend(Look& now, const Descent& how, const Progress& progress, EffortRest& rest);
@@ -121,9 +128,11 @@ class LeastEffort {
   ContactForces forces_;
   VolarGaps gaps_;
   hand::HandMuscles muscles_;
-  GripVector weight_;                            ///< of what coordinates have moved, in E
-  GripMatrix learnt_ = GripMatrix::Zero();       ///< stiffness beyond that of a look
-  GripVector learnt_rate_ = GripVector::Zero();  ///< the same of the squeeze
+  GripVector weight_;  ///< of what coordinates have moved, in E
+  GripVector damped_;  ///< of a step
+  // Of the state that was differentiated last, beyond what its look says.
+  GripMatrix more_stiffness_ = GripMatrix::Zero();
+  GripVector more_rate_ = GripVector::Zero();  ///< of the squeeze
 };
 
 void LeastEffort::add_muscles(Look& at) const {
@@ -250,9 +259,9 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.motion.resize(kRows, moves ? kGripCoordinates : 0);
   if (!moves) return program;
   program.motion.setZero();
-  program.motion.topRows<kGripCoordinates>() = -(at.stiffness + learnt_);
+  program.motion.topRows<kGripCoordinates>() = -(at.stiffness + more_stiffness_);
   program.motion.topRows<kGripCoordinates>() += muscle_rate(at);
-  program.motion.row(kSqueezeRow) = (at.squeeze_rate + learnt_rate_).transpose();
+  program.motion.row(kSqueezeRow) = (at.squeeze_rate + more_rate_).transpose();
   // Of E: a turn about the centre of contact moves the point that was held.
   GripMatrix jacobian = GripMatrix::Identity();
   const Vec3 x = at.state.product_from_hand.inverse() * held_point_ - at.centre;
@@ -263,7 +272,7 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
                      at.gap_rate.transpose() * at.gap;
   program.hessian = jacobian.transpose() * weight_.asDiagonal() * jacobian +
                     at.gap_rate.transpose() * at.gap_rate;
-  program.hessian.diagonal() += damping * weight_;
+  program.hessian.diagonal() += damping * damped_;
   return program;
 }
 
@@ -273,26 +282,12 @@ void LeastEffort::judge(Look& at) const {
   at.off = 0.5 * off.dot(weight_.cwiseProduct(off)) + 0.5 * at.gap.squaredNorm();
 }
 
-/// Broyden's update of the derivatives, in units of the spreads.
-void LeastEffort::learn(const Look& from, const Look& to, const GripVector& way) {
-  const GripVector scaled = weight_.cwiseProduct(way);
-  const double size = way.dot(scaled);
-  if (!(size > 1e-14)) return;
-  GripVector lost = from.outside - to.outside;
-  // Moments about the same point.
-  const Vec3 force = to.outside.segment<3>(kGripJoints);
-  lost.tail<3>() -= (to.centre - from.centre).cross(force);
-  learnt_ += (lost - (from.stiffness + learnt_) * way) * scaled.transpose() / size;
-  const double gained = to.grip.force - from.grip.force;
-  learnt_rate_ += (gained - (from.squeeze_rate + learnt_rate_).dot(way)) / size * scaled;
-}
-
 /// The tissue's own derivatives at a state. False if its contact has no solution.
 bool LeastEffort::differentiate(const Look& at) {
   if (!forces_.is_at(at.state) && !forces_.look(at.state, kAccuracy)) return false;
   forces_.differentiate();
-  learnt_ = forces_.stiffness() - at.contact_stiffness;
-  learnt_rate_ = forces_.squeeze_rate() - at.squeeze_rate;
+  more_stiffness_ = forces_.stiffness() - at.contact_stiffness;
+  more_rate_ = forces_.squeeze_rate() - at.squeeze_rate;
   return true;
 }
 
@@ -349,7 +344,6 @@ bool LeastEffort::go(const Look& from, const GripVector& way, Look& to) {
   if (!look(moved(from.state, way, from.centre), to)) return false;
   if (to.grip.force == 0.0 && !on_springs_) return false;
   judge(to);
-  if (!on_springs_) learn(from, to, way);
   return true;
 }
 
@@ -360,8 +354,9 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
   price_ = how.price;
   judge(now);
   rest.merit.assign(1, now.merit());
-  double damping = how.first_damping;
-  bool is_new = true;  // the state, since its derivatives were taken
+  double damping = how.first_damping, growth = 2.0;
+  bool is_new = true;       // the state, since its derivatives were taken
+  double last_share = 0.0;  // of what was promised
   int refused = 0;
   const auto gives_up = [&] {
     const double missing = now.effort.value - now.effort.activation.array().cube().sum();
@@ -371,15 +366,28 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
     progress.throw_if_cancelled();
     ++rest.iterations;
     progress.update(std::min(1.0, rest.iterations / kUsualSteps), "letting the grasp come to rest");
-    if (is_new && !on_springs_ && !differentiate(now)) return;
-    is_new = false;
+    // Derivatives serve as long as steps keep what they promise; where to end is never theirs.
+    if (is_new && !on_springs_ && last_share < kKept) {
+      if (!differentiate(now)) return;
+      is_new = false;
+    }
     const EffortSolution step = solve_effort(program(now, damping));
     const double promised = now.merit() - (step.value + now.off);
-    if (promised < how.least_gain * now.merit()) break;
+    if (promised < how.least_gain * now.merit()) {
+      if (!is_new || on_springs_) break;
+      last_share = 0.0;
+      continue;
+    }
+    // Damping after Madsen, Nielsen & Tingleff 2004 (Methods for non-linear least squares problems,
+    // section 3.2).
+    const auto refuse = [&] {
+      ++refused;
+      damping *= growth;
+      growth *= 2.0;
+    };
     Look next;
     if (!go(now, step.motion, next)) {
-      damping *= kNoStep;
-      ++refused;
+      refuse();
       continue;
     }
     // Forces bend away from their tangent: from there back onto the equilibrium, by ways as short
@@ -392,10 +400,13 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
       next = std::move(corrected);
     }
     const double share = (now.merit() - next.merit()) / promised;
-    if (share > 0.75) damping /= 3.0;
-    if (share < 0.25) damping *= 4.0;
-    ++refused;
-    if (share <= kLeastShare) continue;
+    last_share = share;
+    if (share <= kLeastShare) {
+      refuse();
+      continue;
+    }
+    damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * share - 1.0, 3));
+    growth = 2.0;
     refused = 0;
     now = std::move(next);
     is_new = true;
@@ -446,9 +457,7 @@ EffortRest rest_with_least_effort(const contact::PreparedHand& hand,
                                   const product::Product& product, const GripState& closed,
                                   const EffortTask& task, const contact::ContactOptions& contact,
                                   const Progress& progress) {
-  GripState start = closed;
-  start.posture = with_opposed_thumb(hand.hand(), product, closed);
-  return LeastEffort(hand, product, start, task, contact).run(progress);
+  return LeastEffort(hand, product, closed, task, contact).run(progress);
 }
 
 }  // namespace palmar::grasp

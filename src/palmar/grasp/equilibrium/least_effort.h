@@ -20,9 +20,9 @@ namespace palmar::grasp {
 /// (docs/method/equilibrium.md).
 struct EffortModel {
   // How far people vary in how they take a thing, one standard deviation.
-  double flexion_spread = 0.6, abduction_spread = 0.3;  ///< rad
-  double place_spread = 8.0;                            ///< mm
-  double turn_spread = 0.4;                             ///< rad
+  double flexion_spread = 0.35, abduction_spread = 0.3;  ///< rad
+  double place_spread = 5.0;                             ///< mm
+  double turn_spread = 0.25;                             ///< rad
   double gap_spread = 2.0;  ///< mm; by which phalanges and pads stay off the product
   // What is missing costs more than any muscle could save: per N, and per N mm at arms of 30 mm.
   double force_price = 1.5, squeeze_price = 0.9, moment_price = 0.045;
@@ -45,7 +45,7 @@ struct EffortTask {
 struct EffortRest {
   enum class Status { kSolved, kNoContact, kNoSolution };
   Status status = Status::kNoSolution;
-  GripState start;  ///< closed, the thumb opposed: skin sticks where it is there
+  GripState start;  ///< closed: skin sticks where it is there
   GripState state;
   Squeeze grip;
   Eigen::VectorXd activation;               ///< of `strength`: the digits' muscles, the wrist's
@@ -77,7 +77,7 @@ struct EffortRest {
 /// of the gaps that phalanges and pads leave to the product (VolarGaps), each over how far people
 /// vary in it. Equilibrium is an exact penalty: what can't be had is what is missing.
 ///
-/// Starts from the closed hand with the thumb opposed (with_opposed_thumb()). Each step solves the
+/// Starts from the closed hand. Each step solves the
 /// problem with forces linear in the motion (EffortProgram, damped as Levenberg & Marquardt do),
 /// comes back to the equilibrium by second-order corrections and is taken only if the merit, the
 /// value of the same problem with the state held, falls. First on springs in place of the tissue

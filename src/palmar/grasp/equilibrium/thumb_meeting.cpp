@@ -60,14 +60,8 @@ std::vector<ThumbPress> ThumbMeeting::presses(const hand::Posture& posture) cons
     ThumbPress press{.finger = finger.finger, .overlap = more};
     press.force = kPulpForce * std::pow(more / kPulps, kPulpPower);
     press.stiffness = kPulpPower * press.force / more;
-    // The way out of the flesh, which tapers: the slope of -overlap.
     const Vec3 at = place_on(thumb, place.along);
-    const double share = nearest_share(finger.a, finger.b, at);
-    Vec3 push = (at - place_on(finger, share)).normalized();
-    if (share > 0.0 && share < 1.0) {
-      const Vec3 along = finger.b - finger.a;
-      push -= (finger.radius_b - finger.radius_a) / along.squaredNorm() * along;
-    }
+    const Vec3 push = distance_from(finger, at).away;
     add_moments(thumb, at, push, press);
     add_moments(finger, at, -push, press);
     presses.push_back(press);

@@ -100,14 +100,13 @@ VolarVector VolarGaps::look(const GripState& state, const std::vector<Vec3>& pos
       const Vec3& point = posed[skin.vertex];
       for (const RoundCone& cone : cones) {
         if (cone.finger == hand::Finger::kThumb || cone.level == 0) continue;
-        const double to_finger = distance_to(cone, point);
-        if (to_finger >= distance) continue;
-        distance = to_finger;
-        const Vec3 inside = cone.a + nearest_share(cone.a, cone.b, point) * (cone.b - cone.a);
-        skin.normal = (point - inside).normalized();
+        const ConeDistance to_finger = distance_from(cone, point);
+        if (to_finger.distance >= distance) continue;
+        distance = to_finger.distance;
+        skin.normal = to_finger.away;
         skin.finger = cone.finger;
         skin.body = cone.level + 1;  // the MCP has a body between its two axes
-        skin.touched = point - to_finger * skin.normal;
+        skin.touched = point - distance * skin.normal;
       }
     }
     skin.weight = skin.share * std::exp(-distance / kSoftness);

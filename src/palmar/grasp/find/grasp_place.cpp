@@ -81,7 +81,7 @@ void GraspPlace::Impl::place_by_coordinates(const Progress& progress) {
   grasp = place->grasp;
   if (!place->is_found) return;
   const HandCloser coarse(*reference, kSearchSpacing), fine(*reference, 0.0);
-  grasp = close_at(*place, coarse, fine, *product, power, progress);
+  grasp = close_at(*place, fine, *product, power, progress);
 }
 
 // A hand that rests or pushes where coordinates say. A laid hand has its middle knuckle there;
@@ -139,8 +139,7 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
     const GraspedSurface surface =
         grasped_surface_near(*hold, ranked.parts, *product, at, *reference);
     place = place_of_hold(at, hold->grip, surface, coarse, power, progress);
-    grasp =
-        place->is_found ? close_at(*place, coarse, fine, *product, power, progress) : place->grasp;
+    grasp = place->is_found ? close_at(*place, fine, *product, power, progress) : place->grasp;
   } else {
     grasp = take_precisely(*hold, *reference, progress);
   }
@@ -199,7 +198,7 @@ Grasp GraspPlace::Impl::hold_power(const GraspingHand& hand, const Progress& pro
   if (hold) at = site_of(*hold, ranked.parts, *product, hand.hand());
   const PowerPlace carried =
       carried_over(*place, *reference, coarse, at ? &*at : nullptr, power, progress);
-  return close_at(carried, coarse, fine, *product, power, progress);
+  return close_at(carried, fine, *product, power, progress);
 }
 
 Grasp GraspPlace::Impl::hold_precisely(const hand::Hand& hand, const Progress& progress) const {

@@ -148,8 +148,7 @@ struct Distances {
 
 // Closes the hand on all of its skin and by the exact distance. The product gives way where closing
 // folds the palm further into it, if it may; at once, that takes fewer rounds.
-HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
-                         const Distances& distances, const GripSite& site,
+HoldMeasure close_finely(const HandCloser& fine, const Distances& distances, const GripSite& site,
                          const DepthLimits& limits, const ClosedPose& hold, Placement& placement,
                          bool may_give_way, bool gives_way_at_once, const Progress& progress,
                          Grasp& grasp) {
@@ -168,19 +167,11 @@ HoldMeasure close_finely(const HandCloser& fine, const HandCloser& coarse,
     const hand::Dof dof = abduction_of(static_cast<hand::Finger>(f));
     start[dof] = hold.posture[dof];
   }
-  ThumbPose thumb_pose;
   for (int round = 0; round < kSettleRounds; ++round) {
     progress.throw_if_cancelled();
     grasp.posture = fine.close_fingers(held, limits, hold.style, start, 2, grasp.stops);
     if (hold.style.uses_thumb()) {
-      if (round == 0) {
-        const ThumbCloser& thumb = coarse.thumb();
-        const Vec3& axis = placement.axis_in_hand;
-        thumb_pose = may_give_way
-                         ? fine.thumb().settled(hold.thumb, held, limits, grasp.posture, axis)
-                         : thumb.find_pose(held, limits, grasp.posture, axis);
-      }
-      grasp.posture = fine.thumb().closed(held, limits, grasp.posture, thumb_pose, grasp.stops);
+      grasp.posture = fine.close_thumb(held, limits, grasp.posture, grasp.stops);
     }
     double excess = trim(fine, seen_by(held, *exact_deep), limits, grasp.posture) - limits.palm;
     if (excess <= kTrimTolerance || !may_give_way) break;
@@ -326,7 +317,7 @@ PowerPlace find_power_place(const hand::Hand& hand, const product::Product& prod
   return result;
 }
 
-Grasp close_at(const PowerPlace& place_found, const HandCloser& coarse, const HandCloser& fine,
+Grasp close_at(const PowerPlace& place_found, const HandCloser& fine,
                const product::Product& product, const PowerGraspOptions& options,
                const Progress& progress) {
   progress.update(0.6, "closing the hand round " + product.name);
@@ -341,7 +332,7 @@ Grasp close_at(const PowerPlace& place_found, const HandCloser& coarse, const Ha
     placement = place(fine, quick, limits, hold.style, site, hold.placement.pose);
   }
   HoldMeasure measure =
-      close_finely(fine, coarse, {&quick, product.distance.get()}, site, limits, hold, placement,
+      close_finely(fine, {&quick, product.distance.get()}, site, limits, hold, placement,
                    !place_found.is_fixed, place_found.is_carried, progress, grasp);
   if (place_found.whole != nullptr) {
     const HeldProduct whole{place_found.whole.get(), placement.product_from_hand, site.point,

@@ -40,11 +40,10 @@ std::vector<ClosingStyle> styles_for(Grip grip, double diameter, double hand_len
 PowerPlace find_power_place(const hand::Hand& hand, const product::Product& product,
                             const PowerGraspOptions& options, const Progress& progress);
 
-/// Closes the hand there on all of its skin and by the exact distance. `coarse` and `fine`: the
-/// hand's skin kSearchSpacing apart and all of it.
-Grasp close_at(const PowerPlace& place, const HandCloser& coarse, const HandCloser& fine,
-               const product::Product& product, const PowerGraspOptions& options,
-               const Progress& progress);
+/// Closes the hand there on all of its skin and by the exact distance. `fine`: a closer that
+/// looks at all of the skin.
+Grasp close_at(const PowerPlace& place, const HandCloser& fine, const product::Product& product,
+               const PowerGraspOptions& options, const Progress& progress);
 
 /// The same way of holding by another hand (`coarse`): its pose differs from the usual pose as that
 /// of `reference` does (lengths in hand lengths). Of a place that was searched without a hold the

@@ -12,11 +12,11 @@
 #include "palmar/geometry/degrees.h"
 #include "palmar/grasp/power/site_distance.h"
 #include "palmar/grasp/power/skin_sampling.h"
+#include "palmar/hand/tendons/digit_pose.h"
 
 namespace palmar::grasp {
 namespace {
 
-constexpr double kFitSpacing = 3.0;     // mm between skin vertices that the thumb's fit looks at
 constexpr double kWidestGap = 12.0;     // mm between neighbours that one round closes
 constexpr double kUsualGap = 0.5;       // mm; fingers round a handle lie side by side
 constexpr double kLeastSpread = 0.015;  // rad; less isn't worth closing again for
@@ -26,12 +26,11 @@ constexpr double kBallShare = 0.7;      // of the palm limit for the thumb's bal
 constexpr double kHalfFinger = 8.0;     // mm; bone line to palmar skin
 constexpr double kWideOpen = -20.0 * geometry::kDegree;  // MCP when the hand reaches out
 constexpr double kPreshape = 0.8;                // of the bend that fits the handle, before closing
+constexpr int kPreshapeHalvings = 8;             // of it, where the product is in the way
 constexpr double kDipPerPipFlexion = 2.0 / 3.0;  // DIP / PIP; Rijkpema & Girard 1991
-constexpr double kDipLag = 10.0 * geometry::kDegree;     // DIP behind that while PIP closes
-constexpr double kDipLeave = 25.0 * geometry::kDegree;   // DIP may be off that to lie on
-constexpr double kHookGive = 20.0 * geometry::kDegree;   // that a hook's MCP may flex
-constexpr double kReleaseMcp = 8.0 * geometry::kDegree;  // opened to move a finger aside
-constexpr double kReleasePip = 20.0 * geometry::kDegree;
+constexpr double kDipLag = 10.0 * geometry::kDegree;    // DIP behind that while PIP closes
+constexpr double kDipLeave = 25.0 * geometry::kDegree;  // DIP may be off that to lie on
+constexpr double kHookGive = 20.0 * geometry::kDegree;  // that a hook's MCP may flex
 constexpr double kLeastShare = 0.35;  // of the limit depth: shallower skin doesn't stay in contact
 constexpr double kShareRange = 0.3;   // over which that fades
 constexpr double kIdleGap = 1.0;  // mm; a finger farther than that from the product does nothing
@@ -39,6 +38,9 @@ constexpr double kIdleMore = 5.0 * geometry::kDegree;  // that it bends beyond i
 constexpr double kRoomStep =
     3.0 * geometry::kDegree;  // by which a finger goes out of the way of a product
 constexpr int kRoomRounds = 20;
+// The thumb's way, in shares of the ranges of CMC flexion and abduction, MP and IP flexion.
+constexpr std::array<double, hand::kDigitDofs> kThumbOut{0.05, 0.95, 0.15, 0.12},
+    kThumbAcross{0.85, 0.95, 0.7, 0.6};
 
 }  // namespace
 
@@ -79,8 +81,6 @@ HandCloser::HandCloser(const hand::Hand& hand, double spacing) : hand_(&hand), c
   all_ = group_of(sample, [](hand::Segment, hand::Region) { return true; });
   palm_ = group_of(sample, [](hand::Segment, hand::Region region) { return is_palmar(region); });
   groups_ = digits_of(sample);
-  sparse_ = spacing < kFitSpacing ? digits_of(sample_skin(hand, kFitSpacing)) : groups_;
-  thumb_.emplace(hand, cones_, groups_, sparse_, care_);
   const hand::Skeleton& skeleton = hand.skeleton;
   hand::Posture& posture = open_posture_;
   posture = hand::reference_posture(skeleton);
@@ -185,19 +185,27 @@ hand::Posture HandCloser::preshaped(const HeldProduct& product, const DepthLimit
                                : skeleton.joint(hand::joint_of(*segments[level + 1])).centre;
     turn[level] = std::atan((b - a).norm() / (diameter + 2.0 * kHalfFinger));
   }
-  hand::Posture posture = start;
-  const hand::Dof mcp = flexion_of(finger, 0);
-  posture[mcp] = std::max(lower_of(*hand_, mcp), kWideOpen);
-  for (; share > 0.05; share -= 0.25) {
+  const auto bent = [&](double part) {
+    hand::Posture posture = start;
+    const hand::Dof mcp = flexion_of(finger, 0);
+    posture[mcp] = std::max(lower_of(*hand_, mcp), kWideOpen);
     const hand::JointDof& pip = skeleton.dof(flexion_of(finger, 1));
     const hand::JointDof& dip = skeleton.dof(flexion_of(finger, 2));
-    posture[pip.dof] = std::clamp(share * (turn[0] + turn[1]), pip.lower, pip.upper);
+    posture[pip.dof] = std::clamp(part * (turn[0] + turn[1]), pip.lower, pip.upper);
     posture[dip.dof] = std::clamp(
-        std::min(share * (turn[1] + turn[2]), kDipPerPipFlexion * posture[pip.dof] + kDipLeave),
+        std::min(part * (turn[1] + turn[2]), kDipPerPipFlexion * posture[pip.dof] + kDipLeave),
         dip.lower, dip.upper);
-    if (is_free(product, limits, finger, posture)) return posture;
+    return posture;
+  };
+  hand::Posture posture = bent(share);
+  if (is_free(product, limits, finger, posture)) return posture;
+  double free = 0.0;
+  if (!is_free(product, limits, finger, bent(free))) return start;
+  for (int i = 0; i < kPreshapeHalvings; ++i) {
+    const double middle = 0.5 * (free + share);
+    (is_free(product, limits, finger, bent(middle)) ? free : share) = middle;
   }
-  return start;
+  return bent(free);
 }
 
 bool HandCloser::is_free(const HeldProduct& product, const DepthLimits& limits, hand::Finger finger,
@@ -327,20 +335,8 @@ hand::Posture HandCloser::close_fingers(const HeldProduct& product, const DepthL
       const double next = std::clamp(posture[dof.dof] + angle, dof.lower, dof.upper);
       if (std::abs(next - posture[dof.dof]) < 0.5 * kLeastSpread) return;
       is_changed = true;
-      // A little open is enough to move aside, as a rule.
       hand::Posture aside = posture;
       aside[dof.dof] = next;
-      const auto open = [&](int level, double by) {
-        const hand::JointDof& flexion = hand_->skeleton.dof(flexion_of(finger, level));
-        aside[flexion.dof] = std::max(flexion.lower, aside[flexion.dof] - by);
-      };
-      open(0, kReleaseMcp);
-      open(1, kReleasePip);
-      open(2, kReleasePip);
-      if (is_free(product, limits, finger, aside)) {
-        posture = close_finger(product, limits, style, finger, aside, stops);
-        return;
-      }
       for (int level = 0; level < 3; ++level) {
         aside[flexion_of(finger, level)] = start[flexion_of(finger, level)];
       }
@@ -353,6 +349,34 @@ hand::Posture HandCloser::close_fingers(const HeldProduct& product, const DepthL
   }
   rest_idle_fingers(product, limits, posture);
   return posture;
+}
+
+hand::Posture HandCloser::close_thumb(const HeldProduct& product, const DepthLimits& limits,
+                                      hand::Posture start,
+                                      std::array<SegmentStop, hand::kSegmentCount>& stops) const {
+  std::vector<Obstacle> fingers;
+  for (const RoundCone& cone : cones_.posed(hand_->skeleton, start)) {
+    if (cone.finger == hand::Finger::kThumb || cone.level == 0) continue;
+    fingers.push_back({cone, kNeighbourGive});
+  }
+  hand::Posture across = start;
+  const auto dofs = hand::digit_dofs(hand::Finger::kThumb);
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const hand::JointDof& dof = hand_->skeleton.dof(dofs[i]);
+    start[dof.dof] = dof.lower + kThumbOut[i] * (dof.upper - dof.lower);
+    across[dof.dof] = dof.lower + kThumbAcross[i] * (dof.upper - dof.lower);
+  }
+  const SkinGroup& skin = groups_[index_of(hand::Finger::kThumb)][0];
+  const Advance way = advance_skin(skin, product, limits, fingers, start, across, care_);
+  std::size_t level = 0;
+  for (const auto& segment : hand::segments_of(hand::Finger::kThumb)) {
+    if (!segment) continue;
+    SegmentStop& stop = stops[index_of(*segment)];
+    stop.segment = *segment;
+    stop.reason = way.reason_for(*segment);
+    stop.penetration = way.deepest[level++];
+  }
+  return way.posture;
 }
 
 // A finger that meets nothing isn't clenched in the air: it goes with its neighbour.
@@ -445,6 +469,7 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& l
   const Vec3 u = axis_in_hand.unitOrthogonal();
   const Vec3 v = axis_in_hand.cross(u);
   std::vector<double> turns;
+  Vec3 under_thumb = Vec3::Zero(), under_fingers = Vec3::Zero();  // normals times area
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const double depth = -samples[k].distance;
     double& deepest = measure.penetration[index_of(all_.segment[k])];
@@ -459,15 +484,17 @@ HoldMeasure HandCloser::measure(const HeldProduct& product, const DepthLimits& l
     const double limit = all_.segment[k] == hand::Segment::kPalm ? limits.palm : limits.finger;
     const double share = std::clamp((depth / limit - kLeastShare) / kShareRange, 0.0, 1.0);
     measure.contact_area += share * all_.area[k];
-    if (hand::finger_of(all_.segment[k]) == hand::Finger::kThumb ||
-        all_.region[k] == hand::Region::kThenar) {
-      measure.thumb_area += share * all_.area[k];
-    }
     const Vec3 normal = product.product_from_hand.rotation.conjugate() * samples[k].normal;
+    if (const auto finger = hand::finger_of(all_.segment[k])) {
+      (*finger == hand::Finger::kThumb ? under_thumb : under_fingers) +=
+          share * all_.area[k] * normal;
+    }
     if (Vec3(normal - axis_in_hand * axis_in_hand.dot(normal)).norm() > 0.5) {
       turns.push_back(std::atan2(v.dot(normal), u.dot(normal)));
     }
   }
+  measure.opposed_area =
+      std::max(0.0, -under_thumb.dot(under_fingers) / std::max(1e-9, under_fingers.norm()));
   std::array<bool, hand::kFingerCount> touches{};
   for (std::size_t s = 1; s < measure.penetration.size(); ++s) {
     measure.touching += std::clamp(0.25 * (measure.penetration[s] + 3.0), 0.0, 1.0);

@@ -12,14 +12,13 @@
 #include "palmar/grasp/power/finger_cones.h"
 #include "palmar/grasp/power/posable_skin.h"
 #include "palmar/grasp/power/skin_advance.h"
-#include "palmar/grasp/power/thumb_closing.h"
 
 namespace palmar::grasp {
 
 /// What a posed hand and a product do to each other, before skin gives way.
 struct HoldMeasure {
   double contact_area = 0.0;   ///< palmar skin that will stay in contact, estimated, mm^2
-  double thumb_area = 0.0;     ///< of that the thumb's phalanges and its ball, mm^2
+  double opposed_area = 0.0;   ///< of that the thumb's phalanges against the fingers', mm^2
   double other_area = 0.0;     ///< dorsal or side skin inside the product, mm^2
   double deepest_other = 0.0;  ///< how deep that goes, mm
   int segments = 0;            ///< phalanges whose palmar skin touches
@@ -78,7 +77,12 @@ class HandCloser {
   /// The posture from which close_fingers() starts: open, fanned out as the style says.
   hand::Posture start_posture(const ClosingStyle& style) const;
 
-  const ThumbCloser& thumb() const { return *thumb_; }
+  /// Brings the thumb from out at the side and in front of the palm one way across it, until skin
+  /// of its phalanges reaches its limit or a finger. A thing a little larger has a thumb a little
+  /// less bent.
+  hand::Posture close_thumb(const HeldProduct& product, const DepthLimits& limits,
+                            hand::Posture start,
+                            std::array<SegmentStop, hand::kSegmentCount>& stops) const;
 
   /// Fingers that were closed on a part of the product alone go out of the way of the whole of it,
   /// back and sides included, until no skin is deeper than a finger's limit. How much deeper some
@@ -115,12 +119,11 @@ class HandCloser {
   const hand::Hand* hand_;
   AdvanceCare care_;
   hand::Posture open_posture_;
-  DigitGroups groups_, sparse_;
+  DigitGroups groups_;
   SkinGroup palm_;  ///< palmar skin of the whole hand
   SkinGroup all_;
   std::vector<Vec3> open_palm_;  ///< palm_ in the open posture, hand frame, mm
   FingerCones cones_;
-  std::optional<ThumbCloser> thumb_;
 };
 
 /// Range of one degree of freedom.

@@ -38,9 +38,27 @@ void fit_radii(const hand::Hand& hand, const std::vector<char>& belongs, RoundCo
 
 }  // namespace
 
-double distance_to(const RoundCone& cone, const Vec3& point) {
-  const double t = nearest_share(cone.a, cone.b, point);
-  return (point - (cone.a + t * (cone.b - cone.a))).norm() - radius_at(cone, t);
+ConeDistance distance_from(const RoundCone& cone, const Vec3& point) {
+  // min over t in [0, 1] of |point - c(t)| - r(t), which is convex in t: where neither end is
+  // nearest, the way to the nearest sphere leans against the line by the slope of the radius.
+  const Vec3 along = cone.b - cone.a;
+  const double length = along.norm();
+  double t = 0.0;
+  if (length > 0.0) {
+    const Vec3 unit = along / length;
+    const double lean = (cone.radius_a - cone.radius_b) / length;
+    const double beside = (point - cone.a).cross(unit).norm();
+    const double ahead = unit.dot(point - cone.a);
+    t = std::abs(lean) < 1.0 ? (ahead - beside * lean / std::sqrt(1.0 - lean * lean)) / length
+                             : (lean > 0.0 ? 0.0 : 1.0);
+    t = std::clamp(t, 0.0, 1.0);
+  }
+  const Vec3 out = point - (cone.a + t * along);
+  const double from_line = out.norm();
+  ConeDistance result;
+  result.distance = from_line - radius_at(cone, t);
+  if (from_line > 0.0) result.away = out / from_line;
+  return result;
 }
 
 ConeContact contact_of(const RoundCone& p, const RoundCone& q) {

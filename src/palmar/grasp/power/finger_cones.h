@@ -25,9 +25,17 @@ inline double nearest_share(const Vec3& a, const Vec3& b, const Vec3& point) {
   return length2 > 0.0 ? std::clamp(along.dot(point - a) / length2, 0.0, 1.0) : 0.0;
 }
 
-/// Distance of a point to the surface of a cone, mm, negative inside. The nearest point of the
-/// centre line decides, which for the slight taper of a finger is right to a tenth of a millimetre.
-double distance_to(const RoundCone& cone, const Vec3& point);
+/// How far a point is from a cone's surface, and the way out of it.
+struct ConeDistance {
+  double distance = 0.0;      ///< mm, negative inside
+  Vec3 away = Vec3::UnitZ();  ///< unit; the slope of the distance
+};
+
+/// Exact for the hull of the two round ends, so without a kink where the point passes an end.
+ConeDistance distance_from(const RoundCone& cone, const Vec3& point);
+inline double distance_to(const RoundCone& cone, const Vec3& point) {
+  return distance_from(cone, point).distance;
+}
 
 /// How deep two cones overlap (along the shortest line between their centre lines), mm; negative
 /// is a gap.

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace palmar::grasp {
 namespace {
 
@@ -23,9 +25,31 @@ TEST(RoundCone, DistanceBesideAndBeyondACylinder) {
   EXPECT_NEAR(distance_to(c, {20, 0, 0}), -8.0, 1e-12);
 }
 
-TEST(RoundCone, RadiusRunsLinearlyFromEndToEnd) {
+TEST(RoundCone, TaperedSidesAreTheTangentsOfTheRoundEnds) {
+  // Radii 10 and 6, 40 apart: the side leans by asin(0.1) and touches the first ball 1 mm ahead of
+  // its centre.
   const RoundCone c = cone({0, 0, 0}, {40, 0, 0}, 10.0, 6.0);
-  EXPECT_NEAR(distance_to(c, {10, 20, 0}), 11.0, 1e-12);
+  const double lean = std::sqrt(1.0 - 0.01);
+  EXPECT_NEAR(distance_to(c, {1, 10.0 * lean, 0}), 0.0, 1e-12);
+  EXPECT_NEAR(distance_to(c, {10, 20, 0}), 20.0 * lean + 0.1 * 10.0 - 10.0, 1e-12);
+}
+
+TEST(RoundCone, SlopeOfTheDistanceHasNoKinkAtTheEnds) {
+  const RoundCone c = cone({0, 0, 0}, {40, 0, 0}, 10.0, 6.0);
+  Vec3 last = distance_from(c, {-10, 15, 2}).away;
+  for (double x = -10.0; x <= 55.0; x += 0.1) {
+    const Vec3 at(x, 15, 2);
+    const ConeDistance here = distance_from(c, at);
+    constexpr double kStep = 1e-5;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 step = kStep * Vec3::Unit(k);
+      EXPECT_NEAR((distance_to(c, at + step) - distance_to(c, at - step)) / (2.0 * kStep),
+                  here.away[k], 1e-6)
+          << x;
+    }
+    EXPECT_LT((here.away - last).norm(), 0.02) << x;  // 0.1 mm over at least 6 mm
+    last = here.away;
+  }
 }
 
 TEST(RoundCone, ParallelConesOverlapByTheirRadiiLessTheirGap) {

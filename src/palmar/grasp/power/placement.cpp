@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kThinBoxShare = 0.8;     // of half the thickness may be filled with skin
 constexpr double kSegmentCredit = 120.0;  // mm^2 of contact that one more touching phalanx is worth
+constexpr double kOpposedCredit = 2.0;    // per mm^2 of the thumb against the fingers
 constexpr double kWrapCredit = 800.0;     // mm^2 for reaching all the way round
 constexpr double kClash = 3.0;            // mm^2 per mm^2 of skin outside the palm in the product
 constexpr double kNoseCredit = 3000.0;    // mm^2 for a working end that points away from the wrist
@@ -47,7 +48,6 @@ constexpr int kTurnsTried = 8;
 // Steps by which a kept pose may be improved for another hand.
 constexpr double kNearProximal = 3.0;  // mm
 constexpr double kNearTilt = 3.0 * geometry::kDegree;
-constexpr double kThumbShare = 0.5;    // of what the thumb holds, again, for opposing the fingers
 constexpr double kPromising = 0.6;     // share of the best rank from which a hold is improved
 constexpr std::size_t kImproved = 3;   // holds that are looked at more finely
 constexpr std::size_t kHoldsKept = 4;  // holds that are given back
@@ -102,8 +102,8 @@ double leave_cost(const HandlePose& pose, const HandlePose& usual) {
 double score_of(const HoldMeasure& measure, const GripSite& site, const Placement& placement,
                 const HandlePose& usual, double hand_length, const hand::Posture& posture) {
   double score = measure.contact_area + kSegmentCredit * measure.touching +
-                 kWrapCredit * measure.wrap - kClash * measure.other_area -
-                 200.0 * std::max(0.0, measure.deepest_other - 2.0) -
+                 kWrapCredit * measure.wrap + kOpposedCredit * measure.opposed_area -
+                 kClash * measure.other_area - 200.0 * std::max(0.0, measure.deepest_other - 2.0) -
                  kStrainCost * strain_of(posture) - leave_cost(placement.pose, usual);
   if (site.thickness < kFlat * site.width && site.width < kSpan * hand_length) {
     const Vec3 palm = placement.product_from_hand.rotation * placement.push_in_hand;
@@ -137,13 +137,9 @@ struct Trial {
   void add_thumb(ClosedPose& hold) const {
     if (!hold.style.uses_thumb()) return;
     const HeldProduct at = held(hold.placement, hold.style);
-    const Vec3& axis = hold.placement.axis_in_hand;
-    const ThumbCloser& thumb = closer.thumb();
-    hold.thumb = thumb.find_pose(at, limits, hold.posture, axis);
     std::array<SegmentStop, hand::kSegmentCount> stops;
-    hold.posture = thumb.closed(at, limits, hold.posture, hold.thumb, stops);
+    hold.posture = closer.close_thumb(at, limits, hold.posture, stops);
     judge(hold);
-    hold.score += kThumbShare * thumb.worth(at, limits, hold.posture, axis);
   }
   ClosedPose run(std::size_t site_index, const ClosingStyle& style, const HandlePose& pose,
                  const hand::Posture& start, int rounds) const {
@@ -421,7 +417,6 @@ ClosedPose pose_like(const HandCloser& closer, const geometry::DistanceField& pr
     better(&HandlePose::oblique, kNearTilt);
   }
   hold.rank = hold.score;
-  hold.thumb = of_other.thumb;
   return hold;
 }
 

@@ -53,7 +53,6 @@ struct ClosedPose {
   ClosingStyle style;
   Placement placement;
   hand::Posture posture;
-  ThumbPose thumb;
   HoldMeasure measure;
   double score = 0.0;  ///< mm^2 of palmar contact, plus credit for segments and wrap, minus clashes
   double rank = 0.0;   ///< score, less for sites that are less of a handle
@@ -87,8 +86,8 @@ struct PoseKept {
 };
 
 /// The way of holding that another hand found at a site, for this one: its pose differs from the
-/// usual pose as that hand's does (lengths in hand lengths), fingers start as far abducted, the
-/// thumb goes the same way. `tried` counts the placements that were closed.
+/// usual pose as that hand's does (lengths in hand lengths), fingers start as far abducted.
+/// `tried` counts the placements that were closed.
 ClosedPose pose_like(const HandCloser& closer, const geometry::DistanceField& product,
                      const GripSite& site, const DepthLimits& limits, const hand::Hand& other,
                      const ClosedPose& of_other, const PoseKept& kept, int& tried,

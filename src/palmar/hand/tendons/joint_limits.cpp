@@ -20,6 +20,7 @@ constexpr double kIndexMcpEnd = 84.7 * geometry::kDegree;  // Latz et al. 2019
 
 constexpr double kDipPerPip = 2.0 / 3.0;
 constexpr double kCouplingFree = 10.0 * geometry::kDegree;  // rad
+constexpr double kCouplingSets = 5.0 * geometry::kDegree;   // rad; about there it sets in
 constexpr double kCouplingStiffness = 1500.0;               // N mm/rad
 
 // In the order of the digit's angles.
@@ -45,13 +46,16 @@ PassiveMoments passive_moments(const Skeleton& skeleton, Finger finger, const Po
     passive.stiffness(k, k) += kOpeningRate * opened;
   }
   const double off = posture[dofs[kDip]] - kDipPerPip * posture[dofs[kPip]];
-  const double excess = off - std::clamp(off, -kCouplingFree, kCouplingFree);
-  if (excess == 0.0) return passive;
+  // Beyond what is free, without a kink where that ends.
+  const double beyond = std::abs(off) - kCouplingFree;
+  if (beyond <= -kCouplingSets) return passive;
+  const double share = std::min(1.0, (beyond + kCouplingSets) / (2.0 * kCouplingSets));
+  const double excess = std::copysign(share < 1.0 ? kCouplingSets * share * share : beyond, off);
   Eigen::Vector4d along = Eigen::Vector4d::Zero();
   along[kDip] = 1.0;
   along[kPip] = -kDipPerPip;
   passive.moment -= kCouplingStiffness * excess * along;
-  passive.stiffness += kCouplingStiffness * along * along.transpose();
+  passive.stiffness += kCouplingStiffness * share * along * along.transpose();
   return passive;
 }
 
