@@ -51,6 +51,29 @@ TEST(Assess, GivesTheDocumentedKeys) {
   }
 }
 
+TEST(Assess, AHeldProductIsGrippedAsItsWeightAsks) {
+  // 1.4 m g / (2 mu), mu = 0.5; without a mass a solid of 1 g/cm3 (0.217 kg).
+  const auto run = [](const std::string& options) {
+    return run_palmar(
+        "assess c48.stl --unit mm --task hold --no-pictures --out held --json " + options,
+        cylinder().folder);
+  };
+  for (const auto& [options, force] :
+       std::map<std::string, double>{{"--mass-kg 1.5", 20.6}, {"", 2.98}}) {
+    const ProgramRun held = run(options);
+    ASSERT_EQ(held.exit_code, 0) << held.err;
+    const Json balance = Json::parse(held.out).at("assessments").at(0).at("balance");
+    EXPECT_EQ(balance.at("status"), "balanced") << balance.at("message");
+    // Fingers that lie on a light thing press it by some newtons more.
+    const double grip_force = balance.at("grip_force_n").get<double>();
+    EXPECT_GT(grip_force, 0.95 * force);
+    EXPECT_LT(grip_force, 1.05 * force + (force < 10.0 ? 3.0 : 0.0));
+    EXPECT_EQ(held.err.find("no mass is given") == std::string::npos, !options.empty());
+  }
+  EXPECT_THAT(run("--grip-force-n 40").err, HasSubstr("says how firmly to grip"));
+  EXPECT_THAT(run("--population ansur2_women").err, HasSubstr("--task is of one hand"));
+}
+
 TEST(Assess, TotalsAreTheSumsOfTheRegions) {
   ASSERT_EQ(cylinder().run.exit_code, 0) << cylinder().run.err;
   const Json& contact = cylinder().json.at("assessments").at(0).at("contact");

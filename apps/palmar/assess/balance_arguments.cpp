@@ -24,6 +24,13 @@ void BalanceArguments::add_to(CLI::App& verb) {
       "--limit-depths", settings_.limit_depths,
       "Grip as firmly as closing to the limit depths made it: every product and hand with "
       "another force");
+  verb.add_option_function<std::string>(
+          "--task", [this](const std::string& task) { settings_.holds_load = task == "hold"; },
+          "What the hand does: squeeze, with a grip force as the options below say, or hold, with "
+          "what each product's weight and load ask for: 1.4 times what friction needs (Westling & "
+          "Johansson 1984); without a mass the weight of a solid of 1 g/cm3")
+      ->check(CLI::IsMember({"squeeze", "hold"}))
+      ->default_str("squeeze");
   CLI::Option* force = verb.add_option(
       "--grip-force-n", settings_.grip_force,
       "Grip with this force across the plane of largest squeeze, as a dynamometer "

@@ -44,7 +44,8 @@ std::vector<ProductTask> read_products(const AssessRequest& request, const Progr
     product::Product product = load_product(choice, progress);
     if (progress.is_cancelled()) throw cancelled_early();
     add_findings(product);
-    const contact::FrictionOptions friction = request.friction.options_for(product);
+    const contact::FrictionOptions friction =
+        request.rest.load(request.friction).options_for(product);
     for (const std::string& text : product.notes) {
       note_to(request.note, choice.name() + ": " + text);
     }
@@ -110,6 +111,11 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   if (!request.measured.empty())
     measured = records::read_measured_pressure(request.measured, *sensors);
   std::vector<ProductTask> tasks = read_products(request, progress);
+  if (request.rest.holds_load && !request.friction.has_load()) {
+    note_to(request.note, fmt::format("no mass is given: each product weighs as much as a solid of "
+                                      "{:g} g/cm3 (--mass-kg says otherwise)",
+                                      grasp::kAssumedDensity));
+  }
 
   if (progress.report) progress.report(0.0, "preparing the hand");
   const auto hand = load_hand(request.hand);

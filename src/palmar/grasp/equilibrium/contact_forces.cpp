@@ -13,8 +13,9 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr double kRates = 1e-2;                       // relative accuracy of derivatives
-constexpr double kBendStep = 1.0, kBendRange = 20.0;  // mm; of differences of normals
+constexpr double kRates = 1e-2;  // relative accuracy of derivatives
+// mm; skin that far off the product says nothing of its normals; a way that is none.
+constexpr double kBeside = 2.0, kLeastWay = 0.1;
 constexpr double kStick = 0.75;  // 3/4 mu d: where friction turns from sticking to slipping
 
 /// What one region of the skin carries.
@@ -253,30 +254,29 @@ GripMatrix ContactForces::depth_stiffness(const Eigen::MatrixXd& opening,
   return result;
 }
 
-/// How the product's normals turn with motion over it, per loaded vertex, hand frame, 1/mm.
+/// How the product's normals turn with motion over it, per loaded vertex, hand frame, 1/mm: the
+/// slope of those at the vertex' neighbours, by least squares in its tangent plane.
 std::vector<Eigen::Matrix3d> ContactForces::bends() const {
-  constexpr int kSides = 4;
-  const std::size_t count = loaded_.size();
-  std::vector<std::array<Vec3, 2>> tangent(count);
-  std::vector<Vec3> at;
-  at.reserve(kSides * count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vec3 u = normal_[k].unitOrthogonal();
-    tangent[k] = {u, normal_[k].cross(u)};
-    for (const Vec3& t : tangent[k]) {
-      const Vec3 step = kBendStep * (hand_from_product_.conjugate() * t);
-      at.push_back(in_product_[k] + step);
-      at.push_back(in_product_[k] - step);
+  const std::vector<geometry::DistanceSample>& sample =
+      spring_.empty() ? solver_.skin().sample : bed_.samples();
+  std::vector<Eigen::Matrix3d> bend(loaded_.size(), Eigen::Matrix3d::Zero());
+  for (std::size_t k = 0; k < loaded_.size(); ++k) {
+    const int v = loaded_[k];
+    const Vec3& own = sample[v].normal;
+    const Vec3 n = hand_from_product_ * own;
+    Eigen::Matrix<double, 3, 2> tangent;
+    tangent << n.unitOrthogonal(), n.cross(n.unitOrthogonal());
+    Eigen::Matrix2d turns = Eigen::Matrix2d::Zero(), ways = Eigen::Matrix2d::Zero();
+    for (const int w : solver_.prepared->skin.neighbours(v)) {
+      const bool is_beside = sample[w].distance < kBeside && own.dot(sample[w].normal) > 0.0;
+      if (!is_beside) continue;
+      const Eigen::Vector2d way = tangent.transpose() * (posed_[w] - posed_[v]);
+      const Vec3 turn = hand_from_product_ * Vec3(sample[w].normal - own);
+      turns += tangent.transpose() * turn * way.transpose();
+      ways += way * way.transpose();
     }
-  }
-  std::vector<geometry::DistanceSample> sample(at.size());
-  product_->distance->sample(at, kBendRange, sample);
-  std::vector<Eigen::Matrix3d> bend(count, Eigen::Matrix3d::Zero());
-  for (std::size_t k = 0; k < count; ++k) {
-    for (std::size_t t = 0; t < 2; ++t) {
-      const Vec3 turn = sample[kSides * k + 2 * t].normal - sample[kSides * k + 2 * t + 1].normal;
-      bend[k] += hand_from_product_ * turn / (2.0 * kBendStep) * tangent[k][t].transpose();
-    }
+    ways.diagonal().array() += kLeastWay * kLeastWay;
+    bend[k] = tangent * turns * ways.inverse() * tangent.transpose();
   }
   return bend;
 }

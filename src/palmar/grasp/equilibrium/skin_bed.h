@@ -33,6 +33,8 @@ class SkinBed {
   };
   /// Loaded skin, ascending by vertex; `skin`: the whole of it, product frame, mm.
   const std::vector<Load>& look(const std::vector<Vec3>& skin);
+  /// Of the skin last looked at, per vertex.
+  const std::vector<geometry::DistanceSample>& samples() const { return sample_; }
 
  private:
   const hand::Hand* hand_;

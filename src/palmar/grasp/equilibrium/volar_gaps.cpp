@@ -85,16 +85,20 @@ VolarVector VolarGaps::look(const GripState& state, const std::vector<Vec3>& pos
   std::vector<Vec3> at;
   at.reserve(vertex_.size());
   for (const int v : vertex_) at.push_back(state.product_from_hand * posed[v]);
-  std::vector<geometry::DistanceSample> sample(at.size());
-  product_->distance->sample(at, kGapRange, sample);
+  if (sample_.empty()) {
+    sample_.resize(at.size());
+    product_->distance->sample(at, kGapRange, sample_);
+  } else {
+    product_->distance->resample(at, kGapRange, sample_);
+  }
   const std::vector<RoundCone> cones = cones_.posed(hand_->skeleton, state.posture);
   const Quat hand_from_product = state.product_from_hand.rotation.conjugate();
   VolarVector sum = VolarVector::Zero();
   for (std::size_t k = 0; k < skin_.size(); ++k) {
     Skin& skin = skin_[k];
-    double distance = sample[k].distance;
+    double distance = sample_[k].distance;
     skin.body = 0;
-    skin.normal = std::abs(distance) < kGapRange ? Vec3(hand_from_product * sample[k].normal)
+    skin.normal = std::abs(distance) < kGapRange ? Vec3(hand_from_product * sample_[k].normal)
                                                  : Vec3(Vec3::Zero());
     if (skin.part < kThumbParts) {
       const Vec3& point = posed[skin.vertex];

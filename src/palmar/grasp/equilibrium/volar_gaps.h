@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "palmar/geometry/distance/distance_field.h"
 #include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/equilibrium/skin_motion.h"
 #include "palmar/grasp/power/finger_cones.h"
@@ -56,7 +57,8 @@ class VolarGaps {
   const product::Product* product_;
   FingerCones cones_;
   std::vector<Skin> skin_;
-  std::vector<int> vertex_;  ///< of skin_
+  std::vector<int> vertex_;                       ///< of skin_
+  std::vector<geometry::DistanceSample> sample_;  ///< of the state last looked at
 };
 
 }  // namespace palmar::grasp

@@ -171,7 +171,7 @@ HoldMeasure close_finely(const HandCloser& fine, const Distances& distances, con
     progress.throw_if_cancelled();
     grasp.posture = fine.close_fingers(held, limits, hold.style, start, 2, grasp.stops);
     if (hold.style.uses_thumb()) {
-      grasp.posture = fine.close_thumb(held, limits, grasp.posture, grasp.stops);
+      grasp.posture = fine.close_thumb(held, limits, hold.style, grasp.posture, grasp.stops);
     }
     double excess = trim(fine, seen_by(held, *exact_deep), limits, grasp.posture) - limits.palm;
     if (excess <= kTrimTolerance || !may_give_way) break;
@@ -338,6 +338,9 @@ Grasp close_at(const PowerPlace& place_found, const HandCloser& fine,
     const HeldProduct whole{place_found.whole.get(), placement.product_from_hand, site.point,
                             site.axis, site.girth / std::numbers::pi};
     fine.make_room(whole, limits, grasp.posture);
+    if (hold.style.uses_thumb()) {
+      grasp.posture = fine.close_thumb(whole, limits, hold.style, grasp.posture, grasp.stops);
+    }
     measure = fine.measure(whole, limits, grasp.posture, placement.axis_in_hand);
   }
   grasp.product_from_hand = placement.product_from_hand;

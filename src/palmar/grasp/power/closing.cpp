@@ -41,6 +41,7 @@ constexpr int kRoomRounds = 20;
 // The thumb's way, in shares of the ranges of CMC flexion and abduction, MP and IP flexion.
 constexpr std::array<double, hand::kDigitDofs> kThumbOut{0.05, 0.95, 0.15, 0.12},
     kThumbAcross{0.85, 0.95, 0.7, 0.6};
+constexpr double kThumbBeside = 0.35;  // abduction on top of a loop, beside what that is on
 
 }  // namespace
 
@@ -352,22 +353,31 @@ hand::Posture HandCloser::close_fingers(const HeldProduct& product, const DepthL
 }
 
 hand::Posture HandCloser::close_thumb(const HeldProduct& product, const DepthLimits& limits,
-                                      hand::Posture start,
+                                      const ClosingStyle& style, hand::Posture start,
                                       std::array<SegmentStop, hand::kSegmentCount>& stops) const {
   std::vector<Obstacle> fingers;
   for (const RoundCone& cone : cones_.posed(hand_->skeleton, start)) {
     if (cone.finger == hand::Finger::kThumb || cone.level == 0) continue;
     fingers.push_back({cone, kNeighbourGive});
   }
-  hand::Posture across = start;
-  const auto dofs = hand::digit_dofs(hand::Finger::kThumb);
-  for (std::size_t i = 0; i < dofs.size(); ++i) {
-    const hand::JointDof& dof = hand_->skeleton.dof(dofs[i]);
-    start[dof.dof] = dof.lower + kThumbOut[i] * (dof.upper - dof.lower);
-    across[dof.dof] = dof.lower + kThumbAcross[i] * (dof.upper - dof.lower);
-  }
+  // Out beside the palm, in front of it, across it; a hook's thumb stays beside.
+  const auto thumb_at = [&](const std::array<double, hand::kDigitDofs>& share, double abduction) {
+    hand::Posture posture = start;
+    const auto dofs = hand::digit_dofs(hand::Finger::kThumb);
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      const hand::JointDof& dof = hand_->skeleton.dof(dofs[i]);
+      posture[dof.dof] = dof.lower + (i == 1 ? abduction : share[i]) * (dof.upper - dof.lower);
+    }
+    return posture;
+  };
+  const double abduction = style.hook ? kThumbBeside : kThumbOut[1];
   const SkinGroup& skin = groups_[index_of(hand::Finger::kThumb)][0];
-  const Advance way = advance_skin(skin, product, limits, fingers, start, across, care_);
+  Advance way = advance_skin(skin, product, limits, fingers, thumb_at(kThumbOut, kThumbBeside),
+                             thumb_at(kThumbOut, abduction), care_);
+  if (!way.is_stopped) {
+    way = advance_skin(skin, product, limits, fingers, way.posture,
+                       thumb_at(kThumbAcross, abduction), care_);
+  }
   std::size_t level = 0;
   for (const auto& segment : hand::segments_of(hand::Finger::kThumb)) {
     if (!segment) continue;

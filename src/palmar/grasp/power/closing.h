@@ -79,9 +79,9 @@ class HandCloser {
 
   /// Brings the thumb from out at the side and in front of the palm one way across it, until skin
   /// of its phalanges reaches its limit or a finger. A thing a little larger has a thumb a little
-  /// less bent.
+  /// less bent. A hook's thumb comes beside the palm, on top of what is hooked.
   hand::Posture close_thumb(const HeldProduct& product, const DepthLimits& limits,
-                            hand::Posture start,
+                            const ClosingStyle& style, hand::Posture start,
                             std::array<SegmentStop, hand::kSegmentCount>& stops) const;
 
   /// Fingers that were closed on a part of the product alone go out of the way of the whole of it,

@@ -138,7 +138,7 @@ struct Trial {
     if (!hold.style.uses_thumb()) return;
     const HeldProduct at = held(hold.placement, hold.style);
     std::array<SegmentStop, hand::kSegmentCount> stops;
-    hold.posture = closer.close_thumb(at, limits, hold.posture, stops);
+    hold.posture = closer.close_thumb(at, limits, hold.style, hold.posture, stops);
     judge(hold);
   }
   ClosedPose run(std::size_t site_index, const ClosingStyle& style, const HandlePose& pose,

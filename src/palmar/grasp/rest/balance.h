@@ -34,9 +34,12 @@ struct BalanceOptions {
   /// 2012, Tribol Lett 45:1-27: mean 0.46, SD 0.15).
   double friction = 0.5;
   contact::ProductLoad load;  ///< weight and further forces; none by default
-  // How firmly; at most one of the two. None: as firm as it was closed.
+  // How firmly; at most one of the three. None: as firm as it was closed.
   std::optional<double> grip_force;  ///< N, as grip_force()
   std::optional<ShareOfStrength> share_of_strength;
+  /// With what the load asks for, and the margin that people leave before a slip
+  /// (holding_grip_force()); without a load or friction as firm as it was closed.
+  bool holds_load = false;
   /// Instead of a grip force: as hard as a power grip can with no muscle above this activation, 0
   /// to `strength`. 1 with `strength` 1: as hard as the hand can.
   std::optional<double> activation;

@@ -15,6 +15,11 @@ constexpr double kLargestAim = 0.01;  // residual over grip force that counts as
 std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
   if (!is_on || grip == Grip::kFixedHook) return std::nullopt;
   if (is_laid(grip)) return grip_force.value_or(kRestingForce);
+  if (holds_load) {
+    const double needed =
+        holding_grip_force(contact::wrench_of(load, Vec3::Zero()).force.norm(), friction);
+    return needed > 0.0 ? std::optional(needed) : std::nullopt;
+  }
   // A push holds no weight that would raise it.
   if (share_of_strength && grip == Grip::kFingerPush) {
     return share_of_strength->share * share_of_strength->reached(grip);
@@ -28,6 +33,12 @@ std::string BalanceOptions::asked_words(Grip grip) const {
   if (grip == Grip::kFixedHook) return "hooked fingers carry and don't squeeze";
   if (is_laid(grip) && !grip_force) {
     return "the weight of a hand and its share of the forearm's (Winter 2009)";
+  }
+  if (holds_load && asked_grip_force(grip)) {
+    return fmt::format(
+        "what its load asks for of two opposed contacts, {:g} times what friction needs (Westling "
+        "& Johansson 1984)",
+        kGripMargin);
   }
   if (share_of_strength && grip == Grip::kFingerPush) {
     ShareOfStrength push = *share_of_strength;
@@ -47,6 +58,9 @@ void BalanceOptions::check() const {
     throw UsageError(
         fmt::format("balance: activation is {}; above 0, up to strength ({}), is allowed",
                     *activation, strength));
+  }
+  if (holds_load && (grip_force || share_of_strength || activation)) {
+    throw UsageError("balance: it is asked to hold its load, and how firmly; one is allowed");
   }
   if (grip_force && share_of_strength) {
     throw UsageError("balance: grip force and share of strength are both given; one is allowed");

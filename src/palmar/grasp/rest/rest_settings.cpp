@@ -8,7 +8,6 @@
 #include <string>
 
 #include "palmar/core/error.h"
-#include "palmar/grasp/rest/friction_settings.h"
 
 namespace palmar::grasp {
 namespace {
@@ -38,6 +37,18 @@ void RestSettings::check() const {
     throw UsageError(
         "setting \"grip force\" and setting \"strength share\" both say how firmly to grip; one is "
         "allowed");
+  }
+  if (holds_load && (limit_depths || grip_force || strength_share)) {
+    throw UsageError(
+        fmt::format("setting \"task\" is \"hold\", which asks for no more than the load takes, and "
+                    "setting \"{}\" says how firmly to grip; one is allowed",
+                    limit_depths ? "limit depths"
+                    : grip_force ? "grip force"
+                                 : "strength share"));
+  }
+  if (holds_load && !is_balanced) {
+    throw UsageError(
+        "setting \"no balance\" keeps the hand at its limit depths; it can't hold a load with it");
   }
   if (limit_depths && (grip_force || strength_share)) {
     throw UsageError(
@@ -73,6 +84,7 @@ BalanceOptions RestSettings::options(std::optional<double> friction,
   check();
   BalanceOptions result;
   result.is_on = is_balanced;
+  result.holds_load = holds_load;
   result.friction = friction.value_or(kUsualFriction);
   result.grip_force = grip_force;
   if (strength_share) {
@@ -86,6 +98,11 @@ BalanceOptions RestSettings::options(std::optional<double> friction,
   }
   result.check();
   return result;
+}
+
+FrictionSettings RestSettings::load(FrictionSettings given) const {
+  if (holds_load && !given.has_load()) given.density = kAssumedDensity;
+  return given;
 }
 
 }  // namespace palmar::grasp

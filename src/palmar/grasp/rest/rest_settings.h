@@ -6,6 +6,7 @@
 
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/balance.h"
+#include "palmar/grasp/rest/friction_settings.h"
 #include "palmar/grasp/task_force.h"
 
 namespace palmar::grasp {
@@ -21,8 +22,10 @@ struct PersonOfAge {
 struct RestSettings {
   /// Off: the hand stays as it was closed to the limit depths, forces out of balance (Xie 2014).
   bool is_balanced = true;
-  // How firmly; at most one of the three. None: usual_share(), the same for all designs and hands
+  // How firmly; at most one of the four. None: usual_share(), the same for all designs and hands
   // of a comparison.
+  /// With what each product's own load asks for (holding_grip_force()).
+  bool holds_load = false;
   /// As firm as closing to the limit depths made it, under a load a little more.
   bool limit_depths = false;
   std::optional<double> grip_force;      ///< N, as a dynamometer reads it
@@ -32,12 +35,17 @@ struct RestSettings {
   std::optional<PersonOfAge> person = std::nullopt;  ///< mean of that group (Steiber 2016)
 
   /// Nothing is said about how firmly.
-  bool is_usual() const { return is_balanced && !limit_depths && !grip_force && !strength_share; }
+  bool is_usual() const {
+    return is_balanced && !holds_load && !limit_depths && !grip_force && !strength_share;
+  }
   /// Throws UsageError: setting, value, what is allowed.
   void check() const;
   /// `friction`: coefficient while it settles; unset: kUsualFriction. `heaviest` of all products of
   /// the comparison raises the usual grip force. Throws UsageError.
   BalanceOptions options(std::optional<double> friction, const HeaviestLoad& heaviest = {}) const;
+  /// The load of a product: as given; to be held without one, the weight of a solid of
+  /// kAssumedDensity.
+  FrictionSettings load(FrictionSettings given) const;
 };
 
 }  // namespace palmar::grasp

@@ -133,6 +133,41 @@ TEST(RestSettings, LimitDepthsExcludeWhatElseSaysHowFirmly) {
   EXPECT_THAT(refusal(settings), HasSubstr("setting \"no balance\" leaves it as it was closed"));
 }
 
+TEST(RestSettings, AHeldLoadAsksForWhatFrictionNeedsAndTheMarginOfPeople) {
+  RestSettings settings;
+  settings.holds_load = true;
+  EXPECT_FALSE(settings.is_usual());
+  BalanceOptions options = settings.options(0.4);
+  EXPECT_FALSE(options.asked_grip_force(Grip::kMediumWrap));  // nothing is to be held
+  options.load.weight = 6.0;
+  options.load.force = Vec3(0.0, 8.0, 0.0);   // across the weight: 10 N in all
+  const double opposed = 10.0 / (2.0 * 0.4);  // N, of two contacts that just hold them
+  EXPECT_NEAR(*options.asked_grip_force(Grip::kMediumWrap), 1.4 * opposed, 1e-9);
+  EXPECT_NEAR(*options.asked_grip_force(Grip::kTripod), 1.4 * opposed, 1e-9);
+  EXPECT_FALSE(options.asked_grip_force(Grip::kFixedHook));
+  EXPECT_THAT(options.asked_words(Grip::kMediumWrap), HasSubstr("1.4 times what friction needs"));
+  options.friction = 0.0;
+  EXPECT_FALSE(options.asked_grip_force(Grip::kMediumWrap));
+}
+
+TEST(RestSettings, AHeldLoadWithoutAMassIsThatOfASolidAsDenseAsWater) {
+  RestSettings settings;
+  EXPECT_FALSE(settings.load({}).has_load());
+  settings.holds_load = true;
+  EXPECT_EQ(settings.load({}).density, 1.0);
+  EXPECT_EQ(settings.load({.mass = 2.0}).mass, 2.0);
+  EXPECT_FALSE(settings.load({.mass = 2.0}).density);
+}
+
+TEST(RestSettings, AHeldLoadExcludesWhatElseSaysHowFirmly) {
+  EXPECT_THAT(refusal(RestSettings{.holds_load = true, .limit_depths = true}),
+              HasSubstr("\"limit depths\" says how firmly to grip"));
+  EXPECT_THAT(refusal(RestSettings{.holds_load = true, .grip_force = 40.0}),
+              HasSubstr("\"grip force\" says how firmly to grip"));
+  EXPECT_THAT(refusal(RestSettings{.is_balanced = false, .holds_load = true}),
+              HasSubstr("\"no balance\""));
+}
+
 TEST(GraspSettings, RegionsGoWithPowerGripsOnly) {
   GraspSettings settings;
   settings.placement.region = Box3(Vec3(-1.0, -1.0, -1.0), Vec3(1.0, 1.0, 1.0));

@@ -28,7 +28,7 @@ effort::EffortResult effort_of_grasp(const EffortRequest& request, const Progres
   options.grasp = options_for(request.grasp, product);
   options.contact = request.contact;
   options.contact.error_band = false;
-  options.friction = request.friction.options_for(product);
+  options.friction = request.rest.load(request.friction).options_for(product);
   grasp::HeaviestLoad load;
   if (request.rest.is_usual()) load.add(product, options.friction.load);
   options.balance = request.rest.options(request.friction.friction, load);

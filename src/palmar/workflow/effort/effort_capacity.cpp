@@ -24,6 +24,8 @@ namespace {
 constexpr std::array<double, 7> kShares = {0.4, 0.3, 0.22, 0.15, 0.1, 0.06, 0.03};
 constexpr int kHalvings = 3;
 // How far above the firmest hold found a firmer one is looked for at a time, and how often.
+constexpr int kMostRaises = 4;  // of the force asked for, by a fifth each
+constexpr double kRaise = 1.2, kWorthRaising = 1.005;
 constexpr double kExhausted = 0.9;  // of the strength: from there on muscles limit; our choice
 constexpr double kReached = 0.98;   // of the force asked for; less isn't held with it
 
@@ -150,6 +152,16 @@ Capacity capacity_of_grip(const CapacityRequest& request, const Progress& progre
     } else {
       lost = middle;
     }
+  }
+  // The search is local: asked for more, it may go another way and come farther.
+  for (int i = 0; i < kMostRaises && lost == 0.0; ++i) {
+    const double reached = best.assessment.balance.grip_force;
+    Tried more = gripped(kRaise * reached);
+    if (more.assessment.balance.status != grasp::BalanceStatus::kBalanced ||
+        more.assessment.balance.grip_force < kWorthRaising * reached) {
+      break;
+    }
+    best = std::move(more);
   }
   const study::Assessment& firmest = best.assessment;
   result.activation = *firmest.balance.strength_use;
