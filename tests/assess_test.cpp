@@ -64,10 +64,7 @@ TEST(Assess, AHeldProductIsGrippedAsItsWeightAsks) {
     ASSERT_EQ(held.exit_code, 0) << held.err;
     const Json balance = Json::parse(held.out).at("assessments").at(0).at("balance");
     EXPECT_EQ(balance.at("status"), "balanced") << balance.at("message");
-    // Fingers that lie on a light thing press it by some newtons more.
-    const double grip_force = balance.at("grip_force_n").get<double>();
-    EXPECT_GT(grip_force, 0.95 * force);
-    EXPECT_LT(grip_force, 1.05 * force + (force < 10.0 ? 3.0 : 0.0));
+    EXPECT_NEAR(balance.at("grip_force_n").get<double>(), force, 0.05 * force);
     EXPECT_EQ(held.err.find("no mass is given") == std::string::npos, !options.empty());
   }
   EXPECT_THAT(run("--grip-force-n 40").err, HasSubstr("says how firmly to grip"));

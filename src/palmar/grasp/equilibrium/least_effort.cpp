@@ -253,7 +253,8 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.required[kWristRow] = -at.wrist_load;
   program.price = Eigen::VectorXd::Constant(kRows, task_->model.moment_price);
   program.price.segment<3>(kGripJoints).setConstant(task_->model.force_price);
-  program.price[kSqueezeRow] = task_->model.squeeze_price;
+  program.price[kSqueezeRow] =
+      task_->model.squeeze_price * std::max(1.0, task_->model.light_grip / target_);
   program.price *= price_;
   const bool moves = damping >= 0.0;
   program.motion.resize(kRows, moves ? kGripCoordinates : 0);

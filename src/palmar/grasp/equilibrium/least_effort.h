@@ -26,6 +26,9 @@ struct EffortModel {
   double gap_spread = 2.0;  ///< mm; by which phalanges and pads stay off the product
   // What is missing costs more than any muscle could save: per N, and per N mm at arms of 30 mm.
   double force_price = 1.5, squeeze_price = 0.9, moment_price = 0.045;
+  double light_grip = 30.0;  ///< N; below it squeeze_price grows as the force gets less: what is
+                             ///< asked for is meant to a share of it
+  double nothing = 0.1;      ///< N; less that is missing is nothing to a hand: the weight of 10 g
   LigamentModel ligaments{};
 };
 

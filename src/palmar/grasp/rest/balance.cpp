@@ -106,7 +106,8 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
   balance.joint_load = rest.load;
 
   const double at_joints = rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>();
-  if (balance.residual_share < kBalanced && at_joints < kJointSaid * rest.strongest_moment) {
+  const double allowed = std::max(kBalanced, task.model.nothing / rest.grip.force);
+  if (balance.residual_share < allowed && at_joints < kJointSaid * rest.strongest_moment) {
     balance.status = BalanceStatus::kBalanced;
     balance.strength_use = rest.share * task.strength / options.strength;
     balance.message = fmt::format("in balance at a grip force of {:.0f} N", rest.grip.force);
@@ -118,13 +119,13 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
     return balance;
   }
   balance.status = BalanceStatus::kSlipsOut;
-  if (balance.residual_force >= kBalanced * rest.grip.force) {
+  if (balance.residual_force >= allowed * rest.grip.force) {
     // What is missing is what would have to push the product back.
     balance.slip = -rest.missing.segment<3>(kGripJoints).normalized();
     balance.message = fmt::format("slips out, towards {}: {:.1f} N and {:.0f} N mm are missing",
                                   way_words(hand.hand(), *balance.slip), balance.residual_force,
                                   balance.residual_moment);
-  } else if (balance.residual_share >= kBalanced) {
+  } else if (balance.residual_share >= allowed) {
     balance.message =
         fmt::format("turns in the hand: {:.0f} N mm are missing", balance.residual_moment);
   } else {
