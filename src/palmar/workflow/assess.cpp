@@ -112,9 +112,9 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
     measured = records::read_measured_pressure(request.measured, *sensors);
   std::vector<ProductTask> tasks = read_products(request, progress);
   if (request.rest.holds_load && !request.friction.has_load()) {
-    note_to(request.note, fmt::format("no mass is given: each product weighs as much as a solid of "
-                                      "{:g} g/cm3 (--mass-kg says otherwise)",
-                                      grasp::kAssumedDensity));
+    note_to(request.note,
+            fmt::format("no mass is given: each product weighs as much as a solid of {:g} g/cm3",
+                        grasp::kAssumedDensity));
   }
 
   if (progress.report) progress.report(0.0, "preparing the hand");

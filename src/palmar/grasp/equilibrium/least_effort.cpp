@@ -434,6 +434,10 @@ EffortRest LeastEffort::run(const Progress& progress) {
     const double more =
         task_->friction > 0.0 ? 0.5 * task_->load.force.norm() / task_->friction : 0.0;
     asked_ = forces_.grip().force + more;
+    if (!(asked_ > 0.0)) {
+      rest.status = EffortRest::Status::kNoContact;
+      return rest;
+    }
   } else {
     return rest;
   }

@@ -77,7 +77,7 @@ class HandCloser {
   /// The posture from which close_fingers() starts: open, fanned out as the style says.
   hand::Posture start_posture(const ClosingStyle& style) const;
 
-  /// Brings the thumb from out at the side and in front of the palm one way across it, until skin
+  /// Brings the thumb one way from beside the palm to in front of it and across, until skin
   /// of its phalanges reaches its limit or a finger. A thing a little larger has a thumb a little
   /// less bent. A hook's thumb comes beside the palm, on top of what is hooked.
   hand::Posture close_thumb(const HeldProduct& product, const DepthLimits& limits,

@@ -54,7 +54,8 @@ struct ClosedPose {
   Placement placement;
   hand::Posture posture;
   HoldMeasure measure;
-  double score = 0.0;  ///< mm^2 of palmar contact, plus credit for segments and wrap, minus clashes
+  double score = 0.0;  ///< mm^2 of palmar contact, plus credit for segments, wrap and an
+                       ///< opposed thumb, minus clashes
   double rank = 0.0;   ///< score, less for sites that are less of a handle
 };
 
