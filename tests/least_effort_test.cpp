@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "palmar/contact/contact_normals.h"
+#include "palmar/contact/prepared/coarse_hand.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/grasp/find/find_grasp.h"
@@ -286,16 +287,16 @@ TEST_F(LeastEffort, OnTissueStiffnessIsTheSlopeOfTheForces) {
 }
 
 TEST_F(LeastEffort, RatesOfTheGapsAreTheirSlopes) {
-  const grasp::SkinMotion motion(hand());
-  grasp::VolarGaps gaps(hand(), motion, bar());
+  const hand::Hand& coarse = prepared().coarse().prepared.hand();
+  grasp::VolarGaps gaps(prepared(), bar());
   grasp::GripState state = closed();
   for (int k = 0; k < hand::kDigitDofs; ++k) state.posture[grasp::grip_dof(k)] -= 0.1;
   const Vec3 centre(10.0, 50.0, 20.0);
   const auto gaps_at = [&](const grasp::GripState& at) {
-    return gaps.look(at, hand::pose_skin(hand(), at.posture));
+    return gaps.look(at, hand::pose_skin(coarse, at.posture));
   };
   gaps_at(state);
-  const grasp::VolarRates rates = gaps.rates(state, hand::pose_skin(hand(), state.posture), centre);
+  const grasp::VolarRates rates = gaps.rates(state, hand::pose_skin(coarse, state.posture), centre);
   constexpr double kStep = 1e-3;
   for (int c = 0; c < grasp::kGripCoordinates; ++c) {
     const grasp::VolarVector slope = (gaps_at(grasp::moved(state, one_way(c, kStep), centre)) -

@@ -115,6 +115,7 @@ struct ContactOptions {
 };
 
 class HandFamily;
+struct CoarseHand;
 struct SkinCompliance;
 
 /// A hand with its geodesic distances and response matrices; they depend on the hand alone, so
@@ -138,9 +139,11 @@ class PreparedHand {
 
   const hand::Hand& hand() const;
   const ContactModel& model() const;
+  /// The hand with a coarse skin (prepared/coarse_hand.h), made when it is first asked for.
+  const CoarseHand& coarse() const;
 
   struct Impl;
-  /// Of parts that were made elsewhere (contact/refine).
+  /// Of parts that were made elsewhere (contact/refine, contact/prepared).
   explicit PreparedHand(std::unique_ptr<const Impl> impl);
   const Impl& impl() const { return *impl_; }
 

@@ -109,24 +109,34 @@ std::vector<Eigen::Vector3f> LoadedSkin::moved_rows(const std::vector<double>& f
   const std::size_t rows = C.vertex.size();
   std::vector<Eigen::Vector3f> load(rows, Eigen::Vector3f::Zero());
   std::vector<Eigen::Vector3f> moved(rows, Eigen::Vector3f::Zero());
-  std::vector<char> is_asked(rows, 0), is_loaded(rows, 0);
+  constexpr char kLoaded = 1, kAsked = 2;
+  std::vector<char> is(rows, 0);
   for (std::size_t j = 0; j < vertex_.size(); ++j) {
     const int row = row_of_[vertex_[j]];
     if (row < 0) continue;
     load[row] = static_cast<float>(force[j]) * scaled_[j];
-    is_loaded[row] = force[j] != 0.0;
+    if (force[j] != 0.0) is[row] |= kLoaded;
   }
   for (const int v : at) {
-    if (row_of_[v] >= 0) is_asked[row_of_[v]] = 1;
+    if (row_of_[v] >= 0) is[row_of_[v]] |= kAsked;
   }
+  std::vector<std::size_t> met;
   for (std::size_t i = 0; i < rows; ++i) {
-    const bool asks = is_asked[i] != 0;
-    const bool loads = is_loaded[i] != 0;
-    if (!asks && !loads) continue;
+    if (is[i] == 0) continue;
+    // What a row that is asked for gets from one that is loaded, and the other way.
+    const char other = static_cast<char>(((is[i] & kAsked) != 0 ? kLoaded : 0) |
+                                         ((is[i] & kLoaded) != 0 ? kAsked : 0));
+    met.resize(std::max(met.size(), C.begin[i + 1] - C.begin[i]));
+    std::size_t count = 0;
     for (std::size_t k = C.begin[i]; k < C.begin[i + 1]; ++k) {
-      const auto j = static_cast<std::size_t>(C.other[k]);
-      if (asks && is_loaded[j] != 0) moved[i] += C.tensor[k] * load[j];
-      if (loads && is_asked[j] != 0 && j != i) moved[j] += C.tensor[k].transpose() * load[i];
+      met[count] = k;  // written in any case, kept only if it takes part: no branch
+      count += (is[C.other[k]] & other) != 0 ? 1 : 0;
+    }
+    for (std::size_t m = 0; m < count; ++m) {
+      const Eigen::Matrix3f& tensor = C.tensor[met[m]];
+      const auto j = static_cast<std::size_t>(C.other[met[m]]);
+      if ((is[i] & kAsked) != 0) moved[i] += tensor * load[j];
+      if ((is[j] & kAsked) != 0 && j != i) moved[j] += tensor.transpose() * load[i];
     }
   }
   return moved;

@@ -339,18 +339,18 @@ std::optional<Eigen::MatrixXd> ContactSolver::Impl::stiffness_times(const Eigen:
                                                                     double accuracy) {
   if (!prepared->is_on_bone() || !options.coatings.empty() || !on_self_->is_empty()) return {};
   const SkinLoad& load = last_;
-  std::vector<std::size_t> row;  // of the system, per loaded vertex
+  std::vector<Eigen::Index> row;  // of the system, per loaded vertex
   std::vector<char> in_contact(load.vertex.size(), 0);
   for (std::size_t k = 0; k < load.vertex.size(); ++k) {
     if (!(load.force[k] > 0.0)) continue;
     in_contact[k] = 1;
-    row.push_back(k);
+    row.push_back(static_cast<Eigen::Index>(k));
   }
   const auto count = static_cast<Eigen::Index>(row.size());
   if (count == 0 || count != change.rows()) return {};
   Eigen::VectorXd root(count), force(count), v(count);  // root: 1 / tau
   for (Eigen::Index i = 0; i < count; ++i) {
-    const std::size_t k = row[static_cast<std::size_t>(i)];
+    const auto k = static_cast<std::size_t>(row[static_cast<std::size_t>(i)]);
     root[i] = load.root_modulus[k];
     force[i] = load.force[k];
     v[i] = -skin_.sample[load.vertex[k]].distance * root[i];
@@ -364,10 +364,22 @@ std::optional<Eigen::MatrixXd> ContactSolver::Impl::stiffness_times(const Eigen:
     for (Eigen::Index i = 0; i < count; ++i) result[i] = x[row[static_cast<std::size_t>(i)]];
     return result;
   };
-  const auto solved = [&](const Eigen::VectorXd& right) -> std::optional<Eigen::VectorXd> {
-    spread(right);
-    const auto x = system.solve_on(in_contact, full, accuracy);
-    return x ? std::optional(gathered(*x)) : std::nullopt;
+  const auto solved = [&](const Eigen::MatrixXd& right) -> std::optional<Eigen::MatrixXd> {
+    if (accuracy >= ContactSystem::kSurely) {
+      Eigen::MatrixXd all =
+          Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(full.size()), right.cols());
+      all(row, Eigen::all) = right;
+      const auto x = system.solve_roughly_on(in_contact, all, accuracy);
+      return x ? std::optional<Eigen::MatrixXd>((*x)(row, Eigen::all)) : std::nullopt;
+    }
+    Eigen::MatrixXd result(count, right.cols());
+    for (Eigen::Index c = 0; c < right.cols(); ++c) {
+      spread(right.col(c));
+      const auto x = system.solve_on(in_contact, full, accuracy);
+      if (!x) return std::nullopt;
+      result.col(c) = gathered(*x);
+    }
+    return result;
   };
 
   Eigen::MatrixXd turned = Eigen::MatrixXd::Zero(count, change.cols());  // D
@@ -376,7 +388,7 @@ std::optional<Eigen::MatrixXd> ContactSolver::Impl::stiffness_times(const Eigen:
     std::vector<double> q(load.force);
     for (std::size_t k = 0; k < q.size(); ++k) q[k] /= load.root_modulus[k];
     for (Eigen::Index i = 0; i < count; ++i) {
-      const std::size_t k = row[static_cast<std::size_t>(i)];
+      const auto k = static_cast<std::size_t>(row[static_cast<std::size_t>(i)]);
       const Eigen::Matrix3d back = to_reference(skin_, load.vertex[k]);
       for (const auto& [column, turn] : turns[static_cast<std::size_t>(i)]) {
         of_load[k].emplace_back(column, back * turn);
@@ -387,12 +399,9 @@ std::optional<Eigen::MatrixXd> ContactSolver::Impl::stiffness_times(const Eigen:
       turned.row(i) = all.row(static_cast<Eigen::Index>(row[static_cast<std::size_t>(i)]));
     }
   }
-  Eigen::MatrixXd y(count, change.cols());  // tau dp with the moduli held
-  for (Eigen::Index c = 0; c < change.cols(); ++c) {
-    const auto x = solved(root.cwiseProduct(change.col(c)) + turned.col(c));
-    if (!x) return {};
-    y.col(c) = *x;
-  }
+  const auto found = solved(root.asDiagonal() * change + turned);
+  if (!found) return {};
+  Eigen::MatrixXd y = *found;  // tau dp with the moduli held
 
   // Blocks that stiffen.
   std::vector<std::size_t> block;
@@ -419,19 +428,21 @@ std::optional<Eigen::MatrixXd> ContactSolver::Impl::stiffness_times(const Eigen:
   Eigen::MatrixXd moved(count, blocks), followed(count, blocks);  // U / tau, C^-1 of it
   Eigen::MatrixXd second = bend.asDiagonal();                     // M
   const Eigen::MatrixXd r = force.asDiagonal() * rate;
+  Eigen::MatrixXd owned(count, blocks);
   for (Eigen::Index b = 0; b < blocks; ++b) {
     spread(r.col(b));
     const Eigen::VectorXd own = rate.col(b).cwiseProduct(v).cwiseProduct(root);
     const Eigen::VectorXd response = gathered(system.times(full));
-    const auto x = solved(own);
-    if (!x) return {};
+    owned.col(b) = own;
     moved.col(b) = own + response;
-    followed.col(b) = *x + r.col(b);
     second.col(b) += r.transpose() * response;
     const double K = tissue.per_energy[index_of(load.level)][block[static_cast<std::size_t>(b)]];
     second(b, b) += 2.0 * (stiffening_[block[static_cast<std::size_t>(b)]] - 1.0) / K;
   }
   if (blocks > 0) {
+    const auto x = solved(owned);
+    if (!x) return {};
+    followed = *x + r;
     const Eigen::MatrixXd left = second - moved.transpose() * followed;
     const Eigen::MatrixXd lambda =
         left.ldlt().solve(moved.transpose() * y - r.transpose() * turned);

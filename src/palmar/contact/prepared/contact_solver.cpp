@@ -435,7 +435,7 @@ void ContactSolver::Impl::solve_forces(const std::vector<Vec3>& posed_skin,
                                        ContactResult& result) {
   forces_only_ = true;
   forces_accuracy_ = accuracy;
-  last_ = find_forces(posed_skin, product_from_hand, product, {}, may_bulge() ? kNearRange : 0.0,
+  last_ = find_forces(posed_skin, product_from_hand, product, {}, may_bulge() ? kBulgeRange : 0.0,
                       result);
   const SkinLoad& load = last_;
   const DeepestOfRegion deepest = deepest_of(skin_, load, prepared->hand->region);

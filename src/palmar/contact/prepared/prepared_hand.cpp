@@ -11,6 +11,7 @@
 #include "palmar/contact/hand_family.h"
 #include "palmar/contact/response/layer_thickness.h"
 #include "palmar/core/error.h"
+#include "palmar/core/parallel.h"
 
 namespace palmar::contact {
 namespace {
@@ -129,6 +130,7 @@ struct HandFamily::Impl {
   std::optional<SkinPairs> pairs;  ///< nothing for a skin that has a far part, or Isomap
   SkinPatches blocks, spots;
   std::shared_ptr<const SkinCompliance> compliance;  ///< with TissueModel::kBone
+  std::shared_ptr<const CoarseSkin> coarse_skin;
 };
 
 HandFamily::HandFamily(std::shared_ptr<const hand::Hand> base, const ContactModel& model,
@@ -154,6 +156,8 @@ HandFamily::HandFamily(std::shared_ptr<const hand::Hand> base, const ContactMode
   }
   impl->blocks = skin_patches(impl->skin, kBlockSize);
   impl->spots = skin_patches(impl->skin, kSpotSize);
+  impl->coarse_skin =
+      std::make_shared<const CoarseSkin>(coarse_skin(*base, impl->skin, impl->compliance.get()));
   impl->base = std::move(base);
   impl_ = std::move(impl);
 }
@@ -231,6 +235,7 @@ PreparedHand::PreparedHand(std::shared_ptr<const hand::Hand> hand, const HandFam
                        ? stretched_response(*impl->hand, impl->skin, impl->model,
                                             impl->layer_thickness, *shared.pairs)
                        : skin_response(*impl->hand, impl->skin, impl->model, impl->layer_thickness);
+  impl->coarse_skin = shared.coarse_skin;
   impl->blocks = shared.blocks;
   impl->stiffness = skin_stiffness(*impl->hand, impl->skin, impl->response, shared.spots,
                                    impl->blocks, impl->model);
@@ -243,5 +248,20 @@ PreparedHand& PreparedHand::operator=(PreparedHand&&) noexcept = default;
 
 const hand::Hand& PreparedHand::hand() const { return *impl_->hand; }
 const ContactModel& PreparedHand::model() const { return impl_->model; }
+
+const CoarseHand& PreparedHand::coarse() const {
+  const Impl& impl = *impl_;
+  std::call_once(impl.coarse->once, [&] {
+    // Nothing else begins meanwhile on this thread, which might ask for it, too.
+    run_isolated([&] {
+      const CoarseSkin own = impl.coarse_skin
+                                 ? CoarseSkin{}
+                                 : coarse_skin(*impl.hand, impl.skin, impl.compliance.get());
+      impl.coarse->hand = std::make_unique<const CoarseHand>(
+          coarse_hand(impl, impl.coarse_skin ? *impl.coarse_skin : own));
+    });
+  });
+  return *impl.coarse->hand;
+}
 
 }  // namespace palmar::contact

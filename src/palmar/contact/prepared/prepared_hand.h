@@ -4,10 +4,12 @@
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "palmar/contact/contact.h"
+#include "palmar/contact/prepared/coarse_hand.h"
 #include "palmar/contact/response/skin_geometry.h"
 #include "palmar/contact/response/skin_response.h"
 #include "palmar/contact/self/skin_meetings.h"
@@ -34,6 +36,13 @@ struct PreparedHand::Impl {
   std::shared_ptr<const SkinCompliance> compliance;  ///< of the hand or its family's base
   std::vector<double> scale;  ///< of a hand of a family, per vertex: see LoadedSkin
   std::optional<SkinMeetings> meetings;
+  // Of the coarse hand.
+  std::shared_ptr<const CoarseSkin> coarse_skin;  ///< of the family; null without one
+  struct Coarse {
+    std::once_flag once;
+    std::unique_ptr<const CoarseHand> hand;
+  };
+  std::shared_ptr<Coarse> coarse = std::make_shared<Coarse>();
 
   bool is_on_bone() const { return model.tissue == TissueModel::kBone; }
   bool is_as_printed() const { return model.bulge == BulgeLaw::kPrinted; }

@@ -204,44 +204,81 @@ void BlockMatrix::multiply(const std::vector<float>& x, std::vector<float>& y) c
   }
 }
 
-void BlockMatrix::precondition(const std::vector<float>& r, std::vector<float>& z) {
-  z = r;
+void BlockMatrix::multiply(std::vector<Gradient*>& of) const {
+  for (Gradient* g : of) g->q.assign(padded_, 0.0F);
+  const auto add_product = has_avx2() ? add_product_avx2 : add_product_any;
+  for (const Block& block : block_) {
+    for (Gradient* g : of) {
+      add_product(value_.data() + block.value, block.stride, sizes_[block.column],
+                  g->d.data() + start_[block.column], g->q.data() + start_[block.row]);
+    }
+  }
+}
+
+void BlockMatrix::precondition(std::vector<Gradient*>& of) const {
   const auto substitute = has_avx2() ? substitute_avx2 : substitute_any;
+  for (Gradient* g : of) g->z = g->r;
   for (std::size_t b = 0; b < sizes_.size(); ++b) {
     const auto n = static_cast<std::size_t>(sizes_[b]);
-    substitute(lower_.data() + factor_start_[b], upper_.data() + factor_start_[b], n, padded(n),
-               z.data() + start_[b]);
+    for (Gradient* g : of) {
+      substitute(lower_.data() + factor_start_[b], upper_.data() + factor_start_[b], n, padded(n),
+                 g->z.data() + start_[b]);
+    }
   }
 }
 
 bool BlockMatrix::solve(const std::vector<float>& b, double tolerance, std::vector<float>& x,
                         int& iterations, const AddProduct& also) {
-  x.assign(padded_, 0.0F);
-  r_ = b;
-  const double goal = tolerance * std::sqrt(dot(b, b));
-  if (!(goal > 0.0)) return goal == 0.0;
-  precondition(r_, z_);
-  d_ = z_;
-  double rz = dot(r_, z_);
-  for (int k = 0; k < kMostIterations; ++k) {
-    ++iterations;
-    multiply(d_, q_);
-    if (also) also(d_, q_);
-    const double curvature = dot(d_, q_);
-    if (!(curvature > 0.0)) return false;
-    const auto step = static_cast<float>(rz / curvature);
-    for (std::size_t i = 0; i < padded_; ++i) {
-      x[i] += step * d_[i];
-      r_[i] -= step * q_[i];
-    }
-    if (std::sqrt(dot(r_, r_)) <= goal) return true;
-    precondition(r_, z_);
-    const double next = dot(r_, z_);
-    const auto share = static_cast<float>(next / rz);
-    rz = next;
-    for (std::size_t i = 0; i < padded_; ++i) d_[i] = z_[i] + share * d_[i];
+  Vectors all{b}, found{std::move(x)};
+  const bool is_solved = solve(all, tolerance, found, iterations, also);
+  x = std::move(found.front());
+  return is_solved;
+}
+
+bool BlockMatrix::solve(const Vectors& b, double tolerance, Vectors& x, int& iterations,
+                        const AddProduct& also) {
+  x.resize(b.size());
+  gradient_.resize(std::max(gradient_.size(), b.size()));
+  std::vector<Gradient*> open;
+  for (std::size_t k = 0; k < b.size(); ++k) {
+    x[k].assign(padded_, 0.0F);
+    Gradient& g = gradient_[k];
+    g.r = b[k];
+    g.goal = tolerance * std::sqrt(dot(b[k], b[k]));
+    if (g.goal > 0.0) open.push_back(&g);
+    if (!(g.goal >= 0.0)) return false;
   }
-  return false;
+  precondition(open);
+  for (Gradient* g : open) {
+    g->d = g->z;
+    g->rz = dot(g->r, g->z);
+  }
+  for (int k = 0; k < kMostIterations && !open.empty(); ++k) {
+    iterations += static_cast<int>(open.size());
+    multiply(open);
+    std::size_t left = 0;
+    for (Gradient* g : open) {
+      if (also) also(g->d, g->q);
+      const double curvature = dot(g->d, g->q);
+      if (!(curvature > 0.0)) return false;
+      const auto step = static_cast<float>(g->rz / curvature);
+      std::vector<float>& own = x[static_cast<std::size_t>(g - gradient_.data())];
+      for (std::size_t i = 0; i < padded_; ++i) {
+        own[i] += step * g->d[i];
+        g->r[i] -= step * g->q[i];
+      }
+      if (std::sqrt(dot(g->r, g->r)) > g->goal) open[left++] = g;
+    }
+    open.resize(left);
+    precondition(open);
+    for (Gradient* g : open) {
+      const double next = dot(g->r, g->z);
+      const auto share = static_cast<float>(next / g->rz);
+      g->rz = next;
+      for (std::size_t i = 0; i < padded_; ++i) g->d[i] = g->z[i] + share * g->d[i];
+    }
+  }
+  return open.empty();
 }
 
 }  // namespace palmar::contact

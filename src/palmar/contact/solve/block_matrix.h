@@ -48,6 +48,11 @@ class BlockMatrix {
   using AddProduct = std::function<void(const std::vector<float>& x, std::vector<float>& y)>;
   bool solve(const std::vector<float>& b, double tolerance, std::vector<float>& x, int& iterations,
              const AddProduct& also = {});
+  /// The same of several b, side by side, so that the matrix is read once for all of them; each x
+  /// is what solve() gives for it.
+  using Vectors = std::vector<std::vector<float>>;
+  bool solve(const Vectors& b, double tolerance, Vectors& x, int& iterations,
+             const AddProduct& also = {});
   /// y = A x.
   void multiply(const std::vector<float>& x, std::vector<float>& y) const;
 
@@ -62,7 +67,13 @@ class BlockMatrix {
   std::size_t pair(int row_block, int column_block) const {
     return static_cast<std::size_t>(row_block) * sizes_.size() + column_block;
   }
-  void precondition(const std::vector<float>& r, std::vector<float>& z);
+  /// Of one solution, step by step.
+  struct Gradient {
+    std::vector<float> r, z, q, d;
+    double goal = 0.0, rz = 0.0;
+  };
+  void multiply(std::vector<Gradient*>& of) const;      ///< q = A d
+  void precondition(std::vector<Gradient*>& of) const;  ///< A z = r, roughly
 
   std::vector<int> sizes_;
   std::vector<std::size_t> start_;
@@ -73,7 +84,7 @@ class BlockMatrix {
   std::vector<std::size_t> factor_start_;  // per diagonal block
   std::vector<float> lower_;               // factors by column, diagonal inverted
   std::vector<float> upper_;               // the same by row
-  std::vector<float> r_, z_, q_, d_;
+  std::vector<Gradient> gradient_;
 };
 
 }  // namespace palmar::contact

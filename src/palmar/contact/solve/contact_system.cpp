@@ -16,7 +16,6 @@ constexpr double kFirst = 1e-3;  // by what the first solution on a set lowers t
 constexpr double kInner = 1e-5;  // by what each further one does; single precision gives as much
 constexpr double kUnder = 0.3;   // of the accuracy asked for: errors here are mean squares
 constexpr int kMostCorrections = 8;
-constexpr double kUnchecked = 1e-4;  // accuracy that one solution in single precision has for sure
 constexpr double kSinglePrecision = 3e-6;  // of a product, of its largest
 constexpr int kMaxFruitless = 8;  // exchanges of blocks without progress before single ones
 constexpr int kMostPivots = 400;
@@ -274,19 +273,22 @@ bool ContactSystem::correct(double tolerance, const std::vector<double>& residua
   for (const int i : set_) {
     right_[at(i)] = static_cast<float>(-residual[i] / scale);
   }
-  BlockMatrix::AddProduct far;
-  if (has_far_) {
-    far = [&](const std::vector<float>& from, std::vector<float>& to) {
-      add_far(
-          set_, [&](int row) { return static_cast<double>(from[at(row)]); },
-          [&](int row, double moved) { to[at(row)] += static_cast<float>(moved); });
-    };
-  }
-  if (!matrix_.solve(right_, tolerance, step_, iterations, far)) return false;
+  if (!matrix_.solve(right_, tolerance, step_, iterations, far_on_set())) return false;
   for (const int i : set_) {
     x[i] += scale * static_cast<double>(step_[at(i)]);
   }
   return true;
+}
+
+/// What the far part adds to a product of the set's matrix.
+BlockMatrix::AddProduct ContactSystem::far_on_set() const {
+  if (!has_far_) return {};
+  return [this](const std::vector<float>& from, std::vector<float>& to) {
+    const auto at = [&](int i) { return matrix_.row(place_[i].block, place_[i].inside); };
+    add_far(
+        set_, [&](int row) { return static_cast<double>(from[at(row)]); },
+        [&](int row, double moved) { to[at(row)] += static_cast<float>(moved); });
+  };
 }
 
 void ContactSystem::multiply_all(const std::vector<double>& p, std::vector<double>& s) const {
@@ -479,6 +481,31 @@ std::vector<double> ContactSystem::times(const std::vector<double>& x) const {
   return result;
 }
 
+std::optional<Eigen::MatrixXd> ContactSystem::solve_roughly_on(const std::vector<char>& in_contact,
+                                                               const Eigen::MatrixXd& right,
+                                                               double accuracy) {
+  if (!set_contact(in_contact)) return std::nullopt;
+  const auto at = [&](int i) { return matrix_.row(place_[i].block, place_[i].inside); };
+  BlockMatrix::Vectors b(static_cast<std::size_t>(right.cols())), x;
+  for (std::size_t c = 0; c < b.size(); ++c) {
+    b[c].assign(matrix_.padded_size(), 0.0F);
+    for (const int i : set_) {
+      b[c][at(i)] = static_cast<float>(right(i, static_cast<Eigen::Index>(c)));
+    }
+  }
+  int iterations = 0;
+  if (!matrix_.solve(b, std::max(kInner, kUnder * accuracy), x, iterations, far_on_set())) {
+    return std::nullopt;
+  }
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(right.rows(), right.cols());
+  for (std::size_t c = 0; c < b.size(); ++c) {
+    for (const int i : set_) {
+      result(i, static_cast<Eigen::Index>(c)) = static_cast<double>(x[c][at(i)]);
+    }
+  }
+  return result;
+}
+
 std::optional<std::vector<double>> ContactSystem::solve_on(const std::vector<char>& in_contact,
                                                            const std::vector<double>& right,
                                                            double accuracy) {
@@ -491,7 +518,7 @@ std::optional<std::vector<double>> ContactSystem::solve_on(const std::vector<cha
   for (int round = 0; round < kMostCorrections; ++round) {
     int iterations = 0;
     if (!correct(std::max(kInner, kUnder * accuracy), residual, x, iterations)) return std::nullopt;
-    if (accuracy >= kUnchecked) break;  // single precision is as exact as that
+    if (accuracy >= kSurely) break;
     multiply_all(x, residual);
     double error = 0.0;
     for (const int i : set_) {

@@ -67,6 +67,10 @@ class ContactSystem {
   std::optional<std::vector<double>> solve_on(const std::vector<char>& in_contact,
                                               const std::vector<double>& right,
                                               double accuracy = kBestAccuracy);
+  /// The same of several right sides, a column each, at once; as exact as single precision at best.
+  std::optional<Eigen::MatrixXd> solve_roughly_on(const std::vector<char>& in_contact,
+                                                  const Eigen::MatrixXd& right, double accuracy);
+  static constexpr double kSurely = 1e-4;  ///< that exact is solve_roughly_on() always
   /// A x.
   std::vector<double> times(const std::vector<double>& x) const;
 
@@ -76,6 +80,7 @@ class ContactSystem {
  private:
   void make_blocks();
   bool set_contact(const std::vector<char>& in_contact);
+  BlockMatrix::AddProduct far_on_set() const;
   bool correct(double tolerance, const std::vector<double>& residual, std::vector<double>& x,
                int& iterations);
   void assemble_far(const SkinResponse& response);

@@ -193,6 +193,31 @@ TEST(ContactSystem, SolvesOnTheContactSet) {
   }
 }
 
+TEST(ContactSystem, SolvesSeveralRightSidesAtOnceAsOneByOne) {
+  const Square& s = square();
+  const std::vector<double> b = s.penetration(1.0);
+  ContactSystem system(s.patches);
+  system.assemble(s.response, s.all, nullptr);
+  std::vector<char> in_contact(b.size(), 0);
+  std::vector<double> force, gap;
+  ASSERT_TRUE(system.solve(b, in_contact, force, gap).is_solved);
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(b.size()), 3);
+  for (Eigen::Index i = 0; i < right.rows(); ++i) {
+    right(i, 0) = 1.0;
+    right(i, 1) = std::sin(0.1 * static_cast<double>(i));  // column 2: nothing
+  }
+  const auto all = system.solve_roughly_on(in_contact, right, 1e-4);
+  ASSERT_TRUE(all);
+  for (Eigen::Index c = 0; c < right.cols(); ++c) {
+    const std::vector<double> column(right.col(c).begin(), right.col(c).end());
+    const auto one = system.solve_on(in_contact, column);
+    ASSERT_TRUE(one);
+    const Eigen::VectorXd exact =
+        Eigen::Map<const Eigen::VectorXd>(one->data(), static_cast<Eigen::Index>(one->size()));
+    EXPECT_LE((all->col(c) - exact).norm(), 1e-3 * exact.norm()) << c;
+  }
+}
+
 TEST(ContactSystem, SaysWhenAMatrixHasNoAnswer) {
   // Responses with a negative diagonal: nothing can push the skin out.
   Square s;

@@ -35,21 +35,9 @@ ContactForces::ContactForces(const contact::PreparedHand& hand, const product::P
       skin_(hand.hand()),
       product_(&product),
       friction_(friction),
-      solver_(hand, options),
-      bed_(hand.hand(), *product.distance) {
+      solver_(hand, options) {
   anchor_ = hand::pose_skin(hand.hand(), start.posture);
   for (Vec3& point : anchor_) point = start.product_from_hand * point;
-}
-
-void ContactForces::pose(const GripState& state) {
-  state_ = state;
-  posed_ = hand::pose_skin(hand_->hand(), state.posture);
-  hand_from_product_ = state.product_from_hand.rotation.conjugate();
-  loaded_.clear();
-  pressed_.clear();
-  depth_.clear();
-  spring_.clear();
-  in_product_.clear();
 }
 
 bool ContactForces::is_at(const GripState& state) const {
@@ -58,24 +46,13 @@ bool ContactForces::is_at(const GripState& state) const {
          a.rotation.coeffs() == b.rotation.coeffs();
 }
 
-void ContactForces::look_on_springs(const GripState& state) {
-  pose(state);
-  std::vector<Vec3> skin(posed_.size());
-  for (std::size_t v = 0; v < skin.size(); ++v) skin[v] = state.product_from_hand * posed_[v];
-  normal_.clear();
-  for (const SkinBed::Load& load : bed_.look(skin)) {
-    loaded_.push_back(load.vertex);
-    pressed_.push_back(load.force);
-    depth_.push_back(load.depth);
-    spring_.push_back(load.stiffness);
-    in_product_.push_back(skin[load.vertex]);
-    normal_.push_back(hand_from_product_ * load.normal);
-  }
-  add_up();
-}
-
 bool ContactForces::look(const GripState& state, double accuracy) {
-  pose(state);
+  state_ = state;
+  posed_ = hand::pose_skin(hand_->hand(), state.posture);
+  hand_from_product_ = state.product_from_hand.rotation.conjugate();
+  pressed_.clear();
+  depth_.clear();
+  in_product_.clear();
   solver_.solve_forces(posed_, state.product_from_hand, *product_->distance, accuracy, contact_);
   fallbacks_ += contact_.fallbacks;
   if (contact_.status == contact::ContactStatus::kNotConverged) return false;
@@ -140,7 +117,6 @@ void ContactForces::add_up() {
     is_loaded_[j] = !one.row.empty();
   }
 
-  const bool is_on_bed = !spring_.empty();
   double spread = 0.0, rubbing = 0.0;
   pull_.reserve(loaded_.size());
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
@@ -155,7 +131,7 @@ void ContactForces::add_up() {
       moves.emplace_back(kGripJoints + 3 + c, -Vec3::Unit(c).cross(x));
     }
     RegionSum& r = region[index_of(hand.region[v])];
-    const double stiff = is_on_bed ? spring_[k] : kForcePower * p / r.depth;
+    const double stiff = kForcePower * p / r.depth;
     // Tangential way since the start, of the skin over the product.
     Vec3 way = hand_from_product_ * (in_product_[k] - anchor_[v]);
     way -= n * n.dot(way);
@@ -185,16 +161,12 @@ void ContactForces::add_up() {
       }
     }
   }
-  if (is_on_bed) {
-    stiffness_ += geometric_stiffness(bends());
-  } else {
-    // Skin that a region presses together stiffens together.
-    for (const RegionSum& r : region) {
-      if (!(r.force > 0.0)) continue;
-      const double more = kForcePower * (r.force / r.work - 1.0 / r.depth);
-      stiffness_ += more / r.force * r.opening * r.opening.transpose();
-      rate_ -= more * (grip_.force / grip_.sum_of_normals) * r.opening;
-    }
+  // Skin that a region presses together stiffens together.
+  for (const RegionSum& r : region) {
+    if (!(r.force > 0.0)) continue;
+    const double more = kForcePower * (r.force / r.work - 1.0 / r.depth);
+    stiffness_ += more / r.force * r.opening * r.opening.transpose();
+    rate_ -= more * (grip_.force / grip_.sum_of_normals) * r.opening;
   }
   stiffness_ += drag_;
   for (std::size_t r = 0; r < region.size(); ++r) {
@@ -257,8 +229,7 @@ GripMatrix ContactForces::depth_stiffness(const Eigen::MatrixXd& opening,
 /// How the product's normals turn with motion over it, per loaded vertex, hand frame, 1/mm: the
 /// slope of those at the vertex' neighbours, by least squares in its tangent plane.
 std::vector<Eigen::Matrix3d> ContactForces::bends() const {
-  const std::vector<geometry::DistanceSample>& sample =
-      spring_.empty() ? solver_.skin().sample : bed_.samples();
+  const std::vector<geometry::DistanceSample>& sample = solver_.skin().sample;
   std::vector<Eigen::Matrix3d> bend(loaded_.size(), Eigen::Matrix3d::Zero());
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
     const int v = loaded_[k];

@@ -9,7 +9,6 @@
 #include "palmar/contact/prepared/contact_solver.h"
 #include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/equilibrium/grip_force.h"
-#include "palmar/grasp/equilibrium/skin_bed.h"
 #include "palmar/grasp/equilibrium/skin_motion.h"
 #include "palmar/hand/tendons/digit_pose.h"
 #include "palmar/product/product.h"
@@ -35,8 +34,8 @@ namespace palmar::grasp {
 /// the force smooth.
 ///
 /// Stiffness: that of forces p_v which grow with the square of their own depth, and of a region's
-/// sum with the square of its mean depth, off by a sixth; or, at three times the cost of a contact,
-/// the contact's own (differentiate()). On springs (SkinBed) that of the springs, 2 % off.
+/// sum with the square of its mean depth, off by a sixth; or, at the cost of a contact, the
+/// contact's own (differentiate()).
 class ContactForces {
  public:
   /// Keeps references; skin sticks where it is in `start`.
@@ -46,9 +45,6 @@ class ContactForces {
   /// Solves the contact of a state, to `accuracy` of its forces, and fills what follows. False if
   /// it can't be solved.
   bool look(const GripState& state, double accuracy);
-  /// The same with skin as a bed of springs; its stiffness is that of the springs, with how normals
-  /// and arms turn.
-  void look_on_springs(const GripState& state);
 
   /// Stiffness and squeeze's rate of the state last looked at, with the forces' own derivatives in
   /// place of what look() takes for them: by gaps and by the directions in which skin is pressed
@@ -60,7 +56,6 @@ class ContactForces {
 
   /// Whether the state last looked at is this one.
   bool is_at(const GripState& state) const;
-  const SkinMotion& skin_motion() const { return skin_; }
   const std::vector<Vec3>& posed() const { return posed_; }  ///< skin, hand frame, mm
   const contact::ContactFallbacks& fallbacks() const { return fallbacks_; }
   const GripVector& force() const { return force_; }  ///< on the coordinates, N and N mm
@@ -77,7 +72,6 @@ class ContactForces {
   std::vector<Vec3> friction_force() const;
 
  private:
-  void pose(const GripState& state);
   void add_up();
   std::vector<Eigen::Matrix3d> bends() const;
   GripMatrix geometric_stiffness(const std::vector<Eigen::Matrix3d>& bend) const;
@@ -92,15 +86,13 @@ class ContactForces {
   contact::ContactFallbacks fallbacks_;
   std::vector<Vec3> posed_;
   std::vector<Vec3> anchor_;  ///< where the skin stuck, product frame, mm
-  SkinBed bed_;
   // Per loaded vertex.
   std::vector<int> loaded_;
   std::vector<double> pressed_;   ///< N
   std::vector<double> depth_;     ///< mm
-  std::vector<double> spring_;    ///< N/mm; empty but on the bed
   std::vector<Vec3> in_product_;  ///< skin, product frame, mm
   std::vector<Vec3> normal_;      ///< in which the product presses, out of it, hand frame
-  std::vector<Vec3> slope_;       ///< of the distance to the product, the same; not on the bed
+  std::vector<Vec3> slope_;       ///< of the distance to the product, the same
   /// Per loaded vertex: how coordinates move it over the product, mm per mm and rad.
   std::vector<std::vector<std::pair<int, Vec3>>> motion_;
   std::vector<Vec3> pull_;    ///< friction on the skin, per loaded vertex, hand frame, N

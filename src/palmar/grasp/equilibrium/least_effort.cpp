@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "palmar/contact/prepared/coarse_hand.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/grasp/equilibrium/effort_program.h"
 #include "palmar/grasp/equilibrium/volar_gaps.h"
@@ -23,9 +24,8 @@ struct Descent {
   double price;          // of what is missing, of the model's
 };
 // On the way prices are low, so that digits find their places before forces are exact.
-constexpr Descent kOnSprings[] = {{0.6, 30, 2e-2, 10.0, 1.0 / 3.0},
-                                  {1.0, 30, 2e-2, 1.0, 1.0 / 3.0}};
-constexpr Descent kOnTissue{1.0, 60, 1.5e-3, 1.0, 1.0};
+constexpr Descent kOnCoarseSkin[] = {{0.6, 30, 2e-2, 10.0, 1.0 / 3.0}, {1.0, 30, 1e-2, 1.0, 1.0}};
+constexpr Descent kOnSkin{1.0, 60, 5e-3, 1.0, 1.0};
 
 constexpr int kMostRefused = 5,
               kMostInNeed = 12;             // steps one after the other; if things are missing
@@ -38,6 +38,9 @@ constexpr double kUsualSteps = 50.0;  // of all searches; of what progress is a 
 // Shares of the promised gain: less is corrected; less that a correction promises isn't worth it;
 // less isn't taken.
 constexpr double kPoor = 0.5, kWorthwhile = 0.2, kLeastShare = 0.02;
+// A way that much more damped is shorter; if it promises that share, it is better.
+constexpr double kShorter = 8.0, kAsGood = 0.9, kMostDamping = 1e6;
+constexpr double kGrowth = 4.0;      // of damping, where a step is refused
 constexpr double kKept = 0.9;        // less, and derivatives are taken anew
 constexpr double kByWrist = 1.02;    // of the strength that the digits alone need
 constexpr double kNoMissing = 0.01;  // priced; so little is none
@@ -61,6 +64,11 @@ GripVector step_weight() {
   GripVector w = GripVector::Constant(kArm * kArm);
   w.segment<3>(kGripJoints).setOnes();
   return w / (kStep * kStep);
+}
+
+contact::ContactOptions without_touches(contact::ContactOptions options) {
+  options.skin_on_skin = false;
+  return options;
 }
 
 /// A state with all that acts in it.
@@ -93,8 +101,11 @@ class LeastEffort {
         start_(start),
         meeting_(hand.hand(), start.posture),
         has_skin_on_skin_(contact.skin_on_skin),
-        forces_(hand, product, contact, task.friction, start),
-        gaps_(hand.hand(), forces_.skin_motion(), product),
+        skin_(hand, product, contact, task.friction, start),
+        coarse_skin_(hand.coarse().prepared, product, without_touches(contact), task.friction,
+                     start),
+        coarse_(&hand.coarse().sample),
+        gaps_(hand, product),
         muscles_(hand.hand(), {.wrist = task.wrist}),
         weight_(spread(task.model).cwiseAbs2().cwiseInverse()),
         damped_(step_weight()) {}
@@ -102,6 +113,7 @@ class LeastEffort {
   EffortRest run(const Progress& progress);
 
  private:
+  ContactForces& forces() { return is_coarse_ ? coarse_skin_ : skin_; }
   bool look(const GripState& state, Look& at);
   void add_muscles(Look& at) const;
   GripMatrix muscle_rate(const Look& at) const;
@@ -119,13 +131,14 @@ class LeastEffort {
   GripState start_;
   Vec3 held_point_ = Vec3::Zero();  ///< product frame: centre of contact at the start
   Vec3 held_at_ = Vec3::Zero();     ///< where that was, hand frame
-  bool on_springs_ = true;
+  bool is_coarse_ = true;
   double asked_ = 0.0;   ///< grip force, N
   double target_ = 0.0;  ///< of the search under way, N
   double price_ = 1.0;   ///< of what is missing, in the search under way
   ThumbMeeting meeting_;
   bool has_skin_on_skin_;
-  ContactForces forces_;
+  ContactForces skin_, coarse_skin_;
+  const hand::SkinSample* coarse_;
   VolarGaps gaps_;
   hand::HandMuscles muscles_;
   GripVector weight_;  ///< of what coordinates have moved, in E
@@ -196,17 +209,14 @@ GripMatrix LeastEffort::muscle_rate(const Look& at) const {
 
 bool LeastEffort::look(const GripState& state, Look& at) {
   at.state = state;
-  const Vec3 before = forces_.centre();
-  if (on_springs_) {
-    forces_.look_on_springs(state);
-  } else if (!forces_.look(state, kAccuracy)) {
-    return false;
-  }
-  at.contact = at.outside = forces_.force();
-  at.stiffness = at.contact_stiffness = forces_.stiffness();
-  at.squeeze_rate = forces_.squeeze_rate();
-  at.grip = forces_.grip();
-  at.centre = at.grip.force > 0.0 ? forces_.centre() : before;
+  ContactForces& forces = this->forces();
+  const Vec3 before = forces.centre();
+  if (!forces.look(state, kAccuracy)) return false;
+  at.contact = at.outside = forces.force();
+  at.stiffness = at.contact_stiffness = forces.stiffness();
+  at.squeeze_rate = forces.squeeze_rate();
+  at.grip = forces.grip();
+  at.centre = at.grip.force > 0.0 ? forces.centre() : before;
   const geometry::Rigid3 hand_from_product = state.product_from_hand.inverse();
   const Vec3 force = hand_from_product.rotation * task_->load.force;
   const Vec3 moment = hand_from_product.rotation * task_->load.moment;
@@ -214,13 +224,18 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   at.outside.tail<3>() += moment + (hand_from_product.translation - at.centre).cross(force);
   at.wrist_load = hand::wrist_moment(*hand_, force, hand_from_product.translation, moment);
   add_muscles(at);
-  const VolarVector gap = gaps_.look(state, forces_.posed());
-  at.gap_rate = gaps_.rates(state, forces_.posed(), at.centre);
+  std::vector<Vec3> posed = forces.posed();
+  if (!is_coarse_) {
+    for (std::size_t e = 0; e < coarse_->vertex.size(); ++e) posed[e] = posed[coarse_->vertex[e]];
+    posed.resize(coarse_->vertex.size());
+  }
+  const VolarVector gap = gaps_.look(state, posed);
+  at.gap_rate = gaps_.rates(state, posed, at.centre);
   for (int k = 0; k < kVolarParts; ++k) {
     at.gap[k] = std::max(0.0, gap[k]) / task_->model.gap_spread;
     at.gap_rate.row(k) *= at.gap[k] > 0.0 ? 1.0 / task_->model.gap_spread : 0.0;
   }
-  if (!has_skin_on_skin_) {
+  if (is_coarse_ || !has_skin_on_skin_) {
     at.presses = meeting_.presses(state.posture);
     for (const ThumbPress& press : at.presses) at.outside += press.force * press.moment;
     at.stiffness += meeting_.stiffness(state.posture);
@@ -285,10 +300,11 @@ void LeastEffort::judge(Look& at) const {
 
 /// The tissue's own derivatives at a state. False if its contact has no solution.
 bool LeastEffort::differentiate(const Look& at) {
-  if (!forces_.is_at(at.state) && !forces_.look(at.state, kAccuracy)) return false;
-  forces_.differentiate();
-  more_stiffness_ = forces_.stiffness() - at.contact_stiffness;
-  more_rate_ = forces_.squeeze_rate() - at.squeeze_rate;
+  ContactForces& forces = this->forces();
+  if (!forces.is_at(at.state) && !forces.look(at.state, kAccuracy)) return false;
+  forces.differentiate();
+  more_stiffness_ = forces.stiffness() - at.contact_stiffness;
+  more_rate_ = forces.squeeze_rate() - at.squeeze_rate;
   return true;
 }
 
@@ -323,7 +339,7 @@ void LeastEffort::finish(const Look& at, EffortRest& rest) const {
   rest.activation = at.effort.activation;
   rest.missing = at.effort.missing.head<kGripCoordinates>();
   rest.strongest_moment = (at.moments * at.effort.activation).lpNorm<Eigen::Infinity>();
-  rest.arm = forces_.arm();
+  rest.arm = skin_.arm();
   rest.load.wrist = at.wrist_load;
   GripVector load = at.contact;
   for (const ThumbPress& press : at.presses) load += press.force * press.moment;
@@ -332,9 +348,9 @@ void LeastEffort::finish(const Look& at, EffortRest& rest) const {
   }
   rest.share = least_share(at, true);
   rest.is_by_wrist = rest.share > kByWrist * least_share(at, false);
-  rest.friction_use = forces_.friction_use();
-  rest.friction_force = forces_.friction_force();
-  rest.fallbacks = forces_.fallbacks();
+  rest.friction_use = skin_.friction_use();
+  rest.friction_force = skin_.friction_force();
+  rest.fallbacks = skin_.fallbacks();
   const GripVector off = departure(at.state);
   rest.way = off.segment<3>(kGripJoints);
   rest.moved = rest.way.norm();
@@ -343,7 +359,7 @@ void LeastEffort::finish(const Look& at, EffortRest& rest) const {
 
 bool LeastEffort::go(const Look& from, const GripVector& way, Look& to) {
   if (!look(moved(from.state, way, from.centre), to)) return false;
-  if (to.grip.force == 0.0 && !on_springs_) return false;
+  if (to.grip.force == 0.0 && !is_coarse_) return false;
   judge(to);
   return true;
 }
@@ -355,7 +371,7 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
   price_ = how.price;
   judge(now);
   rest.merit.assign(1, now.merit());
-  double damping = how.first_damping, growth = 2.0;
+  double damping = how.first_damping, growth = kGrowth;
   bool is_new = true;       // the state, since its derivatives were taken
   double last_share = 0.0;  // of what was promised
   int refused = 0;
@@ -368,14 +384,22 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
     ++rest.iterations;
     progress.update(std::min(1.0, rest.iterations / kUsualSteps), "letting the grasp come to rest");
     // Derivatives serve as long as steps keep what they promise; where to end is never theirs.
-    if (is_new && !on_springs_ && last_share < kKept) {
+    if (is_new && last_share < kKept) {
       if (!differentiate(now)) return;
       is_new = false;
     }
-    const EffortSolution step = solve_effort(program(now, damping));
-    const double promised = now.merit() - (step.value + now.off);
+    EffortSolution step = solve_effort(program(now, damping));
+    double promised = now.merit() - (step.value + now.off);
+    // Shorter ways that promise as much are better ones.
+    for (double used = damping; refused > 0 && used < kMostDamping; used *= kShorter) {
+      EffortSolution shorter = solve_effort(program(now, kShorter * used));
+      const double left = now.merit() - (shorter.value + now.off);
+      if (left < kAsGood * promised) break;
+      promised = left;
+      step = std::move(shorter);
+    }
     if (promised < how.least_gain * now.merit()) {
-      if (!is_new || on_springs_) break;
+      if (!is_new) break;
       last_share = 0.0;
       continue;
     }
@@ -407,7 +431,7 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
       continue;
     }
     damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * share - 1.0, 3));
-    growth = 2.0;
+    growth = kGrowth;
     refused = 0;
     now = std::move(next);
     is_new = true;
@@ -429,11 +453,11 @@ EffortRest LeastEffort::run(const Progress& progress) {
     asked_ = kTooMuch;
   } else if (task_->grip_force) {
     asked_ = *task_->grip_force;
-  } else if (forces_.look(start_, kAccuracy)) {
+  } else if (skin_.look(start_, kAccuracy)) {
     // Under a load what two opposed contacts need to hold it by friction is added.
     const double more =
         task_->friction > 0.0 ? 0.5 * task_->load.force.norm() / task_->friction : 0.0;
-    asked_ = forces_.grip().force + more;
+    asked_ = skin_.grip().force + more;
     if (!(asked_ > 0.0)) {
       rest.status = EffortRest::Status::kNoContact;
       return rest;
@@ -441,16 +465,16 @@ EffortRest LeastEffort::run(const Progress& progress) {
   } else {
     return rest;
   }
-  for (const Descent& how : kOnSprings) descend(now, how, progress, rest);
-  on_springs_ = false;
+  for (const Descent& how : kOnCoarseSkin) descend(now, how, progress, rest);
+  is_coarse_ = false;
   const GripState state = now.state;
   if (!look(state, now)) return rest;
   if (now.grip.force == 0.0) {
     rest.status = EffortRest::Status::kNoContact;
     return rest;
   }
-  descend(now, kOnTissue, progress, rest);
-  if (!forces_.is_at(now.state) && !forces_.look(now.state, kAccuracy)) return rest;
+  descend(now, kOnSkin, progress, rest);
+  if (!skin_.is_at(now.state) && !skin_.look(now.state, kAccuracy)) return rest;
   rest.status = EffortRest::Status::kSolved;
   finish(now, rest);
   return rest;

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "palmar/contact/prepared/coarse_hand.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/distance/distance_field.h"
-#include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/hand/skeleton.h"
 #include "palmar/hand/skin/skinning.h"
 
@@ -24,12 +24,15 @@ constexpr std::array kPads{hand::Region::kRadialPalm, hand::Region::kUlnarPalm,
 
 }  // namespace
 
-VolarGaps::VolarGaps(const hand::Hand& hand, const SkinMotion& skin,
-                     const product::Product& product)
-    : hand_(&hand), motion_(&skin), product_(&product), cones_(hand) {
+VolarGaps::VolarGaps(const contact::PreparedHand& prepared, const product::Product& product)
+    : hand_(&prepared.hand()),
+      motion_(prepared.coarse().prepared.hand()),
+      product_(&product),
+      cones_(prepared.hand()) {
+  const hand::Hand& hand = prepared.coarse().prepared.hand();
+  const std::vector<double>& area = prepared.coarse().sample.area;
   const hand::Skeleton& skeleton = hand.skeleton;
   const std::vector<Vec3> posed = hand::pose_skin(hand, hand::reference_posture(skeleton));
-  const std::vector<double> area = geometry::vertex_areas(hand.skin);
   const auto close_part = [&](std::size_t first) {
     double sum = 0.0;
     for (std::size_t k = first; k < skin_.size(); ++k) sum += skin_[k].share;
@@ -78,7 +81,7 @@ VolarGaps::VolarGaps(const hand::Hand& hand, const SkinMotion& skin,
     }
     close_part(first);
   }
-  for (const Skin& skin_point : skin_) vertex_.push_back(skin_point.vertex);
+  for (const Skin& point : skin_) vertex_.push_back(point.vertex);
 }
 
 VolarVector VolarGaps::look(const GripState& state, const std::vector<Vec3>& posed) {
@@ -142,7 +145,7 @@ VolarRates VolarGaps::rates(const GripState& state, const std::vector<Vec3>& pos
         (posed[skin.vertex] - centre).cross(away).transpose();
   }
   for (int j = 0; j < kGripJoints; ++j) {
-    const SkinMotion::Column one = motion_->column(state.posture, posed, j, vertex_);
+    const SkinMotion::Column one = motion_.column(state.posture, posed, j, vertex_);
     for (std::size_t i = 0; i < one.row.size(); ++i) {
       const Skin& skin = skin_[one.row[i]];
       rates(skin.part, j) += skin.weight * skin.normal.dot(one.speed[i]);

@@ -23,8 +23,8 @@ using VolarRates = Eigen::Matrix<double, kVolarParts, kGripCoordinates>;
 /// finger that it lies on.
 class VolarGaps {
  public:
-  /// Keeps references.
-  VolarGaps(const hand::Hand& hand, const SkinMotion& skin, const product::Product& product);
+  /// Keeps references. Skin is that of the coarse hand.
+  VolarGaps(const contact::PreparedHand& hand, const product::Product& product);
 
   /// Gap of each part, mm: mean distance of its volar skin, nearer skin counting more,
   ///
@@ -32,7 +32,7 @@ class VolarGaps {
   ///
   /// s_v the share of skin that speaks for the volar side: its area, in a phalanx times the fourth
   /// power of the cosine between its direction from the bone and the volar one. Smooth; negative
-  /// where skin lies in the product. `posed`: the whole skin in the state's posture, hand frame.
+  /// where skin lies in the product. `posed`: the coarse skin in the state's posture, hand frame.
   VolarVector look(const GripState& state, const std::vector<Vec3>& posed);
 
   /// How coordinates change the gaps of the state last looked at, mm per mm and rad; `centre`: of
@@ -53,7 +53,7 @@ class VolarGaps {
   };
 
   const hand::Hand* hand_;
-  const SkinMotion* motion_;
+  SkinMotion motion_;
   const product::Product* product_;
   FingerCones cones_;
   std::vector<Skin> skin_;

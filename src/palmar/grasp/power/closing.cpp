@@ -11,7 +11,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/geometry/degrees.h"
 #include "palmar/grasp/power/site_distance.h"
-#include "palmar/grasp/power/skin_sampling.h"
+#include "palmar/hand/skin/skin_sampling.h"
 #include "palmar/hand/tendons/digit_pose.h"
 
 namespace palmar::grasp {
@@ -47,7 +47,7 @@ constexpr double kThumbBeside = 0.35;  // abduction on top of a loop, beside wha
 
 HandCloser::HandCloser(const hand::Hand& hand, double spacing) : hand_(&hand), cones_(hand) {
   if (spacing > 0.0) care_ = {0.1, 3.0};
-  const auto group_of = [&](const SkinSample& sample, auto&& belongs) {
+  const auto group_of = [&](const hand::SkinSample& sample, auto&& belongs) {
     std::vector<int> vertices;
     std::vector<double> area;
     for (std::size_t k = 0; k < sample.vertex.size(); ++k) {
@@ -63,7 +63,7 @@ HandCloser::HandCloser(const hand::Hand& hand, double spacing) : hand_(&hand), c
     }
     return group;
   };
-  const auto digits_of = [&](const SkinSample& sample) {
+  const auto digits_of = [&](const hand::SkinSample& sample) {
     DigitGroups groups;
     for (int f = 0; f < hand::kFingerCount; ++f) {
       const auto finger = static_cast<hand::Finger>(f);
@@ -78,7 +78,7 @@ HandCloser::HandCloser(const hand::Hand& hand, double spacing) : hand_(&hand), c
     }
     return groups;
   };
-  const SkinSample sample = sample_skin(hand, spacing);
+  const hand::SkinSample sample = hand::sample_skin(hand, spacing);
   all_ = group_of(sample, [](hand::Segment, hand::Region) { return true; });
   palm_ = group_of(sample, [](hand::Segment, hand::Region region) { return is_palmar(region); });
   groups_ = digits_of(sample);

@@ -1,13 +1,13 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
-#include "palmar/grasp/power/skin_sampling.h"
+#include "palmar/hand/skin/skin_sampling.h"
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 
-namespace palmar::grasp {
+namespace palmar::hand {
 namespace {
 
 /// A third of the triangles round each vertex, mm^2.
@@ -25,11 +25,12 @@ std::vector<double> thirds_of_area(const geometry::TriangleMesh& mesh) {
 
 }  // namespace
 
-SkinSample sample_skin(const hand::Hand& hand, double spacing) {
+SkinSample sample_skin(const Hand& hand, double spacing) {
   const std::vector<double> area = thirds_of_area(hand.skin);
   SkinSample sample;
   if (spacing <= 0.0) {
     for (int v = 0; v < hand.skin.vertex_count(); ++v) sample.vertex.push_back(v);
+    sample.entry = sample.vertex;
     sample.area = area;
     return sample;
   }
@@ -61,6 +62,7 @@ SkinSample sample_skin(const hand::Hand& hand, double spacing) {
         }
       }
     }
+    sample.entry.push_back(nearest >= 0 ? nearest : static_cast<int>(sample.vertex.size()));
     if (nearest >= 0) {
       sample.area[nearest] += area[v];
     } else {
@@ -72,4 +74,4 @@ SkinSample sample_skin(const hand::Hand& hand, double spacing) {
   return sample;
 }
 
-}  // namespace palmar::grasp
+}  // namespace palmar::hand
