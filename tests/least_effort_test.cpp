@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "palmar/contact/contact_normals.h"
 #include "palmar/contact/prepared/coarse_hand.h"
@@ -214,26 +215,6 @@ grasp::GripVector one_way(int coordinate, double step) {
   return way;
 }
 
-TEST_F(LeastEffort, OnSpringsStiffnessIsTheSlopeOfTheForces) {
-  grasp::ContactForces forces(prepared(), bar(), {}, 0.0, closed());
-  forces.look_on_springs(closed());
-  const grasp::GripMatrix stiffness = forces.stiffness();
-  const Vec3 centre = forces.centre();
-  constexpr double kStep = 1e-3;
-  for (int c = 0; c < grasp::kGripCoordinates; ++c) {
-    const auto force_at = [&](double step) {
-      forces.look_on_springs(grasp::moved(closed(), one_way(c, step), centre));
-      grasp::GripVector force = forces.force();
-      // Moments about the same point.
-      force.tail<3>() +=
-          (forces.centre() - centre).cross(Vec3(force.segment<3>(grasp::kGripJoints)));
-      return force;
-    };
-    const grasp::GripVector slope = (force_at(-kStep) - force_at(kStep)) / (2.0 * kStep);
-    EXPECT_LT((stiffness.col(c) - slope).norm(), 0.03 * slope.norm() + 1.0) << c;
-  }
-}
-
 /// The built template hand with its tissue on bone.
 const contact::PreparedHand& hand_on_bone() {
   static const contact::PreparedHand made = [] {
@@ -247,6 +228,33 @@ const contact::PreparedHand& hand_on_bone() {
         std::make_shared<const contact::SkinCompliance>(std::move(compliance.value())));
   }();
   return made;
+}
+
+// Round a thick body the thumb has no room in front of the palm unless it lies nearer to the
+// fingers; until November 2026 it met such bodies at their side, and they slipped.
+TEST_F(LeastEffort, ThickBarsAreHeldByThumbAndFingersFirmlyAndLightly) {
+  for (const double diameter : {90.0, 100.0}) {
+    for (const double grip_force : {5.0, 90.0}) {
+      const auto force = forces_on_bar(hand_on_bone(), diameter, grip_force);
+      double sum = 0.0;
+      for (const double one : force) sum += one;
+      EXPECT_GT(force[0], 0.15 * sum) << diameter << " " << grip_force;
+    }
+  }
+}
+
+TEST_F(LeastEffort, RoomForTheThumbGrowsWithTheBar) {
+  std::optional<Vec3> last;
+  double most = 0.0;
+  for (double diameter = 80.0; diameter <= 96.0; diameter += 2.0) {
+    const product::Product thick = product::make_cylinder_product(
+        {.diameter = diameter, .length = 150.0, .fineness = {.chordal_error = 0.02}});
+    const grasp::Grasp closed = grasp::close_power_grasp(hand(), thick);
+    const Vec3 centre = closed.product_from_hand.inverse() * Vec3(0.0, 0.0, 75.0);
+    if (last) most = std::max(most, (centre - *last).norm());
+    last = centre;
+  }
+  EXPECT_LT(most, 4.0);  // mm per 2 mm; half of them are the radius
 }
 
 // Contact and friction of a hand at rest: forces with their directions and arms, friction with how
@@ -284,6 +292,23 @@ TEST_F(LeastEffort, OnTissueStiffnessIsTheSlopeOfTheForces) {
     mean += off / grasp::kGripCoordinates;
   }
   EXPECT_LT(mean, 0.015);
+}
+
+// What is searched on first: near enough that the whole skin finds its rest in a few steps.
+TEST_F(LeastEffort, TheCoarseSkinPressesNearlyAsTheWholeSkin) {
+  const contact::PreparedHand& hand = hand_on_bone();
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand.hand(), bar());
+  const grasp::GripState state{grasp.posture, grasp.product_from_hand};
+  grasp::ContactForces whole(hand, bar(), {}, 0.5, state);
+  grasp::ContactForces coarse(hand.coarse().prepared, bar(), {}, 0.5, state);
+  ASSERT_TRUE(whole.look(state, 1e-4));
+  ASSERT_TRUE(coarse.look(state, 1e-4));
+  const double sum = whole.grip().sum_of_normals;
+  EXPECT_NEAR(coarse.grip().sum_of_normals, sum, 0.08 * sum);
+  EXPECT_LT((coarse.centre() - whole.centre()).norm(), 2.0);
+  EXPECT_LT(
+      (coarse.force().head<grasp::kGripJoints>() - whole.force().head<grasp::kGripJoints>()).norm(),
+      0.1 * whole.force().head<grasp::kGripJoints>().norm());
 }
 
 TEST_F(LeastEffort, RatesOfTheGapsAreTheirSlopes) {

@@ -18,19 +18,21 @@ namespace {
 /// When a search ends, and how it begins.
 struct Descent {
   double level;  // of the grip force asked for
+  double
+      least;  // N; of the grip force in the search: what is held lightly settles more firmly first
   int most_tries;
   double least_gain;     // of the merit: steps that promise less end it
   double first_damping;  // as hard as skin that has moved by kStep
   double price;          // of what is missing, of the model's
 };
 // On the way prices are low, so that digits find their places before forces are exact.
-constexpr Descent kOnCoarseSkin[] = {{0.6, 30, 2e-2, 10.0, 1.0 / 3.0}, {1.0, 30, 1e-2, 1.0, 1.0}};
-constexpr Descent kOnSkin{1.0, 60, 5e-3, 1.0, 1.0};
+constexpr Descent kOnCoarseSkin[] = {{0.6, 30.0, 30, 2e-2, 10.0, 1.0 / 3.0},
+                                     {1.0, 0.0, 30, 1e-2, 1.0, 1.0}};
+constexpr Descent kOnSkin{1.0, 0.0, 60, 5e-3, 1.0, 1.0};
 
 constexpr int kMostRefused = 5,
               kMostInNeed = 12;             // steps one after the other; if things are missing
 constexpr double kAccuracy = 1e-4;          // relative, of contact forces
-constexpr double kTurnStep = 1e-3;          // rad; of differences
 constexpr double kStep = 8.0, kArm = 50.0;  // mm; angles count by what they move at that arm
 constexpr double kBackDamping = 30.0;       // of a correction
 constexpr int kMostCorrections = 4;
@@ -39,7 +41,7 @@ constexpr double kUsualSteps = 50.0;  // of all searches; of what progress is a 
 // less isn't taken.
 constexpr double kPoor = 0.5, kWorthwhile = 0.2, kLeastShare = 0.02;
 // A way that much more damped is shorter; if it promises that share, it is better.
-constexpr double kShorter = 8.0, kAsGood = 0.9, kMostDamping = 1e6;
+constexpr double kShorter = 8.0, kAsGood = 0.9;
 constexpr double kGrowth = 4.0;      // of damping, where a step is refused
 constexpr double kKept = 0.9;        // less, and derivatives are taken anew
 constexpr double kByWrist = 1.02;    // of the strength that the digits alone need
@@ -113,6 +115,7 @@ class LeastEffort {
   EffortRest run(const Progress& progress);
 
  private:
+  double lightness() const { return std::max(1.0, task_->model.light_grip / target_); }
   ContactForces& forces() { return is_coarse_ ? coarse_skin_ : skin_; }
   bool look(const GripState& state, Look& at);
   void add_muscles(Look& at) const;
@@ -188,7 +191,7 @@ GripMatrix LeastEffort::muscle_rate(const Look& at) const {
     const auto count = static_cast<Eigen::Index>(hand::tendons_of(finger).size());
     for (int k = 0; k < hand::kDigitDofs; ++k) {
       hand::Posture posture = at.state.posture;
-      posture[grip_dof(first + k)] += kTurnStep;
+      posture[grip_dof(first + k)] += kAngleStep;
       const hand::DigitMuscles digit = muscles_.in(finger, posture);
       for (Eigen::Index t = 0; t < count; ++t) {
         const double force = task_->strength * digit.strength[t] * at.effort.activation[column + t];
@@ -199,7 +202,7 @@ GripMatrix LeastEffort::muscle_rate(const Look& at) const {
         rate(first + a, first + k) -= at.moments.row(first + a)
                                           .segment(column, count)
                                           .dot(at.effort.activation.segment(column, count));
-        rate(first + a, first + k) /= kTurnStep;
+        rate(first + a, first + k) /= kAngleStep;
       }
     }
     column += count;
@@ -268,9 +271,9 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.required[kWristRow] = -at.wrist_load;
   program.price = Eigen::VectorXd::Constant(kRows, task_->model.moment_price);
   program.price.segment<3>(kGripJoints).setConstant(task_->model.force_price);
-  program.price[kSqueezeRow] =
-      task_->model.squeeze_price * std::max(1.0, task_->model.light_grip / target_);
-  program.price *= price_;
+  program.price[kSqueezeRow] = task_->model.squeeze_price;
+  // Soft skin that is lightly pressed gives way a lot for little force.
+  program.price *= price_ * lightness();
   const bool moves = damping >= 0.0;
   program.motion.resize(kRows, moves ? kGripCoordinates : 0);
   if (!moves) return program;
@@ -284,10 +287,12 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   for (int c = 0; c < 3; ++c) {
     jacobian.block<3, 1>(kGripJoints, kGripJoints + 3 + c) = Vec3::Unit(c).cross(x);
   }
+  // Of gaps: curvature of the parabola that touches from above.
+  const VolarVector share = (1.0 + at.gap.array().square()).rsqrt();
   program.gradient = jacobian.transpose() * weight_.cwiseProduct(departure(at.state)) +
-                     at.gap_rate.transpose() * at.gap;
+                     at.gap_rate.transpose() * share.cwiseProduct(at.gap);
   program.hessian = jacobian.transpose() * weight_.asDiagonal() * jacobian +
-                    at.gap_rate.transpose() * at.gap_rate;
+                    at.gap_rate.transpose() * share.asDiagonal() * at.gap_rate;
   program.hessian.diagonal() += damping * damped_;
   return program;
 }
@@ -295,7 +300,8 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
 void LeastEffort::judge(Look& at) const {
   at.effort = solve_effort(program(at, -1.0));
   const GripVector off = departure(at.state);
-  at.off = 0.5 * off.dot(weight_.cwiseProduct(off)) + 0.5 * at.gap.squaredNorm();
+  at.off = 0.5 * off.dot(weight_.cwiseProduct(off)) +
+           ((1.0 + at.gap.array().square()).sqrt() - 1.0).sum();
 }
 
 /// The tissue's own derivatives at a state. False if its contact has no solution.
@@ -322,7 +328,7 @@ double LeastEffort::least_share(const Look& at, bool with_wrist) const {
     held.muscles = share * muscles;
     return solve_effort(held).missing.cwiseAbs().dot(held.price);
   };
-  const double allowed = missing_with(1.0) + kNoMissing;
+  const double allowed = missing_with(1.0) + kNoMissing * lightness();
   double low = 0.0, high = 1.0;
   if (missing_with(0.0) <= allowed) return 0.0;
   while (high - low > 0.01 * high) {
@@ -367,7 +373,7 @@ bool LeastEffort::go(const Look& from, const GripVector& way, Look& to) {
 /// Goes down from a state until steps promise too little.
 void LeastEffort::descend(Look& now, const Descent& how, const Progress& progress,
                           EffortRest& rest) {
-  target_ = how.level * asked_;
+  target_ = std::max(how.level * asked_, how.least);
   price_ = how.price;
   judge(now);
   rest.merit.assign(1, now.merit());
@@ -391,10 +397,10 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
     EffortSolution step = solve_effort(program(now, damping));
     double promised = now.merit() - (step.value + now.off);
     // Shorter ways that promise as much are better ones.
-    for (double used = damping; refused > 0 && used < kMostDamping; used *= kShorter) {
+    for (double used = damping; refused > 0; used *= kShorter) {
       EffortSolution shorter = solve_effort(program(now, kShorter * used));
       const double left = now.merit() - (shorter.value + now.off);
-      if (left < kAsGood * promised) break;
+      if (!(left > kAsGood * promised)) break;
       promised = left;
       step = std::move(shorter);
     }

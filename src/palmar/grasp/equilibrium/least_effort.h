@@ -26,9 +26,9 @@ struct EffortModel {
   double gap_spread = 2.0;  ///< mm; by which phalanges and pads stay off the product
   // What is missing costs more than any muscle could save: per N, and per N mm at arms of 30 mm.
   double force_price = 1.5, squeeze_price = 0.9, moment_price = 0.045;
-  double light_grip = 30.0;  ///< N; below it squeeze_price grows as the force gets less: what is
-                             ///< asked for is meant to a share of it
-  double nothing = 0.1;      ///< N; less that is missing is nothing to a hand: the weight of 10 g
+  double light_grip = 107.0;  ///< N; below it prices grow as the force gets less: soft skin gives
+                              ///< way a lot for little force
+  double nothing = 0.1;       ///< N; less that is missing is nothing to a hand: the weight of 10 g
   LigamentModel ligaments{};
 };
 
@@ -76,16 +76,16 @@ struct EffortRest {
 ///     min  sum a_i^3 + E(q, T)   so that   every angle, the product and the wrist are in
 ///                                equilibrium,   the grip force is the one asked for,   0 <= a <= 1
 ///
-/// E keeps the hold what it is: half the sum of squares of what angles and product have moved and
-/// of the gaps that phalanges and pads leave to the product (VolarGaps), each over how far people
-/// vary in it. Equilibrium is an exact penalty: what can't be had is what is missing.
+/// E keeps the hold what it is: half the sum of squares of what angles and product have moved, each
+/// over how far people vary in it, and sqrt(1 + g^2) - 1 for each gap g that a phalanx or pad
+/// leaves to the product (VolarGaps), over its spread. Equilibrium is an exact penalty: what can't
+/// be had is what is missing.
 ///
-/// Starts from the closed hand. Each step solves the
-/// problem with forces linear in the motion (EffortProgram, damped as Levenberg & Marquardt do),
-/// comes back to the equilibrium by second-order corrections and is taken only if the merit, the
-/// value of the same problem with the state held, falls. First on springs in place of the tissue
-/// (SkinBed), at 0.6 and at all of the grip force, then with the tissue's own contact and its
-/// derivatives. docs/method/equilibrium.md.
+/// Starts from the closed hand. Each step solves the problem with forces linear in the motion
+/// (EffortProgram, damped as Levenberg & Marquardt do), comes back to the equilibrium by
+/// second-order corrections and is taken only if the merit, the value of the same problem with the
+/// state held, falls. First on the coarse skin (PreparedHand::coarse()), at 0.6 of the grip force,
+/// but 30 N at least, and at all of it, then on the whole. docs/method/equilibrium.md.
 ///
 /// Deterministic. Throws Cancelled.
 EffortRest rest_with_least_effort(const contact::PreparedHand& hand,

@@ -8,12 +8,6 @@
 #include "palmar/hand/skin/skinning.h"
 
 namespace palmar::grasp {
-namespace {
-
-constexpr double kAngleStep = 1e-3;  // rad; of the differences
-
-}  // namespace
-
 SkinMotion::SkinMotion(const hand::Hand& hand) : hand_(&hand) {
   for (int j = 0; j < kGripJoints; ++j) {
     is_moved_[j].assign(hand.skin.vertices.size(), 0);

@@ -12,6 +12,7 @@
 namespace palmar::grasp {
 
 inline constexpr double kForcePower = 2.0;  ///< of depth, with which contact forces grow
+inline constexpr double kAngleStep = 1e-3;  ///< rad; of differences
 inline constexpr double kLeastDepth = 0.3;  ///< mm; shallower contacts count as that deep
 
 /// How the angles of the digits move the skin of a hand.

@@ -352,6 +352,27 @@ hand::Posture HandCloser::close_fingers(const HeldProduct& product, const DepthL
   return posture;
 }
 
+hand::Posture HandCloser::with_thumb(hand::Posture posture,
+                                     const std::array<double, hand::kDigitDofs>& share) const {
+  const auto dofs = hand::digit_dofs(hand::Finger::kThumb);
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    const hand::JointDof& dof = hand_->skeleton.dof(dofs[i]);
+    posture[dof.dof] = dof.lower + share[i] * (dof.upper - dof.lower);
+  }
+  return posture;
+}
+
+bool HandCloser::has_room_for_thumb(const HeldProduct& product, const DepthLimits& limits,
+                                    const hand::Posture& posture) const {
+  const SkinGroup& skin = groups_[index_of(hand::Finger::kThumb)][0];
+  const SkinLook look = look_at_skin(skin, product, with_thumb(posture, kThumbOut));
+  for (std::size_t k = 0; k < look.sample.size(); ++k) {
+    const double limit = skin.segment[k] == hand::Segment::kPalm ? limits.palm : limits.finger;
+    if (look.sample[k].distance < -limit) return false;
+  }
+  return true;
+}
+
 hand::Posture HandCloser::close_thumb(const HeldProduct& product, const DepthLimits& limits,
                                       const ClosingStyle& style, hand::Posture start,
                                       std::array<SegmentStop, hand::kSegmentCount>& stops) const {
@@ -361,19 +382,19 @@ hand::Posture HandCloser::close_thumb(const HeldProduct& product, const DepthLim
     fingers.push_back({cone, kNeighbourGive});
   }
   // Out beside the palm, in front of it, across it; a hook's thumb stays beside.
-  const auto thumb_at = [&](const std::array<double, hand::kDigitDofs>& share, double abduction) {
-    hand::Posture posture = start;
-    const auto dofs = hand::digit_dofs(hand::Finger::kThumb);
-    for (std::size_t i = 0; i < dofs.size(); ++i) {
-      const hand::JointDof& dof = hand_->skeleton.dof(dofs[i]);
-      posture[dof.dof] = dof.lower + (i == 1 ? abduction : share[i]) * (dof.upper - dof.lower);
-    }
-    return posture;
+  const auto thumb_at = [&](std::array<double, hand::kDigitDofs> share, double abduction) {
+    share[1] = abduction;
+    return with_thumb(start, share);
   };
   const double abduction = style.hook ? kThumbBeside : kThumbOut[1];
   const SkinGroup& skin = groups_[index_of(hand::Finger::kThumb)][0];
-  Advance way = advance_skin(skin, product, limits, fingers, thumb_at(kThumbOut, kThumbBeside),
-                             thumb_at(kThumbOut, abduction), care_);
+  Advance way;
+  way.posture = thumb_at(kThumbOut, abduction);
+  // What was taken in between thumb and fingers isn't swept aside by the thumb.
+  if (style.hook || !has_room_for_thumb(product, limits, start)) {
+    way = advance_skin(skin, product, limits, fingers, thumb_at(kThumbOut, kThumbBeside),
+                       way.posture, care_);
+  }
   if (!way.is_stopped) {
     way = advance_skin(skin, product, limits, fingers, way.posture,
                        thumb_at(kThumbAcross, abduction), care_);

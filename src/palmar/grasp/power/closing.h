@@ -12,6 +12,7 @@
 #include "palmar/grasp/power/finger_cones.h"
 #include "palmar/grasp/power/posable_skin.h"
 #include "palmar/grasp/power/skin_advance.h"
+#include "palmar/hand/tendons/digit_pose.h"
 
 namespace palmar::grasp {
 
@@ -77,12 +78,18 @@ class HandCloser {
   /// The posture from which close_fingers() starts: open, fanned out as the style says.
   hand::Posture start_posture(const ClosingStyle& style) const;
 
-  /// Brings the thumb one way from beside the palm to in front of it and across, until skin
-  /// of its phalanges reaches its limit or a finger. A thing a little larger has a thumb a little
-  /// less bent. A hook's thumb comes beside the palm, on top of what is hooked.
+  /// Brings the thumb one way from in front of the palm across it, until skin of its phalanges
+  /// reaches its limit or a finger; where it has no room there, from beside the palm. A thing a
+  /// little larger has a thumb a little less bent. A hook's thumb comes beside the palm, on top of
+  /// what is hooked.
   hand::Posture close_thumb(const HeldProduct& product, const DepthLimits& limits,
                             const ClosingStyle& style, hand::Posture start,
                             std::array<SegmentStop, hand::kSegmentCount>& stops) const;
+
+  /// Whether the thumb, stretched out in front of the palm, is nowhere in the product beyond its
+  /// limit. Other digits as in `posture`.
+  bool has_room_for_thumb(const HeldProduct& product, const DepthLimits& limits,
+                          const hand::Posture& posture) const;
 
   /// Fingers that were closed on a part of the product alone go out of the way of the whole of it,
   /// back and sides included, until no skin is deeper than a finger's limit. How much deeper some
@@ -113,6 +120,9 @@ class HandCloser {
                              const ClosingStyle& style, hand::Finger finger, hand::Posture posture,
                              std::array<SegmentStop, hand::kSegmentCount>& stops) const;
 
+  /// `posture` with the thumb at shares of its ranges.
+  hand::Posture with_thumb(hand::Posture posture,
+                           const std::array<double, hand::kDigitDofs>& share) const;
   void rest_idle_fingers(const HeldProduct& product, const DepthLimits& limits,
                          hand::Posture& posture) const;
 

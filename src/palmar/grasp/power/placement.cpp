@@ -34,6 +34,8 @@ constexpr double kThin = 0.13,
                  kThick = 0.165;        // ... from the one diameter / hand length to the other
 constexpr double kLeastProximal = 8.0;  // mm from the knuckles: nearer, the thumb can't reach over
 constexpr double kMostProximal = 45.0;  // mm
+// mm towards the fingers, for the thumb; less deep than may be, as the skin looked at is sparse.
+constexpr double kMostRoom = 30.0, kRoomSpare = 1.0;
 constexpr double kHookShare = 0.5;  // of the middle finger's proximal phalanx, to a hooked handle
 constexpr double kThumbedHookShare = 0.65;  // ... with the thumb on top of it
 constexpr double kHookOblique =
@@ -128,6 +130,35 @@ struct Trial {
     return {&product,  placement.product_from_hand,   site.point,
             site.axis, site.girth / std::numbers::pi, style.has_thumb};
   }
+  /// The product placed as far from the thumb's root as the thumb, in front of the palm, asks for:
+  /// round a thick body it has no room else.
+  Placement placed(const ClosingStyle& style, HandlePose pose) const {
+    const auto at = [&](double shift) {
+      HandlePose shifted = pose;
+      shifted.proximal -= shift;
+      return place(closer, product, limits, style, site, shifted);
+    };
+    const auto has_room = [&](const Placement& placement) {
+      const DepthLimits less{limits.palm - kRoomSpare, limits.finger - kRoomSpare};
+      return closer.has_room_for_thumb(held(placement), less, closer.open_posture());
+    };
+    Placement usual_place = at(0.0);
+    if (style.hook || !style.uses_thumb() || has_room(usual_place)) return usual_place;
+    double low = 0.0, high = kMostRoom;
+    Placement result = at(high);
+    if (!has_room(result)) return usual_place;
+    while (high - low > 0.2 * kRoomSpare) {
+      const double middle = 0.5 * (low + high);
+      Placement between = at(middle);
+      if (has_room(between)) {
+        high = middle;
+        result = std::move(between);
+      } else {
+        low = middle;
+      }
+    }
+    return result;
+  }
   void judge(ClosedPose& hold) const {
     hold.measure =
         closer.measure(held(hold.placement), limits, hold.posture, hold.placement.axis_in_hand);
@@ -146,7 +177,7 @@ struct Trial {
     ClosedPose hold;
     hold.site = site_index;
     hold.style = style;
-    hold.placement = place(closer, product, limits, style, site, pose);
+    hold.placement = placed(style, pose);
     std::array<SegmentStop, hand::kSegmentCount> stops;
     hold.posture = closer.close_fingers(held(hold.placement), limits, style, start, rounds, stops);
     judge(hold);
