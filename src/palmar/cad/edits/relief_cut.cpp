@@ -110,12 +110,21 @@ TopoDS_Shape run_out_body(const redesign::RidgeRelief& relief, const ToolFrame& 
   const gp_Pnt centre = frame.at(s, 0.0, relief.radius + relief.run_out);
   const TopoDS_Shape space =
       BRepPrimAPI_MakeRevol(cutter_face(wire, corners), gp_Ax1(centre, turn), angle).Shape();
-  const gp_Dir seam(frame.outward.x(), frame.outward.y(), frame.outward.z());
-  const TopoDS_Shape ring = BRepPrimAPI_MakeTorus(gp_Ax2(centre, turn, seam),
-                                                  relief.radius + relief.run_out, relief.radius)
-                                .Shape();
-  BRepAlgoAPI_Cut cut(space, ring);
-  return checked_solid(cut.Shape(), relief.name);
+  // Where the ring's seam meets the edges of the space the kernel may find nothing left: another
+  // seam.
+  const gp_Dir outward(frame.outward.x(), frame.outward.y(), frame.outward.z());
+  TopoDS_Shape left;
+  for (const double beside : {0.0, 2.0, -2.0}) {  // rad
+    const gp_Dir seam = outward.Rotated(gp_Ax1(centre, turn), beside);
+    const TopoDS_Shape ring = BRepPrimAPI_MakeTorus(gp_Ax2(centre, turn, seam),
+                                                    relief.radius + relief.run_out, relief.radius)
+                                  .Shape();
+    left = BRepAlgoAPI_Cut(space, ring).Shape();
+    TopTools_IndexedMapOfShape solids;
+    if (!left.IsNull()) TopExp::MapShapes(left, TopAbs_SOLID, solids);
+    if (solids.Extent() == 1) break;
+  }
+  return checked_solid(left, relief.name);
 }
 
 /// Height of the cutter's roof above its axis.
