@@ -156,8 +156,7 @@ BoneTissueBlocks part_of(const BoneTissueBlocks& blocks, const std::vector<int>&
   return result;
 }
 
-}  // namespace
-
+/// The hand with the vertices of the sample alone; triangles where three neighbourhoods meet.
 hand::Hand with_coarse_skin(const hand::Hand& hand, const hand::SkinSample& sample) {
   hand::Hand result;
   result.name = hand.name;
@@ -203,6 +202,8 @@ hand::Hand with_coarse_skin(const hand::Hand& hand, const hand::SkinSample& samp
   }
   return result;
 }
+
+}  // namespace
 
 CoarseSkin coarse_skin(const hand::Hand& hand, const SkinGeometry& skin,
                        const SkinCompliance* compliance) {

@@ -20,7 +20,7 @@ inline constexpr double kCoarseSpacing = 3.0;  ///< mm; our choice
 ///     C_IJ = sum over i in I, j in J of w_i C_ij w_j,
 ///
 /// w_i the vertex' share in the area of its neighbourhood; other tissue is prepared anew. Skinning,
-/// regions and blocks are those of the vertex itself. A contact takes a tenth of the time; forces
+/// regions and blocks are those of the vertex itself. A contact takes a fifth of the time; forces
 /// are a few per cent off.
 struct CoarseHand {
   hand::SkinSample sample;  ///< of the whole skin: vertex by vertex the coarse one
@@ -38,8 +38,5 @@ CoarseSkin coarse_skin(const hand::Hand& hand, const SkinGeometry& skin,
 
 /// `skin`: of the hand or its family.
 CoarseHand coarse_hand(const PreparedHand::Impl& hand, const CoarseSkin& skin);
-
-/// The hand with the vertices of the sample alone; triangles where three neighbourhoods meet.
-hand::Hand with_coarse_skin(const hand::Hand& hand, const hand::SkinSample& sample);
 
 }  // namespace palmar::contact

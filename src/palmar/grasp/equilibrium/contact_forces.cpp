@@ -50,6 +50,7 @@ bool ContactForces::look(const GripState& state, double accuracy) {
   state_ = state;
   posed_ = hand::pose_skin(hand_->hand(), state.posture);
   hand_from_product_ = state.product_from_hand.rotation.conjugate();
+  loaded_.clear();
   pressed_.clear();
   depth_.clear();
   in_product_.clear();

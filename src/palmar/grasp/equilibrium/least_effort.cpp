@@ -18,8 +18,7 @@ namespace {
 /// When a search ends, and how it begins.
 struct Descent {
   double level;  // of the grip force asked for
-  double
-      least;  // N; of the grip force in the search: what is held lightly settles more firmly first
+  double least;  // N; what is held more lightly than that settles at it first
   int most_tries;
   double least_gain;     // of the merit: steps that promise less end it
   double first_damping;  // as hard as skin that has moved by kStep

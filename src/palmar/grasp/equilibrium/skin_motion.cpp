@@ -8,6 +8,7 @@
 #include "palmar/hand/skin/skinning.h"
 
 namespace palmar::grasp {
+
 SkinMotion::SkinMotion(const hand::Hand& hand) : hand_(&hand) {
   for (int j = 0; j < kGripJoints; ++j) {
     is_moved_[j].assign(hand.skin.vertices.size(), 0);
