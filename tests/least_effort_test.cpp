@@ -19,9 +19,8 @@
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/tendons/joint_limits.h"
 #include "palmar/product/primitives.h"
-#include "palmar/records/hand/compliance_file.h"
-#include "palmar/records/hand/hand_file.h"
 #include "template_fixture.h"
+#include "template_on_bone.h"
 
 namespace palmar::tests {
 namespace {
@@ -213,21 +212,6 @@ grasp::GripVector one_way(int coordinate, double step) {
   grasp::GripVector way = grasp::GripVector::Zero();
   way[coordinate] = step;
   return way;
-}
-
-/// The built template hand with its tissue on bone.
-const contact::PreparedHand& hand_on_bone() {
-  static const contact::PreparedHand made = [] {
-    const std::string share = PALMAR_SHARE;
-    const auto hand =
-        std::make_shared<const hand::Hand>(records::read_hand(share + "/template.hand.glb"));
-    auto compliance = records::read_compliance(share + "/template.compliance",
-                                               records::compliance_key(*hand), *hand);
-    return contact::PreparedHand(
-        hand, contact::palmar_model(),
-        std::make_shared<const contact::SkinCompliance>(std::move(compliance.value())));
-  }();
-  return made;
 }
 
 // Round a thick body the thumb has no room in front of the palm unless it lies nearer to the

@@ -148,8 +148,9 @@ TEST_F(RingsRestsPushes, AFingerPushesWithTheForceAskedFor) {
   }
   grasp::BalanceOptions too_much;
   too_much.grip_force = 1500.0;
-  EXPECT_EQ(grasp::balance_grasp(prepared(), box, grasp, too_much).status,
-            grasp::BalanceStatus::kNotConverged);
+  const grasp::Balance most = grasp::balance_grasp(prepared(), box, grasp, too_much);
+  EXPECT_LT(most.grip_force, 200.0);  // what muscles give
+  EXPECT_NE(most.message.find("1500 N were requested"), std::string::npos) << most.message;
 }
 
 TEST_F(RingsRestsPushes, EveryHandTakesTheRestingHoldAtTheSamePlace) {

@@ -57,7 +57,7 @@ export interface GraspResult {
 export type Fallbacks = Record<string, number>;
 
 export interface BalanceResult {
-  status: "off" | "balanced" | "supported" | "slips_out" | "no_contact" | "not_converged" | "failed";
+  status: "off" | "balanced" | "supported" | "slips_out" | "no_contact" | "failed";
   message: string;
   fallbacks?: Fallbacks;
   friction_coefficient?: number;

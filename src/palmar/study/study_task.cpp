@@ -32,7 +32,6 @@ namespace palmar::study {
 namespace {
 
 constexpr double kGravity = 9.80665;        // m/s^2; standard gravity
-constexpr double kRestAim = 0.005;          // of the grip force; docs/method/balance.md
 constexpr double kWholeTriangles = 1000.0;  // mm; longer than any edge of a map: none is split
 
 using Clock = std::chrono::steady_clock;
@@ -348,7 +347,6 @@ class StudySubject {
       options.contact.coatings.push_back(glove);
     }
     options.balance.is_on = setting.is_balanced;
-    options.balance.aim = kRestAim;
     options.balance.friction = setting.friction;
     options.balance.load.weight = product.mass * kGravity;
     options.balance.grip_force = setting.grip_force;

@@ -16,7 +16,7 @@ namespace palmar::contact {
 namespace {
 
 constexpr int kMostRounds = 60;
-constexpr double kPressedNear = 2.0;        // mm; skin that far off the product says nothing of it
+constexpr double kNoDirection = 1e-3;       // of a vertex' area; skin that faces nothing
 constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modulus, for results
 // Accuracy of the solutions on the way, per relative change of the moduli: the last one's; in the
 // end; and at most, from nothing or from another posture.
@@ -47,20 +47,22 @@ Eigen::Matrix3d ContactSolver::Impl::to_reference(const SkinOnProduct& skin, int
 }
 
 /// The direction in which the product presses the skin: the mean of its normals at the vertex and
-/// its neighbours, by their area. Skin is no finer than its vertices: it doesn't turn from one
-/// facet of a mesh to the next.
+/// its neighbours, by their area and by how much each faces the skin. Skin is no finer than its
+/// vertices: it doesn't turn from one facet of a mesh to the next, nor at once where it comes round
+/// an edge.
 Vec3 ContactSolver::Impl::pressed_along(const SkinOnProduct& skin, int v) const {
   const SkinGeometry& surface = prepared->skin;
-  const Vec3& own = skin.sample[v].normal;
-  Vec3 sum = surface.area[v] * own;
+  // Nothing of the other side of something thin.
+  const auto facing = [&](int w) -> Vec3 {
+    const double faces = std::max(0.0, -skin.normal[v].dot(skin.facing[w]));
+    return faces * surface.area[w] * skin.facing[w];
+  };
+  Vec3 sum = facing(v);
   for (const int w : surface.neighbours(v)) {
-    const geometry::DistanceSample& sample = skin.sample[w];
-    const double near = std::clamp(1.0 - sample.distance / kPressedNear, 0.0, 1.0);
-    if (near == 0.0) continue;
-    // Not of the other side of something thin.
-    sum += near * std::max(0.0, own.dot(sample.normal)) * surface.area[w] * sample.normal;
+    const double near = std::clamp(1.0 - skin.sample[w].distance / kPressedNear, 0.0, 1.0);
+    if (near > 0.0) sum += near * facing(w);
   }
-  return sum.normalized();
+  return sum.isZero(kNoDirection * surface.area[v]) ? skin.facing[v] : sum.normalized();
 }
 
 /// The directions in which the product presses the skin, turned back with it.

@@ -387,6 +387,12 @@ SkinLoad ContactSolver::Impl::find_forces(const std::vector<Vec3>& posed_skin,
     find_skin_on_product(*prepared->hand, result.undeformed, product, only, &sampler_, skin_,
                          wanted);
     take_aimed();
+    skin_.facing.resize(n);
+    for (const int v : skin_.near) {
+      if (skin_.sample[v].distance < kBulgeRange) {
+        skin_.facing[v] = product.smooth_normal(skin_.sample[v]);
+      }
+    }
   }
   find_meetings(result.undeformed, only);
   const SkinOnProduct& skin = skin_;

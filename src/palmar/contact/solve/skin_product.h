@@ -16,14 +16,15 @@ namespace palmar::contact {
 struct SkinOnProduct {
   std::vector<Vec3> normal;                      ///< of the posed skin, outward, product frame
   std::vector<geometry::DistanceSample> sample;  ///< per vertex; capped at 6 mm outside
-  std::vector<int> near;                         ///< vertices that were sampled, ascending
-  std::vector<int> collision;                    ///< penetrating vertices that take part, ascending
-  std::vector<int> left_out;  ///< penetrating vertices without a surface to go to, or too
-                              ///< deep; ascending
-  std::vector<int> traced;    ///< collision vertices whose `sample` isn't the nearest point
-                              ///< but the one the skin came through, ascending
-  bool is_too_deep = false;   ///< palmar skin deeper than kMaxContactDepth
-  std::string message;        ///< what was left out, or empty
+  std::vector<Vec3> facing;    ///< per vertex near the product, its smooth_normal()
+  std::vector<int> near;       ///< vertices that were sampled, ascending
+  std::vector<int> collision;  ///< penetrating vertices that take part, ascending
+  std::vector<int> left_out;   ///< penetrating vertices without a surface to go to, or too
+                               ///< deep; ascending
+  std::vector<int> traced;     ///< collision vertices whose `sample` isn't the nearest point
+                               ///< but the one the skin came through, ascending
+  bool is_too_deep = false;    ///< palmar skin deeper than kMaxContactDepth
+  std::string message;         ///< what was left out, or empty
 
   /// Of a posed skin nothing is known but its normals.
   void begin(const hand::Hand& hand, const std::vector<Vec3>& posed);

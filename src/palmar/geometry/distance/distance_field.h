@@ -41,6 +41,10 @@ class DistanceField {
   virtual void resample(std::span<const Vec3> points, double range,
                         std::span<DistanceSample> samples) const;
 
+  /// The normal, at a sample of this field, of the surface that its facets stand for: unit; of a
+  /// smooth shape the sample's own.
+  virtual Vec3 smooth_normal(const DistanceSample& sample) const { return sample.normal; }
+
   /// Whether d(p) and d(q) never differ by more than |p - q|: true of exact distances to a closed
   /// surface; not where the side jumps in a hole, or of interpolated distances.
   virtual bool is_lipschitz() const { return false; }

@@ -15,12 +15,16 @@
 #include "palmar/core/parallel.h"
 #include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/distance/winding_number.h"
+#include "palmar/geometry/smooth_step.h"
 
 namespace palmar::geometry {
 namespace {
 
 constexpr double kOnSurface = 1e-7;  // mm; below, (q - x) / d is rounding
-constexpr int kChunk = 1024;         // points that one thread takes at a time
+// Cosines: triangles turned against each other by less are facets of one smooth surface; by more
+// they meet at an edge.
+constexpr double kFacet = 0.866, kEdge = 0.707;
+constexpr int kChunk = 1024;  // points that one thread takes at a time
 
 /// For every vertex the smallest vertex at exactly the same place.
 std::vector<int> same_place(const std::vector<Vec3>& vertices) {
@@ -46,13 +50,55 @@ struct Side {
   bool is_forward;  ///< runs from low to high
 };
 
+/// 1 for facets of one smooth surface, 0 across an edge.
+double belongs(double cosine) { return smooth_step((cosine - kEdge) / (kFacet - kEdge)); }
+
 struct Surface {
   std::vector<Triangle> triangles;  ///< corners with same_place() applied
   std::vector<Vec3> face_normal;
   std::vector<Vec3> corner_normal;            ///< angle-weighted, per vertex; unit or zero
+  std::vector<std::array<Vec3, 3>> smooth;    ///< per triangle, at its corners; unit
   std::vector<std::array<int, 3>> neighbour;  ///< across side k; -1 if none or several
   bool is_closed = true;
 };
+
+/// The normals at the corners of each triangle of the surface that facets stand for.
+std::vector<std::array<Vec3, 3>> smooth_normals(const Surface& s,
+                                                const std::vector<Vec3>& vertices) {
+  std::vector<int> first(vertices.size() + 1, 0);  // of those at a vertex, in `at`
+  for (const Triangle& t : s.triangles) {
+    for (const int v : t) ++first[v + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  struct Corner {
+    int triangle;
+    double angle;
+  };
+  std::vector<Corner> at(3 * s.triangles.size());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Triangle& corners = s.triangles[t];
+      const Vec3& x = vertices[corners[k]];
+      const Vec3 u = vertices[corners[(k + 1) % 3]] - x, v = vertices[corners[(k + 2) % 3]] - x;
+      at[next[corners[k]]++] = {static_cast<int>(t), std::atan2(u.cross(v).norm(), u.dot(v))};
+    }
+  }
+  std::vector<std::array<Vec3, 3>> smooth(s.triangles.size());
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    const Vec3& own = s.face_normal[t];
+    for (int k = 0; k < 3; ++k) {
+      const int v = s.triangles[t][k];
+      Vec3 sum = Vec3::Zero();
+      for (int i = first[v]; i < first[v + 1]; ++i) {
+        const Vec3& other = s.face_normal[at[i].triangle];
+        sum += at[i].angle * belongs(own.dot(other)) * other;
+      }
+      smooth[t][k] = sum.norm() > 0.0 ? sum.normalized() : own;
+    }
+  }
+  return smooth;
+}
 
 Surface surface_of(const TriangleMesh& mesh) {
   Surface s;
@@ -77,6 +123,7 @@ Surface surface_of(const TriangleMesh& mesh) {
     }
   }
   for (Vec3& n : s.corner_normal) n.stableNormalize();
+  s.smooth = smooth_normals(s, mesh.vertices);
 
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return std::tuple(a.low, a.high, a.triangle, a.side) <
@@ -191,10 +238,11 @@ struct MeshDistance::Impl {
   ClosestPointQuery closest;
   WindingNumber winding;
   Surface surface;
+  std::vector<Vec3> vertices;
   Box3 box;
 
   explicit Impl(const TriangleMesh& mesh)
-      : closest(mesh), winding(mesh), surface(surface_of(mesh)) {
+      : closest(mesh), winding(mesh), surface(surface_of(mesh)), vertices(mesh.vertices) {
     for (const Triangle& t : mesh.triangles) {
       for (const int v : t) box.extend(mesh.vertices[v]);
     }
@@ -230,6 +278,23 @@ DistanceSample MeshDistance::Impl::sample(const Vec3& q, double range, std::opti
   s.normal = distance > kOnSurface ? Vec3(sign * (q - s.closest) / distance)
                                    : pseudo_normal(surface, *nearest);
   return s;
+}
+
+Vec3 MeshDistance::smooth_normal(const DistanceSample& sample) const {
+  if (sample.triangle < 0) return sample.normal;
+  const double share = belongs(impl_->surface.face_normal[sample.triangle].dot(sample.normal));
+  if (share == 0.0) return sample.normal;
+  const Triangle& t = impl_->surface.triangles[sample.triangle];
+  const Vec3 u = impl_->vertices[t[1]] - impl_->vertices[t[0]];
+  const Vec3 v = impl_->vertices[t[2]] - impl_->vertices[t[0]];
+  const Vec3 p = sample.closest - impl_->vertices[t[0]];
+  const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), det = uu * vv - uv * uv;
+  if (!(det > 0.0)) return sample.normal;
+  const double b = std::clamp((vv * p.dot(u) - uv * p.dot(v)) / det, 0.0, 1.0);
+  const double c = std::clamp((uu * p.dot(v) - uv * p.dot(u)) / det, 0.0, 1.0 - b);
+  const std::array<Vec3, 3>& corner = impl_->surface.smooth[sample.triangle];
+  const Vec3 smooth = ((1.0 - b - c) * corner[0] + b * corner[1] + c * corner[2]).normalized();
+  return (share * smooth + (1.0 - share) * sample.normal).normalized();
 }
 
 MeshDistance::MeshDistance(const TriangleMesh& mesh) : impl_(std::make_unique<const Impl>(mesh)) {}

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <random>
 
 #include "palmar/core/error.h"
@@ -154,6 +155,37 @@ TEST(MeshDistance, NormalOnTheSurfaceIsThePseudoNormalOfFaceEdgeAndCorner) {
   EXPECT_LT((box.at({10.0, 10.0, 2.0}).normal - Vec3(1, 1, 0).normalized()).norm(), 1e-9);
   EXPECT_LT((box.at({10.0, 10.0, 10.0}).normal - Vec3(1, 1, 1).normalized()).norm(), 1e-9);
   EXPECT_NEAR(box.at({10.0, 10.0, 10.0}).distance, 0.0, 1e-12);
+}
+
+TEST(MeshDistance, SmoothNormalIsThatOfTheSurfaceThatFacetsStandFor) {
+  // Facets of 15 degrees, from 2 mm inside to 1 mm outside: their own normals are up to 7.5 degrees
+  // off the round bar's, and jump by 15.
+  const MeshDistance field(
+      make_cylinder({.radius = 20.0, .length = 100.0, .segments = 24, .rings = 40}));
+  double facets = 0.0, smooth = 0.0, jump = 0.0;
+  std::optional<Vec3> last;
+  for (double angle = 0.0; angle < 2.0; angle += 1e-3) {
+    for (const double radius : {18.0, 19.5, 21.0}) {
+      const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
+      const DistanceSample at = field.at(radius * out + Vec3(0, 0, 1.3));
+      const Vec3 normal = field.smooth_normal(at);
+      EXPECT_NEAR(normal.norm(), 1.0, 1e-12);
+      facets = std::max(facets, std::acos(std::min(1.0, at.normal.dot(out))));
+      smooth = std::max(smooth, std::acos(std::min(1.0, normal.dot(out))));
+      if (radius == 18.0) {
+        if (last) jump = std::max(jump, (normal - *last).norm());
+        last = normal;
+      }
+    }
+  }
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  EXPECT_GT(facets, 7.0 * kDegree);
+  EXPECT_LT(smooth, 1.5 * kDegree);
+  EXPECT_LT(jump, 2.0 * kDegree);
+  // Across an edge nothing is smoothed.
+  const MeshDistance box(make_box({20.0, 20.0, 20.0}, 4));
+  const DistanceSample near_edge = box.at(Vec3(9.9, 9.0, 0.0));
+  EXPECT_LT((box.smooth_normal(near_edge) - Vec3::UnitX()).norm(), 1e-12);
 }
 
 TEST(MeshDistance, BeyondTheRangeSaysSideOnly) {

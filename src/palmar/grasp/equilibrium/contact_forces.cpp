@@ -14,8 +14,7 @@ namespace palmar::grasp {
 namespace {
 
 constexpr double kRates = 1e-2;  // relative accuracy of derivatives
-// mm; skin that far off the product says nothing of its normals; a way that is none.
-constexpr double kBeside = 2.0, kLeastWay = 0.1;
+constexpr double kLeastWay = 0.1;  // mm; a way that is none
 constexpr double kStick = 0.75;  // 3/4 mu d: where friction turns from sticking to slipping
 
 /// What one region of the skin carries.
@@ -231,19 +230,20 @@ GripMatrix ContactForces::depth_stiffness(const Eigen::MatrixXd& opening,
 /// slope of those at the vertex' neighbours, by least squares in its tangent plane.
 std::vector<Eigen::Matrix3d> ContactForces::bends() const {
   const std::vector<geometry::DistanceSample>& sample = solver_.skin().sample;
+  const std::vector<Vec3>& facing = solver_.skin().facing;
   std::vector<Eigen::Matrix3d> bend(loaded_.size(), Eigen::Matrix3d::Zero());
   for (std::size_t k = 0; k < loaded_.size(); ++k) {
     const int v = loaded_[k];
-    const Vec3& own = sample[v].normal;
+    const Vec3& own = facing[v];
     const Vec3 n = hand_from_product_ * own;
     Eigen::Matrix<double, 3, 2> tangent;
     tangent << n.unitOrthogonal(), n.cross(n.unitOrthogonal());
     Eigen::Matrix2d turns = Eigen::Matrix2d::Zero(), ways = Eigen::Matrix2d::Zero();
     for (const int w : solver_.prepared->skin.neighbours(v)) {
-      const bool is_beside = sample[w].distance < kBeside && own.dot(sample[w].normal) > 0.0;
+      const bool is_beside = sample[w].distance < contact::kPressedNear && own.dot(facing[w]) > 0.0;
       if (!is_beside) continue;
       const Eigen::Vector2d way = tangent.transpose() * (posed_[w] - posed_[v]);
-      const Vec3 turn = hand_from_product_ * Vec3(sample[w].normal - own);
+      const Vec3 turn = hand_from_product_ * Vec3(facing[w] - own);
       turns += tangent.transpose() * turn * way.transpose();
       ways += way * way.transpose();
     }

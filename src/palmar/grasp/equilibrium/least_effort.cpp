@@ -9,7 +9,6 @@
 #include "palmar/contact/prepared/coarse_hand.h"
 #include "palmar/core/enum_index.h"
 #include "palmar/grasp/equilibrium/effort_program.h"
-#include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/hand/skeleton.h"
 
 namespace palmar::grasp {
@@ -28,6 +27,9 @@ struct Descent {
 constexpr Descent kOnCoarseSkin[] = {{0.6, 30.0, 30, 2e-2, 10.0, 1.0 / 3.0},
                                      {1.0, 0.0, 30, 1e-2, 1.0, 1.0}};
 constexpr Descent kOnSkin{1.0, 0.0, 60, 5e-3, 1.0, 1.0};
+// Fingertips lose a small thing by less of a way than a whole hand.
+constexpr Descent kWithFingertips[] = {{1.0, 0.0, 40, 1e-2, 100.0, 0.1},
+                                       {1.0, 0.0, 60, 5e-3, 100.0, 1.0}};
 
 constexpr int kMostRefused = 5,
               kMostInNeed = 12;             // steps one after the other; if things are missing
@@ -35,6 +37,7 @@ constexpr double kAccuracy = 1e-4;          // relative, of contact forces
 constexpr double kStep = 8.0, kArm = 50.0;  // mm; angles count by what they move at that arm
 constexpr double kBackDamping = 30.0;       // of a correction
 constexpr int kMostCorrections = 4;
+constexpr int kMostUnasked = 4;       // steps across a jump of forces
 constexpr double kUsualSteps = 50.0;  // of all searches; of what progress is a share
 // Shares of the promised gain: less is corrected; less that a correction promises isn't worth it;
 // less isn't taken.
@@ -46,7 +49,7 @@ constexpr double kKept = 0.9;        // less, and derivatives are taken anew
 constexpr double kByWrist = 1.02;    // of the strength that the digits alone need
 constexpr double kNoMissing = 0.01;  // priced; so little is none
 constexpr double kTooMuch = 2000.0;  // N; no hand grips that hard
-constexpr int kSqueezeRow = kGripCoordinates, kWristRow = kGripCoordinates + 1,
+constexpr int kForceRow = kGripCoordinates, kWristRow = kGripCoordinates + 1,
               kRows = kGripCoordinates + 2;
 
 /// One standard deviation of each coordinate.
@@ -58,6 +61,17 @@ GripVector spread(const EffortModel& model) {
   s.segment<3>(kGripJoints).setConstant(model.place_spread);
   s.tail<3>().setConstant(model.turn_spread);
   return s;
+}
+
+/// The digits of which no phalanx takes part.
+std::array<bool, hand::kFingerCount> idle_digits(const VolarVector& takes_part) {
+  std::array<bool, hand::kFingerCount> is_idle;
+  is_idle.fill(true);
+  for (int s = 1; s < hand::kSegmentCount; ++s) {
+    const auto finger = hand::finger_of(static_cast<hand::Segment>(s));
+    if (finger && takes_part[s - 1] > 0.0) is_idle[index_of(*finger)] = false;
+  }
+  return is_idle;
 }
 
 /// Of steps: 1 for what moves skin by kStep.
@@ -78,7 +92,8 @@ struct Look {
   GripVector outside = GripVector::Zero();  ///< all that acts but muscles, N and N mm
   GripVector contact = GripVector::Zero();  ///< of it contact and friction
   GripMatrix stiffness = GripMatrix::Zero(), contact_stiffness = GripMatrix::Zero();
-  GripVector squeeze_rate = GripVector::Zero();
+  double measured = 0.0;                          ///< force that the task asks for, N
+  GripVector measured_rate = GripVector::Zero();  ///< N per mm and rad
   Squeeze grip;
   Vec3 centre = Vec3::Zero();
   Eigen::MatrixXd moments;   ///< of the muscles at full activation, angles x muscles
@@ -109,14 +124,16 @@ class LeastEffort {
         gaps_(hand, product),
         muscles_(hand.hand(), {.wrist = task.wrist}),
         weight_(spread(task.model).cwiseAbs2().cwiseInverse()),
-        damped_(step_weight()) {}
+        damped_(step_weight()),
+        is_idle_(idle_digits(task.takes_part)) {}
 
-  EffortRest run(const Progress& progress);
+  EffortRest run(const GripState* from, const Progress& progress);
 
  private:
   double lightness() const { return std::max(1.0, task_->model.light_grip / target_); }
   ContactForces& forces() { return is_coarse_ ? coarse_skin_ : skin_; }
   bool look(const GripState& state, Look& at);
+  void measure(const ContactForces& forces, Look& at) const;
   void add_muscles(Look& at) const;
   GripMatrix muscle_rate(const Look& at) const;
   EffortProgram program(const Look& at, double damping) const;
@@ -124,6 +141,7 @@ class LeastEffort {
   GripVector departure(const GripState& state) const;
   bool differentiate(const Look& at);
   bool go(const Look& from, const GripVector& way, Look& to);
+  bool pass_a_jump(Look& now, const Descent& how);
   void descend(Look& now, const Descent& how, const Progress& progress, EffortRest& rest);
   double least_share(const Look& at, bool with_wrist) const;
   void finish(const Look& at, EffortRest& rest) const;
@@ -145,9 +163,10 @@ class LeastEffort {
   hand::HandMuscles muscles_;
   GripVector weight_;  ///< of what coordinates have moved, in E
   GripVector damped_;  ///< of a step
+  std::array<bool, hand::kFingerCount> is_idle_;
   // Of the state that was differentiated last, beyond what its look says.
   GripMatrix more_stiffness_ = GripMatrix::Zero();
-  GripVector more_rate_ = GripVector::Zero();  ///< of the squeeze
+  GripVector more_rate_ = GripVector::Zero();  ///< of the force
 };
 
 void LeastEffort::add_muscles(Look& at) const {
@@ -162,7 +181,7 @@ void LeastEffort::add_muscles(Look& at) const {
     const hand::DigitMuscles digit = muscles_.in(static_cast<hand::Finger>(f), at.state.posture);
     const int first = hand::kDigitDofs * f;
     for (std::size_t t = 0; t < digit.arm.size(); ++t, ++column) {
-      const double strength = task_->strength * digit.strength[t];
+      const double strength = is_idle_[f] ? 0.0 : task_->strength * digit.strength[t];
       for (int k = 0; k < hand::kDigitDofs; ++k) {
         at.moments(first + k, column) = strength * digit.arm[t][k];
       }
@@ -209,6 +228,19 @@ GripMatrix LeastEffort::muscle_rate(const Look& at) const {
   return rate;
 }
 
+/// The force that the task asks for, by the stiffness that `forces` has now.
+void LeastEffort::measure(const ContactForces& forces, Look& at) const {
+  if (task_->measure == EffortMeasure::kNone) return;
+  at.measured = at.grip.force;
+  at.measured_rate = forces.squeeze_rate();
+  if (task_->measure == EffortMeasure::kSqueeze) return;
+  const Vec3 way = at.state.product_from_hand.rotation.conjugate() * task_->push;
+  const Vec3 force = forces.force().segment<3>(kGripJoints);
+  at.measured = way.dot(force);
+  at.measured_rate = -forces.stiffness().middleRows<3>(kGripJoints).transpose() * way;
+  at.measured_rate.tail<3>() += way.cross(force);
+}
+
 bool LeastEffort::look(const GripState& state, Look& at) {
   at.state = state;
   ContactForces& forces = this->forces();
@@ -216,8 +248,8 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   if (!forces.look(state, kAccuracy)) return false;
   at.contact = at.outside = forces.force();
   at.stiffness = at.contact_stiffness = forces.stiffness();
-  at.squeeze_rate = forces.squeeze_rate();
   at.grip = forces.grip();
+  measure(forces, at);
   at.centre = at.grip.force > 0.0 ? forces.centre() : before;
   const geometry::Rigid3 hand_from_product = state.product_from_hand.inverse();
   const Vec3 force = hand_from_product.rotation * task_->load.force;
@@ -234,8 +266,9 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   const VolarVector gap = gaps_.look(state, posed);
   at.gap_rate = gaps_.rates(state, posed, at.centre);
   for (int k = 0; k < kVolarParts; ++k) {
-    at.gap[k] = std::max(0.0, gap[k]) / task_->model.gap_spread;
-    at.gap_rate.row(k) *= at.gap[k] > 0.0 ? 1.0 / task_->model.gap_spread : 0.0;
+    const double scale = task_->takes_part[k] / task_->model.gap_spread;
+    at.gap[k] = scale * std::max(0.0, gap[k]);
+    at.gap_rate.row(k) *= at.gap[k] > 0.0 ? scale : 0.0;
   }
   if (is_coarse_ || !has_skin_on_skin_) {
     at.presses = meeting_.presses(state.posture);
@@ -266,20 +299,32 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.muscles.row(kWristRow) = at.wrist;
   program.required.resize(kRows);
   program.required.head<kGripCoordinates>() = -at.outside;
-  program.required[kSqueezeRow] = target_ - at.grip.force;
+  program.required[kForceRow] =
+      task_->measure == EffortMeasure::kNone ? 0.0 : target_ - at.measured;
   program.required[kWristRow] = -at.wrist_load;
   program.price = Eigen::VectorXd::Constant(kRows, task_->model.moment_price);
   program.price.segment<3>(kGripJoints).setConstant(task_->model.force_price);
-  program.price[kSqueezeRow] = task_->model.squeeze_price;
+  program.price[kForceRow] = task_->model.squeeze_price;
   // Soft skin that is lightly pressed gives way a lot for little force.
   program.price *= price_ * lightness();
+  const bool stands_fast = task_->measure == EffortMeasure::kPush;
+  if (stands_fast) program.required.segment<6>(kGripJoints).setZero();
+  for (int j = 0; j < kGripJoints; ++j) {
+    if (is_idle_[index_of(grip_finger(j))]) program.required[j] = 0.0;
+  }
   const bool moves = damping >= 0.0;
   program.motion.resize(kRows, moves ? kGripCoordinates : 0);
   if (!moves) return program;
   program.motion.setZero();
   program.motion.topRows<kGripCoordinates>() = -(at.stiffness + more_stiffness_);
   program.motion.topRows<kGripCoordinates>() += muscle_rate(at);
-  program.motion.row(kSqueezeRow) = (at.squeeze_rate + more_rate_).transpose();
+  if (stands_fast) program.motion.middleRows<6>(kGripJoints).setZero();
+  program.motion.row(kForceRow) = (at.measured_rate + more_rate_).transpose();
+  for (int j = 0; j < kGripJoints; ++j) {
+    if (!is_idle_[index_of(grip_finger(j))]) continue;
+    program.motion.row(j).setZero();
+    program.motion.col(j).setZero();
+  }
   // Of E: a turn about the centre of contact moves the point that was held.
   GripMatrix jacobian = GripMatrix::Identity();
   const Vec3 x = at.state.product_from_hand.inverse() * held_point_ - at.centre;
@@ -309,7 +354,11 @@ bool LeastEffort::differentiate(const Look& at) {
   if (!forces.is_at(at.state) && !forces.look(at.state, kAccuracy)) return false;
   forces.differentiate();
   more_stiffness_ = forces.stiffness() - at.contact_stiffness;
-  more_rate_ = forces.squeeze_rate() - at.squeeze_rate;
+  Look exact;
+  exact.state = at.state;
+  exact.grip = at.grip;
+  measure(forces, exact);
+  more_rate_ = exact.measured_rate - at.measured_rate;
   return true;
 }
 
@@ -320,7 +369,7 @@ double LeastEffort::least_share(const Look& at, bool with_wrist) const {
     held.required[row] = 0.0;
     held.muscles.row(row).setZero();
   };
-  leave_out(kSqueezeRow);
+  leave_out(kForceRow);
   if (!with_wrist) leave_out(kWristRow);
   const Eigen::MatrixXd muscles = held.muscles;
   const auto missing_with = [&](double share) {
@@ -341,6 +390,7 @@ void LeastEffort::finish(const Look& at, EffortRest& rest) const {
   rest.start = start_;
   rest.state = at.state;
   rest.grip = at.grip;
+  rest.force = task_->measure == EffortMeasure::kPush ? at.measured : at.grip.force;
   rest.activation = at.effort.activation;
   rest.missing = at.effort.missing.head<kGripCoordinates>();
   rest.strongest_moment = (at.moments * at.effort.activation).lpNorm<Eigen::Infinity>();
@@ -369,6 +419,26 @@ bool LeastEffort::go(const Look& from, const GripVector& way, Look& to) {
   return true;
 }
 
+/// Where a force jumps, as that of skin which comes round an edge does, every step across raises
+/// the merit, and yet it may be lower some steps farther on: a few are taken without asking
+/// (watchdog; Chamberlain et al. 1982, Math Program Study 16:1). False, and nothing changed, if it
+/// isn't.
+bool LeastEffort::pass_a_jump(Look& now, const Descent& how) {
+  const double enough = (1.0 - how.least_gain) * now.merit();
+  Look at = now;
+  for (int k = 0; k < kMostUnasked; ++k) {
+    if (!differentiate(at)) return false;
+    Look next;
+    if (!go(at, solve_effort(program(at, how.first_damping)).motion, next)) return false;
+    at = std::move(next);
+    if (at.merit() < enough) {
+      now = std::move(at);
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Goes down from a state until steps promise too little.
 void LeastEffort::descend(Look& now, const Descent& how, const Progress& progress,
                           EffortRest& rest) {
@@ -380,14 +450,25 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
   bool is_new = true;       // the state, since its derivatives were taken
   double last_share = 0.0;  // of what was promised
   int refused = 0;
-  const auto gives_up = [&] {
+  const auto is_in_need = [&] {
     const double missing = now.effort.value - now.effort.activation.array().cube().sum();
-    return refused >= (missing > kNoMissing * now.merit() ? kMostInNeed : kMostRefused);
+    return missing > kNoMissing * now.merit();
   };
-  for (int tries = 0; tries < how.most_tries && !gives_up(); ++tries) {
+  const auto passes_a_jump = [&] {
+    if (!is_in_need() || !pass_a_jump(now, how)) return false;
+    refused = 0;
+    damping = how.first_damping;
+    growth = kGrowth;
+    is_new = true;
+    last_share = 0.0;
+    rest.merit.push_back(now.merit());
+    return true;
+  };
+  for (int tries = 0; tries < how.most_tries; ++tries) {
     progress.throw_if_cancelled();
     ++rest.iterations;
     progress.update(std::min(1.0, rest.iterations / kUsualSteps), "letting the grasp come to rest");
+    if (refused >= (is_in_need() ? kMostInNeed : kMostRefused) && !passes_a_jump()) break;
     // Derivatives serve as long as steps keep what they promise; where to end is never theirs.
     if (is_new && last_share < kKept) {
       if (!differentiate(now)) return;
@@ -404,7 +485,7 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
       step = std::move(shorter);
     }
     if (promised < how.least_gain * now.merit()) {
-      if (!is_new) break;
+      if (!is_new && !passes_a_jump()) break;
       last_share = 0.0;
       continue;
     }
@@ -444,7 +525,7 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
   }
 }
 
-EffortRest LeastEffort::run(const Progress& progress) {
+EffortRest LeastEffort::run(const GripState* from, const Progress& progress) {
   EffortRest rest;
   Look now;
   if (!look(start_, now)) return rest;
@@ -459,10 +540,22 @@ EffortRest LeastEffort::run(const Progress& progress) {
   } else if (task_->grip_force) {
     asked_ = *task_->grip_force;
   } else if (skin_.look(start_, kAccuracy)) {
-    // Under a load what two opposed contacts need to hold it by friction is added.
-    const double more =
-        task_->friction > 0.0 ? 0.5 * task_->load.force.norm() / task_->friction : 0.0;
-    asked_ = skin_.grip().force + more;
+    Look closed;
+    closed.state = start_;
+    closed.grip = skin_.grip();
+    measure(skin_, closed);
+    const double load = task_->load.force.norm();
+    switch (task_->measure) {
+      case EffortMeasure::kSqueeze:
+        // Under a load what two opposed contacts need to hold it by friction is added.
+        asked_ = closed.measured + (task_->friction > 0.0 ? 0.5 * load / task_->friction : 0.0);
+        break;
+      case EffortMeasure::kPush:
+        asked_ = closed.measured;
+        break;
+      case EffortMeasure::kNone:
+        asked_ = load;
+    }
     if (!(asked_ > 0.0)) {
       rest.status = EffortRest::Status::kNoContact;
       return rest;
@@ -470,15 +563,22 @@ EffortRest LeastEffort::run(const Progress& progress) {
   } else {
     return rest;
   }
-  for (const Descent& how : kOnCoarseSkin) descend(now, how, progress, rest);
+  const bool is_whole_hand = task_->takes_part.minCoeff() > 0.0;
+  if (from == nullptr && is_whole_hand) {
+    for (const Descent& how : kOnCoarseSkin) descend(now, how, progress, rest);
+  }
   is_coarse_ = false;
-  const GripState state = now.state;
+  const GripState state = from != nullptr ? *from : now.state;
   if (!look(state, now)) return rest;
   if (now.grip.force == 0.0) {
     rest.status = EffortRest::Status::kNoContact;
     return rest;
   }
-  descend(now, kOnSkin, progress, rest);
+  if (is_whole_hand) {
+    descend(now, kOnSkin, progress, rest);
+  } else {
+    for (const Descent& how : kWithFingertips) descend(now, how, progress, rest);
+  }
   if (!skin_.is_at(now.state) && !skin_.look(now.state, kAccuracy)) return rest;
   rest.status = EffortRest::Status::kSolved;
   finish(now, rest);
@@ -490,8 +590,8 @@ EffortRest LeastEffort::run(const Progress& progress) {
 EffortRest rest_with_least_effort(const contact::PreparedHand& hand,
                                   const product::Product& product, const GripState& closed,
                                   const EffortTask& task, const contact::ContactOptions& contact,
-                                  const Progress& progress) {
-  return LeastEffort(hand, product, closed, task, contact).run(progress);
+                                  const Progress& progress, const GripState* from) {
+  return LeastEffort(hand, product, closed, task, contact).run(from, progress);
 }
 
 }  // namespace palmar::grasp

@@ -12,6 +12,7 @@
 #include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/equilibrium/ligaments.h"
 #include "palmar/grasp/equilibrium/thumb_meeting.h"
+#include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
 namespace palmar::grasp {
@@ -32,14 +33,26 @@ struct EffortModel {
   LigamentModel ligaments{};
 };
 
+/// What a task measures as its force.
+enum class EffortMeasure {
+  kSqueeze,  ///< grip_force()
+  kPush,     ///< that on the product along a direction; what it stands on carries all else
+  kNone      ///< nothing: hooked fingers carry what pulls at them
+};
+
 /// What a hand is asked to do with what it holds.
 struct EffortTask {
-  std::optional<double> grip_force;  ///< N, as grip_force(); unset: as firm as it was
+  EffortMeasure measure = EffortMeasure::kSqueeze;
+  Vec3 push = Vec3::UnitZ();         ///< kPush: unit, product frame
+  std::optional<double> grip_force;  ///< N, as `measure` says; unset: as firm as it was
                                      ///< closed, under a load half of it over mu more
   bool is_hardest = false;           ///< as hard as `strength` can, whatever `grip_force` says
-  contact::Wrench load;              ///< on the product, about its origin, product frame
-  double friction = 0.5;             ///< mu of skin on product
-  double strength = 1.0;             ///< largest activation, times the muscles of HandMuscles
+  /// Share with which the gap of each part of the hand counts: 0 where it takes no part in the
+  /// hold.
+  VolarVector takes_part = VolarVector::Ones();
+  contact::Wrench load;   ///< on the product, about its origin, product frame
+  double friction = 0.5;  ///< mu of skin on product
+  double strength = 1.0;  ///< largest activation, times the muscles of HandMuscles
   hand::WristPosture wrist{};
   EffortModel model{};
 };
@@ -51,6 +64,7 @@ struct EffortRest {
   GripState start;  ///< closed: skin sticks where it is there
   GripState state;
   Squeeze grip;
+  double force = 0.0;                       ///< what the task measures, N
   Eigen::VectorXd activation;               ///< of `strength`: the digits' muscles, the wrist's
   GripVector missing = GripVector::Zero();  ///< to equilibrium, N and N mm
   double strongest_moment = 0.0;            ///< of the muscles about any angle, N mm
@@ -70,27 +84,30 @@ struct EffortRest {
   contact::ContactFallbacks fallbacks;
 };
 
-/// A power grip at rest with least effort: over the angles q of all digits, the product's pose T
+/// A hold at rest with least effort: over the angles q of all digits, the product's pose T
 /// and the activations a of all muscles,
 ///
 ///     min  sum a_i^3 + E(q, T)   so that   every angle, the product and the wrist are in
-///                                equilibrium,   the grip force is the one asked for,   0 <= a <= 1
+///                                equilibrium,   the force is the one asked for,   0 <= a <= 1
+///
+/// A product that is pushed stands fast: only the force along the push is asked for.
 ///
 /// E keeps the hold what it is: half the sum of squares of what angles and product have moved, each
 /// over how far people vary in it, and sqrt(1 + g^2) - 1 for each gap g that a phalanx or pad
-/// leaves to the product (VolarGaps), over its spread. Equilibrium is an exact penalty: what can't
-/// be had is what is missing.
+/// which takes part leaves to the product (VolarGaps), over its spread. Equilibrium is an exact
+/// penalty: what can't be had is what is missing.
 ///
 /// Starts from the closed hand. Each step solves the problem with forces linear in the motion
 /// (EffortProgram, damped as Levenberg & Marquardt do), comes back to the equilibrium by
 /// second-order corrections and is taken only if the merit, the value of the same problem with the
 /// state held, falls. First on the coarse skin (PreparedHand::coarse()), at 0.6 of the grip force,
-/// but 30 N at least, and at all of it, then on the whole. docs/method/equilibrium.md.
+/// but 30 N at least, and at all of it, then on the whole; where only some parts of the hand hold,
+/// on the whole at once: they touch too little for the coarse skin. docs/method/equilibrium.md.
 ///
-/// Deterministic. Throws Cancelled.
+/// `from`: where the search begins, on the whole skin at once. Deterministic. Throws Cancelled.
 EffortRest rest_with_least_effort(const contact::PreparedHand& hand,
                                   const product::Product& product, const GripState& closed,
                                   const EffortTask& task, const contact::ContactOptions& contact,
-                                  const Progress& progress = {});
+                                  const Progress& progress = {}, const GripState* from = nullptr);
 
 }  // namespace palmar::grasp

@@ -11,8 +11,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/equilibrium/least_effort.h"
 #include "palmar/grasp/precision/precision_grip.h"
-#include "palmar/grasp/rest/press_down.h"
-#include "palmar/grasp/rest/settling.h"
+#include "palmar/grasp/precision/precision_shape.h"
 #include "palmar/grasp/rest/way_words.h"
 
 namespace palmar::grasp {
@@ -20,60 +19,66 @@ namespace {
 
 constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
 constexpr double kJointSaid = 0.05;  // residual moment over the strongest; more is a slip
+constexpr double kLost = 0.05;       // of the grip force asked for; less is a lost grip
 constexpr double kLevelSaid = 0.05;  // of the grip force asked for
-constexpr double kShifted = 5.0;  // mm; a precision grip in which the product shifts more is poor
 
-/// A precision grip comes to rest; if it doesn't where fingertips were first put, people put them
-/// elsewhere: where the search found the next best places.
-Balance settle_precision(const contact::PreparedHand& hand, const product::Product& product,
-                         Grasp& grasp, const BalanceOptions& options,
-                         const contact::ContactOptions& contact, const Progress& progress) {
-  const std::size_t others = grasp.status == GraspStatus::kHeld ? grasp.runners_up.size() : 0;
-  Balance first;
-  Grasp nearest = grasp;  // where it is at rest or the first comes near to that
-  for (std::size_t i = 0; i <= others; ++i) {
-    // Runners-up of another grip are other holds: never taken unasked.
-    if (i > 0 && grasp.runners_up[i - 1].grip != grasp.grip) continue;
-    Grasp there = grasp;
-    if (i > 0) take_runner_up(hand.hand(), product, i - 1, there);
-    if (i > 0 && there.status != GraspStatus::kHeld) continue;
-    Settling settling(hand, product, there, options, contact);
-    Balance balance = settling.run(progress);
-    const bool is_at_rest = balance.status == BalanceStatus::kBalanced;
-    const bool is_near = balance.status == BalanceStatus::kNotConverged;
-    if (is_at_rest || is_near) {
-      there.posture = settling.state().posture;
-      there.product_from_hand = settling.state().product_from_hand;
-    }
-    if (is_at_rest && balance.moved < kShifted) {
-      if (i > 0) there.message += "; the place first chosen: " + first.message;
-      grasp = std::move(there);
-      return balance;
-    }
-    if (i == 0 || (is_at_rest && first.status != BalanceStatus::kBalanced)) {
-      if (is_near || is_at_rest) nearest = std::move(there);
-      first = std::move(balance);
-    }
-    if (first.status == BalanceStatus::kNoContact || first.status == BalanceStatus::kFailed) break;
+/// Which parts of the hand lie on what is held: all of them in a power grip, the fingers in a hook,
+/// the pads that touch in a precision grip.
+VolarVector parts_that_hold(const hand::Hand& hand, const Grasp& grasp) {
+  if (is_laid(grasp.grip) || (is_power(grasp.grip) && grasp.grip != Grip::kFixedHook)) {
+    return VolarVector::Ones();
   }
-  grasp = std::move(nearest);
-  return first;
+  VolarVector parts = VolarVector::Zero();
+  const auto take = [&](hand::Segment segment) { parts[static_cast<int>(segment) - 1] = 1.0; };
+  if (grasp.grip == Grip::kFixedHook) {
+    for (int s = static_cast<int>(hand::Segment::kIndexProximal); s < hand::kSegmentCount; ++s) {
+      take(static_cast<hand::Segment>(s));
+    }
+    return parts;
+  }
+  if (grasp.grip == Grip::kFingerPush) {
+    take(hand::Segment::kIndexDistal);
+    return parts;
+  }
+  for (const FingertipPoint& tip : fingertips_of(hand, grasp.grip)) {
+    const bool is_volar = tip.part == FingertipPart::kPad || tip.part == FingertipPart::kTip ||
+                          tip.part == FingertipPart::kMiddlePad;
+    if (is_volar) take(tip.segment);
+  }
+  return parts;
 }
 
-/// A power grip at rest with least effort.
-Balance settle_with_least_effort(const contact::PreparedHand& hand, const product::Product& product,
-                                 Grasp& grasp, const BalanceOptions& options,
-                                 const contact::ContactOptions& contact, const Progress& progress) {
-  EffortTask task{.grip_force = options.asked_grip_force(grasp.grip),
-                  .is_hardest = options.activation.has_value(),
-                  .load = {},
-                  .friction = options.friction,
-                  .strength = options.activation.value_or(options.strength),
-                  .wrist = options.wrist};
+EffortTask task_of(const hand::Hand& hand, const product::Product& product, const Grasp& grasp,
+                   const BalanceOptions& options) {
+  EffortTask task;
+  task.grip_force = options.asked_grip_force(grasp.grip);
+  task.is_hardest = options.activation.has_value();
+  task.takes_part = parts_that_hold(hand, grasp);
+  task.friction = options.friction;
+  task.strength = options.activation.value_or(options.strength);
+  task.wrist = options.wrist;
+  if (is_non_prehensile(grasp.grip)) {
+    // What the product stands on carries all but the push, and any load; nothing slides.
+    task.measure = EffortMeasure::kPush;
+    task.friction = 0.0;
+    task.push = grasp.grip == Grip::kFingerPush && !grasp.fingertips.empty()
+                    ? Vec3(-grasp.fingertips.front().normal)
+                    : Vec3(grasp.product_from_hand.rotation * Vec3::UnitZ());
+    return task;
+  }
   if (options.load.weight > 0.0 || !options.load.force.isZero(0.0) ||
       !options.load.torque.isZero(0.0)) {
     task.load = contact::wrench_of(options.load, geometry::centre_of_volume(product.mesh));
+    if (grasp.grip == Grip::kFixedHook) task.measure = EffortMeasure::kNone;
   }
+  return task;
+}
+
+/// A grasp at rest with least effort.
+Balance settle(const contact::PreparedHand& hand, const product::Product& product, Grasp& grasp,
+               const BalanceOptions& options, const contact::ContactOptions& contact,
+               const Progress& progress) {
+  const EffortTask task = task_of(hand.hand(), product, grasp, options);
   const GripState closed{grasp.posture, grasp.product_from_hand};
   const EffortRest rest = rest_with_least_effort(hand, product, closed, task, contact, progress);
   Balance balance;
@@ -91,13 +96,13 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
   }
   grasp.posture = rest.state.posture;
   grasp.product_from_hand = rest.state.product_from_hand;
-  balance.friction = options.friction;
-  balance.grip_force = rest.grip.force;
+  balance.friction = task.friction;
+  balance.grip_force = rest.force;
   balance.sum_of_normals = rest.grip.sum_of_normals;
   balance.residual_force = rest.missing.segment<3>(kGripJoints).norm();
   balance.residual_moment = rest.missing.tail<3>().norm();
   balance.residual_share =
-      std::max(balance.residual_force, balance.residual_moment / rest.arm) / rest.grip.force;
+      std::max(balance.residual_force, balance.residual_moment / rest.arm) / rest.force;
   balance.friction_use = rest.friction_use;
   balance.friction_force = rest.friction_force;
   balance.moved = rest.moved;
@@ -106,20 +111,33 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
   balance.joint_load = rest.load;
 
   const double at_joints = rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>();
-  const double allowed = std::max(kBalanced, task.model.nothing / rest.grip.force);
+  const double allowed = std::max(kBalanced, task.model.nothing / rest.force);
+  const double asked = task.grip_force.value_or(rest.force);
+  if (!task.is_hardest && rest.force < kLost * asked) {
+    balance.status = BalanceStatus::kSlipsOut;
+    balance.message = fmt::format(
+        "slips out: {:.1f} N are left of the {:.0f} N that were requested", rest.force, asked);
+    return balance;
+  }
   if (balance.residual_share < allowed && at_joints < kJointSaid * rest.strongest_moment) {
-    balance.status = BalanceStatus::kBalanced;
     balance.strength_use = rest.share * task.strength / options.strength;
-    balance.message = fmt::format("in balance at a grip force of {:.0f} N", rest.grip.force);
-    const double asked = task.grip_force.value_or(rest.grip.force);
-    if (!task.is_hardest && std::abs(rest.grip.force / asked - 1.0) > kLevelSaid) {
+    if (task.measure == EffortMeasure::kPush) {
+      balance.status = BalanceStatus::kSupported;
+      balance.message =
+          fmt::format("{} with {:.1f} N; what it stands on carries that",
+                      grasp.grip == Grip::kFingerPush ? "is pushed" : "is rested on", rest.force);
+    } else {
+      balance.status = BalanceStatus::kBalanced;
+      balance.message = fmt::format("in balance at a grip force of {:.0f} N", rest.force);
+    }
+    if (!task.is_hardest && std::abs(rest.force / asked - 1.0) > kLevelSaid) {
       balance.message +=
           fmt::format("; {:.0f} N were requested, which the hand doesn't reach", asked);
     }
     return balance;
   }
   balance.status = BalanceStatus::kSlipsOut;
-  if (balance.residual_force >= allowed * rest.grip.force) {
+  if (balance.residual_force >= allowed * rest.force) {
     // What is missing is what would have to push the product back.
     balance.slip = -rest.missing.segment<3>(kGripJoints).normalized();
     balance.message = fmt::format("slips out, towards {}: {:.1f} N and {:.0f} N mm are missing",
@@ -133,8 +151,31 @@ Balance settle_with_least_effort(const contact::PreparedHand& hand, const produc
         "slips out: the muscles lack {:.0f} N mm about a joint of a finger or the thumb",
         at_joints);
   }
-  balance.message += fmt::format(" at a grip force of {:.0f} N", rest.grip.force);
+  balance.message += fmt::format(" at a grip force of {:.0f} N", rest.force);
   return balance;
+}
+
+/// A precision grip comes to rest; if it doesn't where fingertips were first put, people put them
+/// elsewhere: where the search found the next best places.
+Balance settle_precision(const contact::PreparedHand& hand, const product::Product& product,
+                         Grasp& grasp, const BalanceOptions& options,
+                         const contact::ContactOptions& contact, const Progress& progress) {
+  const Grasp chosen = grasp;
+  const Balance first = settle(hand, product, grasp, options, contact, progress);
+  if (first.status != BalanceStatus::kSlipsOut || chosen.status != GraspStatus::kHeld) return first;
+  for (std::size_t i = 0; i < chosen.runners_up.size(); ++i) {
+    // Runners-up of another grip are other holds: never taken unasked.
+    if (chosen.runners_up[i].grip != chosen.grip) continue;
+    Grasp there = chosen;
+    take_runner_up(hand.hand(), product, i, there);
+    if (there.status != GraspStatus::kHeld) continue;
+    Balance balance = settle(hand, product, there, options, contact, progress);
+    if (balance.status != BalanceStatus::kBalanced) continue;
+    there.message += "; the place first chosen: " + first.message;
+    grasp = std::move(there);
+    return balance;
+  }
+  return first;
 }
 
 }  // namespace
@@ -147,24 +188,9 @@ Balance balance_grasp(const contact::PreparedHand& hand, const product::Product&
   if (!options.is_on) return {};
   contact::ContactOptions plain = contact;
   plain.error_band = false;
-  if (is_non_prehensile(grasp.grip)) {
-    return press_down(hand, product, grasp, options, plain, progress);
-  }
-  if (!is_power(grasp.grip)) {
-    return settle_precision(hand, product, grasp, options, plain, progress);
-  }
-  if (grasp.grip != Grip::kFixedHook) {
-    return settle_with_least_effort(hand, product, grasp, options, plain, progress);
-  }
-  // Hooked fingers meet no palm that would hold against them: all joints stay as they were closed.
-  Settling settling(hand, product, grasp, options, plain);
-  Balance balance = settling.run(progress);
-  if (balance.status == BalanceStatus::kBalanced ||
-      balance.status == BalanceStatus::kNotConverged) {
-    grasp.posture = settling.state().posture;
-    grasp.product_from_hand = settling.state().product_from_hand;
-  }
-  return balance;
+  const bool has_other_places = !is_power(grasp.grip) && !is_non_prehensile(grasp.grip);
+  return has_other_places ? settle_precision(hand, product, grasp, options, plain, progress)
+                          : settle(hand, product, grasp, options, plain, progress);
 }
 
 }  // namespace palmar::grasp

@@ -46,10 +46,6 @@ struct BalanceOptions {
   /// Largest activation: the person's muscles over those of HandMuscles.
   double strength = 1.0;
   hand::WristPosture wrist{};  ///< of a power grip; changes what muscles can, not the picture
-  /// Share of the grip force that forces and moments may leave over when a precision grip or a hook
-  /// ends settling; 0.01 counts as balanced.
-  double aim = 0.002;
-
   /// N; nothing if a grasp of that grip stays as firm as it was closed, as hooked fingers always
   /// do: they carry and don't squeeze.
   std::optional<double> asked_grip_force(Grip grip) const;
@@ -65,8 +61,7 @@ enum class BalanceStatus {
   kSupported,  ///< the hand rests on it or pushes it with the force asked for; what the
                ///< product stands on carries that
   kNoContact,  ///< nothing is touched
-  kNotConverged,  ///< neither within the allowed number of steps
-  kFailed         ///< the contact couldn't be solved on the way
+  kFailed      ///< the contact couldn't be solved on the way
 };
 std::string_view name_of(BalanceStatus status);  ///< "balanced", "slips_out", ...
 
@@ -98,20 +93,16 @@ struct Balance {
   contact::ContactFallbacks fallbacks;  ///< of all contacts that were solved on the way
 };
 
-/// Lets product (6 degrees of freedom) and fingers come to rest against each other: contact forces,
-/// friction and load add up to nothing on the product; in a power grip also about every angle of a
-/// digit and about the wrist, with the moments that the muscles give at least effort
-/// (rest_with_least_effort()). The palm holds against them. `grasp` gets the new posture and
-/// placement. Precision grips: joints are held stiff and fingertips press straight into the
-/// product, all alike, to reach a grip force (fingertip_closing.h). One that doesn't come to rest
-/// where fingertips were first put is tried at its runners-up; `grasp` is then the first of those
-/// that does, and its message says so.
+/// Lets product (6 degrees of freedom) and fingers come to rest against each other with least
+/// effort (rest_with_least_effort()): contact forces, friction and load add up to nothing on the
+/// product, about every angle of a digit and about the wrist, with the moments that the muscles
+/// give. The palm holds against them. `grasp` gets the new posture and placement.
 ///
-/// Friction is that of skin that sticks where it was when the hand was closed and gives way
-/// tangentially with 2/3 of its normal stiffness (Mindlin 1949, nu = 0.5) up to mu times the normal
-/// force. docs/method/balance.md has the equations.
-///
-/// A hand that rests on the product or pushes it is only brought to its force: press_down.h.
+/// A precision grip that doesn't come to rest where fingertips were first put is tried at its
+/// runners-up; `grasp` is then the first of those that does, and its message says so. What hooked
+/// fingers carry isn't squeezed. A hand that rests on the product (along the way in which the palm
+/// faces) or pushes it (straight into the surface) is asked for that force alone: what the product
+/// stands on carries the rest.
 ///
 /// Not coming to rest is a status, never an exception. Throws UsageError on bad options, Cancelled.
 Balance balance_grasp(const contact::PreparedHand& hand, const product::Product& product,

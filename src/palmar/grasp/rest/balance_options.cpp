@@ -6,12 +6,6 @@
 #include "palmar/grasp/rest/balance.h"
 
 namespace palmar::grasp {
-namespace {
-
-constexpr double kLargestAim = 0.01;  // residual over grip force that counts as balanced
-
-}  // namespace
-
 std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
   if (!is_on || grip == Grip::kFixedHook) return std::nullopt;
   if (is_laid(grip)) return grip_force.value_or(kRestingForce);
@@ -72,9 +66,6 @@ void BalanceOptions::check() const {
     throw UsageError(fmt::format(
         "balance: grip force is {:g} N; more than 0 and at most 2000 N is allowed", *grip_force));
   }
-  if (!(aim >= 1e-4 && aim <= kLargestAim)) {
-    throw UsageError(fmt::format("balance: aim is {:g}; 0.0001 to 0.01 is allowed", aim));
-  }
   contact::FrictionOptions with_load;
   with_load.coefficient = 1.0;
   with_load.load = load;
@@ -93,8 +84,6 @@ std::string_view name_of(BalanceStatus status) {
       return "supported";
     case BalanceStatus::kNoContact:
       return "no_contact";
-    case BalanceStatus::kNotConverged:
-      return "not_converged";
     case BalanceStatus::kFailed:
       return "failed";
   }
