@@ -14,6 +14,7 @@
 #include "palmar/contact/contact_normals.h"
 #include "palmar/contact/prepared/coarse_hand.h"
 #include "palmar/core/enum_index.h"
+#include "palmar/grasp/equilibrium/nearby_rests.h"
 #include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/grasp/find/find_grasp.h"
 #include "palmar/hand/skin/skinning.h"
@@ -31,9 +32,11 @@ class LeastEffort : public TemplateTest {
     static const contact::PreparedHand made(std::make_shared<const hand::Hand>(hand()));
     return made;
   }
+  static product::Product cylinder(double diameter) {
+    return product::make_cylinder_product({.diameter = diameter, .length = 150.0});
+  }
   static const product::Product& bar() {
-    static const product::Product made =
-        product::make_cylinder_product({.diameter = 48.0, .length = 150.0});
+    static const product::Product made = cylinder(48.0);
     return made;
   }
   static const grasp::GripState& closed() {
@@ -276,6 +279,51 @@ TEST_F(LeastEffort, OnTissueStiffnessIsTheSlopeOfTheForces) {
     mean += off / grasp::kGripCoordinates;
   }
   EXPECT_LT(mean, 0.015);
+}
+
+// A change is followed by derivatives: the equilibrium after it is kept to second order.
+TEST_F(LeastEffort, WhatFollowsASmallChangeIsAtRestToo) {
+  const contact::PreparedHand& hand = hand_on_bone();
+  const product::Product product = cylinder(46.0);
+  const grasp::Grasp grasp = grasp::close_power_grasp(hand.hand(), product);
+  const grasp::EffortTask task{.grip_force = 100.0};
+  const grasp::EffortRest rest = grasp::rest_with_least_effort(
+      hand, product, {grasp.posture, grasp.product_from_hand}, task, {});
+  ASSERT_LT(rest.missing.segment<3>(grasp::kGripJoints).norm(), 0.5);
+  const auto off = [&](const product::Product& changed, double factor) {
+    const grasp::GripState state =
+        grasp::rest_after_change(hand, product, changed, rest, factor, task, {});
+    grasp::ContactForces there(hand, changed, {}, task.friction, rest.start);
+    EXPECT_TRUE(there.look(state, 1e-5));
+    return std::max(std::abs(there.grip().force / (factor * rest.force) - 1.0),
+                    there.force().segment<3>(grasp::kGripJoints).norm() / rest.force);
+  };
+  // Without following, the force would be off by the whole change.
+  EXPECT_LT(off(product, 1.02), 0.005);
+  EXPECT_LT(off(product, 0.98), 0.005);
+  EXPECT_LT(off(cylinder(46.0 / 1.01), 1.0 / (1.01 * 1.01)), 0.02);
+}
+
+// Between 51 and 54 mm the hold goes over from palm and fingers to thumb and fingers.
+TEST_F(LeastEffort, ASecondRestIsNamedWhereThereIsOne) {
+  const contact::PreparedHand& hand = hand_on_bone();
+  const grasp::EffortTask task{.grip_force = 107.0};
+  int named = 0;
+  for (const double diameter : {52.0, 52.5}) {
+    const product::Product product = cylinder(diameter);
+    const grasp::Grasp grasp = grasp::close_power_grasp(hand.hand(), product);
+    const grasp::EffortRest rest = grasp::rest_with_least_effort(
+        hand, product, {grasp.posture, grasp.product_from_hand}, task, {});
+    const grasp::NearbyRests nearby = grasp::nearby_rests(hand, product, rest, task, {});
+    if (!nearby.other) continue;
+    ++named;
+    EXPECT_LT(nearby.other->merit, 1.05);
+    grasp::ContactForces there(hand, product, {}, task.friction, rest.start);
+    ASSERT_TRUE(there.look(nearby.other->state, 1e-4));
+    EXPECT_NEAR(there.grip().force, 107.0, 1.1);
+    EXPECT_LT(there.force().segment<3>(grasp::kGripJoints).norm(), 1.1);
+  }
+  EXPECT_GT(named, 0);
 }
 
 // What is searched on first: near enough that the whole skin finds its rest in a few steps.

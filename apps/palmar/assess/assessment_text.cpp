@@ -95,6 +95,24 @@ std::string pressure_text(const contact::ContactResult& contact) {
   return text + "\n";
 }
 
+/// How much area and highest pressure change if the hand or the force were a little other.
+std::string certainty_text(const study::Assessment& assessment) {
+  if (!assessment.certainty) return {};
+  const study::Certainty& sure = *assessment.certainty;
+  const auto change = [](const study::FigureChange& one) {
+    return fmt::format("area {:+.1f} %, highest pressure {:+.1f} %", 100.0 * one.area,
+                       100.0 * one.peak_pressure_cells);
+  };
+  std::string text = "in a hand 1 % larger: " + change(sure.hand_size) + "\n" +
+                     "at 1 % more force: " + change(sure.grip_force) + "\n";
+  if (sure.second) {
+    text += "in a second way to rest, " +
+            fmt::format("{:+.0f} % effort: ", 100.0 * (sure.second->effort - 1.0)) +
+            change(sure.second->change) + "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string verdict_text(const records::VerdictWords& words) {
@@ -110,7 +128,7 @@ std::string summary_text(const hand::Hand& hand, const study::AssessedProduct& o
   std::string text = fmt::format("== {}\n", one.product.name);
   if (grasp.hold) text += fmt::format("hold: {}\n", grasp.hold_words);
   text += status_text(grasp);
-  text += balance_text(assessment) + pressure_text(assessment.contact);
+  text += balance_text(assessment) + pressure_text(assessment.contact) + certainty_text(assessment);
   const std::string friction = report::friction_verdict(hand, assessment);
   if (!friction.empty()) text += "friction: " + friction + "\n";
   return text + notes_text(assessment) + (one.errors ? error_budget_text(*one.errors) : "");

@@ -56,6 +56,20 @@ export interface GraspResult {
 /// How often the contact solver had to fall back, by kind.
 export type Fallbacks = Record<string, number>;
 
+/** Shares by which figures change. */
+export interface FigureChange {
+  sum_of_normal_forces: number;
+  area: number;
+  peak_pressure_cells: number;
+  mean_pressure: number;
+}
+
+export interface Certainty {
+  hand_1_percent_larger: FigureChange;
+  force_1_percent_more: FigureChange;
+  second_rest: { change: FigureChange; effort_over_first: number } | null;
+}
+
 export interface BalanceResult {
   status: "off" | "balanced" | "supported" | "slips_out" | "no_contact" | "failed";
   message: string;
@@ -326,11 +340,13 @@ export interface SetVerdict {
   comparisons: {
     better: string;
     worse: string;
-    verdict: "lower" | "same" | "depends_on_skin" | "unequal_force" | "only_one_held" | "none_held";
+    verdict: "lower" | "same" | "depends_on_skin" | "depends_on_rest" | "unequal_force" | "only_one_held" | "none_held";
     peak_change: number;
     area_change: number;
     peak_change_soft: number | null;
     peak_change_stiff: number | null;
+    peak_unsure: number | null;
+    peak_change_second_rest: number | null;
   }[];
 }
 
@@ -377,6 +393,7 @@ export interface Assessment {
   doubts: HoldDoubt[];
   grasp: GraspResult;
   balance: BalanceResult;
+  certainty: Certainty | null;
   contact: ContactResult;
   verdict: ProductVerdict;
   indices: { [key: string]: number | string[] | null };

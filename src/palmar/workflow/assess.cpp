@@ -124,6 +124,7 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   const grasp::HeaviestLoad heaviest =
       request.rest.is_usual() ? heaviest_of(tasks) : grasp::HeaviestLoad{};
   options.balance = request.rest.options(request.friction.friction, heaviest);
+  options.balance.looks_nearby = true;
   const contact::PreparedHand prepared =
       prepared_hand(request.hand, hand, request.model, request.note);
 

@@ -13,9 +13,9 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr double kRates = 1e-2;  // relative accuracy of derivatives
+constexpr double kRates = 1e-2;    // relative accuracy of derivatives
 constexpr double kLeastWay = 0.1;  // mm; a way that is none
-constexpr double kStick = 0.75;  // 3/4 mu d: where friction turns from sticking to slipping
+constexpr double kStick = 0.75;    // 3/4 mu d: where friction turns from sticking to slipping
 
 /// What one region of the skin carries.
 struct RegionSum {

@@ -36,6 +36,7 @@ constexpr int kMostRefused = 5,
 constexpr double kAccuracy = 1e-4;          // relative, of contact forces
 constexpr double kStep = 8.0, kArm = 50.0;  // mm; angles count by what they move at that arm
 constexpr double kBackDamping = 30.0;       // of a correction
+constexpr double kFollowed = 1.0;           // damping of what follows a small change
 constexpr int kMostCorrections = 4;
 constexpr int kMostUnasked = 4;       // steps across a jump of forces
 constexpr double kUsualSteps = 50.0;  // of all searches; of what progress is a share
@@ -128,6 +129,10 @@ class LeastEffort {
         is_idle_(idle_digits(task.takes_part)) {}
 
   EffortRest run(const GripState* from, const Progress& progress);
+  /// The motion that a state on the whole skin asks for at a force; nothing where its contact has
+  /// no solution.
+  GripVector next(const GripState& state, const Vec3& held_at, double force);
+  const Vec3& centre() const { return skin_.centre(); }
 
  private:
   double lightness() const { return std::max(1.0, task_->model.light_grip / target_); }
@@ -388,6 +393,8 @@ double LeastEffort::least_share(const Look& at, bool with_wrist) const {
 
 void LeastEffort::finish(const Look& at, EffortRest& rest) const {
   rest.start = start_;
+  rest.held_at = held_at_;
+  rest.asked = asked_;
   rest.state = at.state;
   rest.grip = at.grip;
   rest.force = task_->measure == EffortMeasure::kPush ? at.measured : at.grip.force;
@@ -585,7 +592,30 @@ EffortRest LeastEffort::run(const GripState* from, const Progress& progress) {
   return rest;
 }
 
+GripVector LeastEffort::next(const GripState& state, const Vec3& held_at, double force) {
+  is_coarse_ = false;
+  held_at_ = held_at;
+  held_point_ = start_.product_from_hand * held_at_;
+  target_ = force;
+  price_ = 1.0;
+  Look now;
+  if (!look(state, now)) return GripVector::Zero();
+  judge(now);
+  if (!differentiate(now)) return GripVector::Zero();
+  return solve_effort(program(now, kFollowed)).motion;
+}
+
 }  // namespace
+
+GripState rest_after_change(const contact::PreparedHand& hand, const product::Product& product,
+                            const product::Product& changed, const EffortRest& rest, double force,
+                            const EffortTask& task, const contact::ContactOptions& contact) {
+  LeastEffort before(hand, product, rest.start, task, contact);
+  LeastEffort after(hand, changed, rest.start, task, contact);
+  const GripVector way = after.next(rest.state, rest.held_at, force * rest.asked) -
+                         before.next(rest.state, rest.held_at, rest.asked);
+  return moved(rest.state, way, before.centre());
+}
 
 EffortRest rest_with_least_effort(const contact::PreparedHand& hand,
                                   const product::Product& product, const GripState& closed,

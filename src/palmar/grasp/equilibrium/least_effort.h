@@ -61,7 +61,9 @@ struct EffortTask {
 struct EffortRest {
   enum class Status { kSolved, kNoContact, kNoSolution };
   Status status = Status::kNoSolution;
-  GripState start;  ///< closed: skin sticks where it is there
+  GripState start;              ///< closed: skin sticks where it is there
+  Vec3 held_at = Vec3::Zero();  ///< centre of contact there, hand frame, mm
+  double asked = 0.0;           ///< force that the search was for, N
   GripState state;
   Squeeze grip;
   double force = 0.0;                       ///< what the task measures, N
@@ -109,5 +111,11 @@ EffortRest rest_with_least_effort(const contact::PreparedHand& hand,
                                   const product::Product& product, const GripState& closed,
                                   const EffortTask& task, const contact::ContactOptions& contact,
                                   const Progress& progress = {}, const GripState* from = nullptr);
+
+/// What a rest becomes, by its derivatives, if the force asked for changes by a factor and the
+/// product to `changed`, whose skin sticks where it did on the first.
+GripState rest_after_change(const contact::PreparedHand& hand, const product::Product& product,
+                            const product::Product& changed, const EffortRest& rest, double force,
+                            const EffortTask& task, const contact::ContactOptions& contact);
 
 }  // namespace palmar::grasp

@@ -10,6 +10,7 @@
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/equilibrium/least_effort.h"
+#include "palmar/grasp/equilibrium/nearby_rests.h"
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/precision/precision_shape.h"
 #include "palmar/grasp/rest/way_words.h"
@@ -121,6 +122,10 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   }
   if (balance.residual_share < allowed && at_joints < kJointSaid * rest.strongest_moment) {
     balance.strength_use = rest.share * task.strength / options.strength;
+    if (options.looks_nearby) {
+      balance.nearby = std::make_shared<const NearbyRests>(
+          nearby_rests(hand, product, rest, task, contact, progress));
+    }
     if (task.measure == EffortMeasure::kPush) {
       balance.status = BalanceStatus::kSupported;
       balance.message =

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ namespace palmar::grasp {
 /// (choices).
 inline constexpr double kRestingForce = 8.2;
 
+struct NearbyRests;
+
 struct BalanceOptions {
   bool is_on = true;
   /// Of skin on product while they settle; 0: none. 0.5: skin on usual products (Derler & Gerhardt
@@ -45,6 +48,7 @@ struct BalanceOptions {
   std::optional<double> activation;
   /// Largest activation: the person's muscles over those of HandMuscles.
   double strength = 1.0;
+  bool looks_nearby = false;  ///< finds NearbyRests of what comes to rest: for three times the time
   hand::WristPosture wrist{};  ///< of a power grip; changes what muscles can, not the picture
   /// N; nothing if a grasp of that grip stays as firm as it was closed, as hooked fingers always
   /// do: they carry and don't squeeze.
@@ -89,6 +93,7 @@ struct Balance {
                                      ///< nothing pushes it out
   std::vector<Vec3> friction_force;  ///< per skin vertex, of the skin on the product, product
                                      ///< frame, N
+  std::shared_ptr<const NearbyRests> nearby;  ///< of what came to rest, if it was asked for
   int iterations = 0;
   contact::ContactFallbacks fallbacks;  ///< of all contacts that were solved on the way
 };

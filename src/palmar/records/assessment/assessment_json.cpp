@@ -304,6 +304,26 @@ Json balance_object(const grasp::Balance& balance) {
           {"fallbacks", fallback_object(balance.fallbacks)}};
 }
 
+Json change_object(const study::FigureChange& change) {
+  return {{"sum_of_normal_forces", change.force},
+          {"area", change.area},
+          {"peak_pressure_cells", change.peak_pressure_cells},
+          {"mean_pressure", change.mean_pressure}};
+}
+
+/// How sure the figures are; null where nothing was looked for.
+Json certainty_object(const std::optional<study::Certainty>& certainty) {
+  if (!certainty) return nullptr;
+  Json second = nullptr;
+  if (certainty->second) {
+    second = {{"change", change_object(certainty->second->change)},
+              {"effort_over_first", certainty->second->effort}};
+  }
+  return {{"hand_1_percent_larger", change_object(certainty->hand_size)},
+          {"force_1_percent_more", change_object(certainty->grip_force)},
+          {"second_rest", std::move(second)}};
+}
+
 Json product_object(const product::Product& product) {
   Box3 box;
   for (const Vec3& v : product.mesh.vertices) box.extend(v);
@@ -437,6 +457,7 @@ std::string assessment_json(const study::AssessmentSet& set, const VerdictWords&
                   {"doubts", doubts_array(assessment)},
                   {"grasp", grasp_object(assessment.grasp)},
                   {"balance", balance_object(assessment.balance)},
+                  {"certainty", certainty_object(assessment.certainty)},
                   {"contact", contact_object(assessment.contact, study::grip_force_of(one),
                                              assessment.options.contact.skin_on_skin)},
                   {"verdict", verdict_object(one, verdict.products[number],

@@ -57,7 +57,9 @@ nlohmann::ordered_json verdict_object(const study::SetVerdict& verdict, const Ve
                            {"peak_change", one.peak_change},
                            {"area_change", one.area_change},
                            {"peak_change_soft", or_null(one.peak_change_soft)},
-                           {"peak_change_stiff", or_null(one.peak_change_stiff)}});
+                           {"peak_change_stiff", or_null(one.peak_change_stiff)},
+                           {"peak_unsure", or_null(one.peak_unsure)},
+                           {"peak_change_second_rest", or_null(one.peak_change_second)}});
   }
   return {{"sentence", words.sentence},
           {"reasons", words.reasons},

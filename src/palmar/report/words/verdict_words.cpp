@@ -181,6 +181,7 @@ class SetSpeaker {
     } else {
       speak_of_several();
     }
+    add_second_rests();
     if (set_.hand) {
       words_.reasons.push_back(texts_(
           "reason.one_hand", {{"length", texts_.number(set_.hand->dimensions.hand_length)}}));
@@ -233,6 +234,18 @@ class SetSpeaker {
                             {"force_measured", texts_.number(beside.force_measured, 3)}}));
   }
 
+  /// Whose figures hang on which of two ways the hand rests in.
+  void add_second_rests() {
+    for (std::size_t i = 0; i < set_.assessments.size(); ++i) {
+      const auto& certainty = set_.assessments[i].assessment.certainty;
+      if (!certainty || !certainty->second) continue;
+      const double change = certainty->second->change.peak_pressure_cells;
+      words_.reasons.push_back(
+          texts_(change < 0.0 ? "reason.second_rest.lower" : "reason.second_rest.higher",
+                 {{"product", name(static_cast<int>(i))}, {"percent", texts_.percent(change)}}));
+    }
+  }
+
   void speak_of_one() {
     const study::AssessedProduct& one = set_.assessments.front();
     const study::ProductVerdict& verdict = verdict_.products.front();
@@ -279,6 +292,8 @@ class SetSpeaker {
         return texts_("verdict.same", values);
       case study::PairVerdict::kDependsOnSkin:
         return texts_("verdict.depends_on_skin", values);
+      case study::PairVerdict::kDependsOnRest:
+        return texts_("verdict.depends_on_rest", values);
       case study::PairVerdict::kUnequalForce:
         values["better_force"] = force(pair.better);
         values["worse_force"] = force(pair.worse);

@@ -60,6 +60,12 @@ Assessment evaluate(const contact::PreparedHand& hand, const product::Product& p
       hand, result.posed_skin, result.grasp.product_from_hand, *product.distance, options.contact);
   result.times.contact = contact_watch.seconds();
 
+  if (result.balance.nearby && result.contact.total.force > 0.0) {
+    result.certainty =
+        certainty_of(hand, product, {result.grasp.posture, result.grasp.product_from_hand},
+                     *result.balance.nearby, options.contact);
+  }
+
   if (options.friction.is_on()) {
     progress.update(0.8, "balancing the load by friction");
     const Stopwatch friction_watch;

@@ -17,6 +17,7 @@
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/rest/balance.h"
 #include "palmar/product/product.h"
+#include "palmar/study/assessment/certainty.h"
 #include "palmar/study/assessment/face_contacts.h"
 #include "palmar/study/assessment/grasp_indices.h"
 #include "palmar/study/sensors/measured_pressure.h"
@@ -47,9 +48,10 @@ struct AssessTimes {
 /// One hand holding one product: grasp, contact, footprint.
 struct Assessment {
   std::string hand_name;
-  grasp::Grasp grasp;            ///< posture and placement at rest; stops as the hand was closed
-  grasp::Balance balance;        ///< how it came to rest
-  std::vector<Vec3> posed_skin;  ///< hand frame, mm
+  grasp::Grasp grasp;      ///< posture and placement at rest; stops as the hand was closed
+  grasp::Balance balance;  ///< how it came to rest
+  std::optional<Certainty> certainty;  ///< of what came to rest, if `balance` looked nearby
+  std::vector<Vec3> posed_skin;        ///< hand frame, mm
   contact::ContactResult contact;
   contact::FrictionResult friction;
   contact::ProductFootprint footprint;

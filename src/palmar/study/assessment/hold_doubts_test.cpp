@@ -43,7 +43,7 @@ TEST(HoldDoubts, WhatSlipsOrDoesntComeToRestIsDoubtful) {
   Assessment assessment = wrap_with(kWhole);
   assessment.balance.status = grasp::BalanceStatus::kSlipsOut;
   EXPECT_EQ(keys_of(doubts_of(assessment)), "slips_out");
-  assessment.balance.status = grasp::BalanceStatus::kNotConverged;
+  assessment.balance.status = grasp::BalanceStatus::kFailed;
   EXPECT_EQ(keys_of(doubts_of(assessment)), "not_at_rest");
   assessment.balance.status = grasp::BalanceStatus::kOff;  // nobody asked for it
   EXPECT_EQ(keys_of(doubts_of(assessment)), "");

@@ -113,9 +113,24 @@ ProductComparison compare(const AssessmentSet& set, const std::vector<ProductVer
       depends = depends || *pair.peak_change_stiff > 0.0;
     }
   }
-  pair.verdict = std::abs(pair.peak_change) < grasp::kToldApart ? PairVerdict::kSame
-                 : depends                                      ? PairVerdict::kDependsOnSkin
-                                                                : PairVerdict::kLower;
+  const auto& sure_a = a.assessment.certainty;
+  const auto& sure_b = b.assessment.certainty;
+  if (sure_a && sure_b) pair.peak_unsure = std::hypot(sure_a->peak_unsure(), sure_b->peak_unsure());
+  const auto at_second = [&](const std::optional<Certainty>& of_a,
+                             const std::optional<Certainty>& of_b) {
+    const auto peak = [](const AssessedProduct& one, const std::optional<Certainty>& sure) {
+      return peak_of(one) * (sure ? 1.0 + sure->second->change.peak_pressure_cells : 1.0);
+    };
+    const double second = change(peak(a, of_a), peak(b, of_b));
+    pair.peak_change_second = std::max(second, pair.peak_change_second.value_or(second));
+  };
+  if (sure_a && sure_a->second) at_second(sure_a, {});
+  if (sure_b && sure_b->second) at_second({}, sure_b);
+  const double told_apart = std::max(grasp::kToldApart, pair.peak_unsure.value_or(0.0));
+  pair.verdict = std::abs(pair.peak_change) < told_apart      ? PairVerdict::kSame
+                 : depends                                    ? PairVerdict::kDependsOnSkin
+                 : pair.peak_change_second.value_or(-1) > 0.0 ? PairVerdict::kDependsOnRest
+                                                              : PairVerdict::kLower;
   return pair;
 }
 
@@ -153,6 +168,8 @@ std::string_view name_of(PairVerdict verdict) {
       return "same";
     case PairVerdict::kDependsOnSkin:
       return "depends_on_skin";
+    case PairVerdict::kDependsOnRest:
+      return "depends_on_rest";
     case PairVerdict::kUnequalForce:
       return "unequal_force";
     case PairVerdict::kOnlyOneHeld:

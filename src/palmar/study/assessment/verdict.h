@@ -57,8 +57,9 @@ struct ProductVerdict {
 /// Whether one of two products presses less.
 enum class PairVerdict {
   kLower,          ///< the second presses less at its hardest place, and that can be told apart
-  kSame,           ///< the difference is below kToldApart
+  kSame,           ///< the difference is below kToldApart, or below what the figures leave open
   kDependsOnSkin,  ///< with soft or stiff skin the order is another one
+  kDependsOnRest,  ///< a hand that rests in its second way reverses the order
   kUnequalForce,   ///< they aren't held equally firmly: no answer
   kOnlyOneHeld,    ///< the second alone is held
   kNoneHeld        ///< neither is held
@@ -73,6 +74,12 @@ struct ProductComparison {
   double area_change = 0.0;  ///< contact area, likewise
   /// The peak's change with soft and with stiff tissue; nothing without an error band.
   std::optional<double> peak_change_soft, peak_change_stiff;
+  /// What hands and forces known to 1 % leave open of the peak's change (Certainty::peak_unsure()
+  /// of both); nothing where the rests weren't looked beside.
+  std::optional<double> peak_unsure;
+  /// The peak's change at the second rest of one of the two that speaks most against the order;
+  /// nothing without one.
+  std::optional<double> peak_change_second;
 };
 
 struct SetVerdict {

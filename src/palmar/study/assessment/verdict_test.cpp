@@ -72,6 +72,29 @@ TEST(SetVerdict, ADifferenceThatDependsOnTheSkinIsNone) {
   EXPECT_FALSE(verdict_on(two).best);
 }
 
+TEST(SetVerdict, ADifferenceThatASlightlyOtherHandMayMakeIsNone) {
+  std::vector<AssessedProduct> two = {held("a", 60, 0.40), held("b", 60, 0.34)};  // 15 % less
+  for (AssessedProduct& one : two) one.assessment.certainty.emplace();
+  EXPECT_EQ(verdict_on(two).comparisons[0].verdict, PairVerdict::kLower);
+  two[0].assessment.certainty->hand_size.peak_pressure_cells = -0.12;
+  two[1].assessment.certainty->grip_force.peak_pressure_cells = 0.16;
+  EXPECT_NEAR(*verdict_on(two).comparisons[0].peak_unsure, 0.2, 1e-12);
+  EXPECT_EQ(verdict_on(two).comparisons[0].verdict, PairVerdict::kSame);
+  EXPECT_FALSE(verdict_on(two).best);
+}
+
+TEST(SetVerdict, ADifferenceThatASecondRestReversesIsNone) {
+  std::vector<AssessedProduct> two = {held("a", 60, 0.40), held("b", 60, 0.30)};
+  for (AssessedProduct& one : two) one.assessment.certainty.emplace();
+  two[0].assessment.certainty->second = {.change = {.peak_pressure_cells = -0.2}, .effort = 1.01};
+  EXPECT_EQ(verdict_on(two).comparisons[0].verdict, PairVerdict::kLower);  // 0.32 and 0.30
+  EXPECT_NEAR(*verdict_on(two).comparisons[0].peak_change_second, -0.0625, 1e-12);
+  two[1].assessment.certainty->second = {.change = {.peak_pressure_cells = 0.5}, .effort = 1.03};
+  EXPECT_NEAR(*verdict_on(two).comparisons[0].peak_change_second, 0.125, 1e-12);  // 0.40 and 0.45
+  EXPECT_EQ(verdict_on(two).comparisons[0].verdict, PairVerdict::kDependsOnRest);
+  EXPECT_FALSE(verdict_on(two).best);
+}
+
 TEST(SetVerdict, PressuresOfUnequalGripsAreNotCompared) {
   const SetVerdict verdict = verdict_on({held("a", 107, 0.40), held("b", 86, 0.20)});
   EXPECT_EQ(verdict.comparisons[0].verdict, PairVerdict::kUnequalForce);

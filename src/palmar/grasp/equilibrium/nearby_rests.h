@@ -1,0 +1,43 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "palmar/contact/contact.h"
+#include "palmar/core/progress.h"
+#include "palmar/grasp/equilibrium/least_effort.h"
+#include "palmar/product/product.h"
+
+namespace palmar::grasp {
+
+/// How much the force and the hand change in NearbyRests.
+inline constexpr double kNearbyChange = 0.01;
+
+/// What lies beside a rest: what it becomes if force and hand change a little, and whether the hand
+/// may as well rest otherwise.
+struct NearbyRests {
+  GripState firmer;  ///< at kNearbyChange more force
+  /// In a hand that is larger by kNearbyChange, measured by that hand: its own size, and a product
+  /// that has shrunk. The same pressures press on areas that are larger in truth, by the square.
+  GripState in_larger_hand;
+  std::shared_ptr<const geometry::DistanceField> shrunk;
+  /// Another state at rest, found from products that are 2 % larger and smaller. That whose merit
+  /// is the least.
+  struct Other {
+    GripState state;
+    double merit = 1.0;  ///< over that of the first
+  };
+  std::optional<Other> other;
+};
+
+/// The first two by the derivatives of the rest: the motion that the problem with linear forces
+/// asks for after the change less that before. `other` if its merit is at most 5 % above the
+/// first's and an angle or the product is elsewhere by more than 3 degrees or 1 mm. Deterministic.
+/// Throws Cancelled.
+NearbyRests nearby_rests(const contact::PreparedHand& hand, const product::Product& product,
+                         const EffortRest& rest, const EffortTask& task,
+                         const contact::ContactOptions& contact, const Progress& progress = {});
+
+}  // namespace palmar::grasp
