@@ -48,7 +48,7 @@ class LeastEffort : public TemplateTest {
   }
   static grasp::EffortRest rest(double grip_force, const contact::Wrench& load = {}) {
     return grasp::rest_with_least_effort(prepared(), bar(), closed(),
-                                         {.grip_force = grip_force, .load = load}, {});
+                                         {.force = grip_force, .load = load}, {});
   }
 };
 
@@ -133,7 +133,7 @@ std::array<double, hand::kFingerCount + 1> forces_on_bar(const contact::Prepared
       {.diameter = diameter, .length = 150.0, .fineness = {.chordal_error = 0.02}});
   const grasp::Grasp closed = grasp::close_power_grasp(prepared.hand(), bar);
   const grasp::EffortRest rest = grasp::rest_with_least_effort(
-      prepared, bar, {closed.posture, closed.product_from_hand}, {.grip_force = grip_force}, {});
+      prepared, bar, {closed.posture, closed.product_from_hand}, {.force = grip_force}, {});
   EXPECT_LT(rest.missing.lpNorm<Eigen::Infinity>(), 0.02 * rest.strongest_moment) << diameter;
   const contact::ContactResult contact =
       contact::solve_hand_contact(prepared, hand::pose_skin(prepared.hand(), rest.state.posture),
@@ -251,7 +251,7 @@ TEST_F(LeastEffort, OnTissueStiffnessIsTheSlopeOfTheForces) {
   const grasp::Grasp grasp = grasp::close_power_grasp(hand.hand(), bar());
   const grasp::GripState start{grasp.posture, grasp.product_from_hand};
   const grasp::EffortRest found =
-      grasp::rest_with_least_effort(hand, bar(), start, {.grip_force = 90.0}, {});
+      grasp::rest_with_least_effort(hand, bar(), start, {.force = 90.0}, {});
   grasp::ContactForces forces(hand, bar(), {}, 0.5, start);
   constexpr double kExact = 1e-7;
   ASSERT_TRUE(forces.look(found.state, kExact));
@@ -286,7 +286,7 @@ TEST_F(LeastEffort, WhatFollowsASmallChangeIsAtRestToo) {
   const contact::PreparedHand& hand = hand_on_bone();
   const product::Product product = cylinder(46.0);
   const grasp::Grasp grasp = grasp::close_power_grasp(hand.hand(), product);
-  const grasp::EffortTask task{.grip_force = 100.0};
+  const grasp::EffortTask task{.force = 100.0};
   const grasp::EffortRest rest = grasp::rest_with_least_effort(
       hand, product, {grasp.posture, grasp.product_from_hand}, task, {});
   ASSERT_LT(rest.missing.segment<3>(grasp::kGripJoints).norm(), 0.5);
@@ -307,7 +307,7 @@ TEST_F(LeastEffort, WhatFollowsASmallChangeIsAtRestToo) {
 // Between 51 and 54 mm the hold goes over from palm and fingers to thumb and fingers.
 TEST_F(LeastEffort, ASecondRestIsNamedWhereThereIsOne) {
   const contact::PreparedHand& hand = hand_on_bone();
-  const grasp::EffortTask task{.grip_force = 107.0};
+  const grasp::EffortTask task{.force = 107.0};
   int named = 0;
   for (const double diameter : {52.0, 52.5}) {
     const product::Product product = cylinder(diameter);
@@ -365,8 +365,8 @@ TEST_F(LeastEffort, RatesOfTheGapsAreTheirSlopes) {
 
 // What thumb and fingers do to each other has an energy, sum N D / 5 for N that grows with the
 // fourth power of D: moments are its slopes, stiffness theirs.
-TEST_F(LeastEffort, ThumbAndFingersPressLikeSomethingElastic) {
-  const grasp::ThumbMeeting meeting(hand(), {});
+TEST_F(LeastEffort, DigitsThatMeetPressLikeSomethingElastic) {
+  const grasp::DigitMeeting meeting(hand());
   hand::Posture met = closed().posture;
   for (int k = 0; k < hand::kDigitDofs; ++k) {
     const hand::JointDof& dof = hand().skeleton.dof(grasp::grip_dof(k));
@@ -374,14 +374,14 @@ TEST_F(LeastEffort, ThumbAndFingersPressLikeSomethingElastic) {
   }
   const auto energy = [&](const hand::Posture& posture) {
     double sum = 0.0;
-    for (const grasp::ThumbPress& press : meeting.presses(posture)) {
+    for (const grasp::DigitPress& press : meeting.presses(posture)) {
       sum += press.force * press.overlap / 5.0;
     }
     return sum;
   };
   const auto moments = [&](const hand::Posture& posture) {
     grasp::GripVector sum = grasp::GripVector::Zero();
-    for (const grasp::ThumbPress& press : meeting.presses(posture)) {
+    for (const grasp::DigitPress& press : meeting.presses(posture)) {
       sum += press.force * press.moment;
     }
     return sum;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "palmar/core/error.h"
 #include "palmar/grasp/rest/friction_settings.h"
 #include "text.h"
 
@@ -24,13 +25,18 @@ void BalanceArguments::add_to(CLI::App& verb) {
       "--limit-depths", settings_.limit_depths,
       "Grip as firmly as closing to the limit depths made it: every product and hand with "
       "another force");
-  verb.add_option_function<std::string>(
-          "--task", [this](const std::string& task) { settings_.holds_load = task == "hold"; },
-          "What the hand does: squeeze, with a grip force as the options below say, or hold, with "
-          "what each product's weight and load ask for: 1.4 times what friction needs (Westling & "
-          "Johansson 1984); without a mass the weight of a solid of 1 g/cm3")
-      ->check(CLI::IsMember({"squeeze", "hold"}))
-      ->default_str("squeeze");
+  CLI::Option* task =
+      verb.add_option("--task", task_,
+                      "What the hand does: squeeze, with a grip force as the options below say; "
+                      "hold, with what each product's weight and load ask for: 1.4 times what "
+                      "friction needs (Westling & Johansson 1984), without a mass the weight of a "
+                      "solid of 1 g/cm3; turn, with what --turn-n-m takes")
+          ->check(CLI::IsMember({"squeeze", "hold", "turn"}))
+          ->default_str("squeeze");
+  verb.add_option("--turn-n-m", settings_.turn,
+                  "With --task turn: the torque about the grip axis that the product is turned "
+                  "with, N m; right-handed about the axis towards the thumb's side")
+      ->needs(task);
   CLI::Option* force = verb.add_option(
       "--grip-force-n", settings_.grip_force,
       "Grip with this force across the plane of largest squeeze, as a dynamometer "
@@ -53,6 +59,11 @@ void BalanceArguments::add_to(CLI::App& verb) {
 grasp::RestSettings BalanceArguments::settings() const {
   grasp::RestSettings result = settings_;
   result.is_balanced = !no_balance_;
+  result.holds_load = task_ == "hold";
+  if ((task_ == "turn") != result.turn.has_value()) {
+    throw UsageError(result.turn ? "--turn-n-m is given; --task turn is required with it"
+                                 : "--task is turn; --turn-n-m, a torque in N m, is required");
+  }
   result = workflow::held_by(person_, result);
   result.check();
   return result;

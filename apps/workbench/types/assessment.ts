@@ -77,6 +77,7 @@ export interface BalanceResult {
   friction_coefficient?: number;
   grip_force_n?: number;
   sum_of_normal_forces_n?: number;
+  turn_n_m?: number | null;
   residual_force_n?: number;
   residual_moment_n_mm?: number;
   residual_over_grip_force?: number;

@@ -49,6 +49,7 @@ constexpr double kGrowth = 4.0;      // of damping, where a step is refused
 constexpr double kKept = 0.9;        // less, and derivatives are taken anew
 constexpr double kByWrist = 1.02;    // of the strength that the digits alone need
 constexpr double kNoMissing = 0.01;  // priced; so little is none
+constexpr double kTurnArm = 30.0;    // mm, at which a torque counts as a force
 constexpr double kTooMuch = 2000.0;  // N; no hand grips that hard
 constexpr int kForceRow = kGripCoordinates, kWristRow = kGripCoordinates + 1,
               kRows = kGripCoordinates + 2;
@@ -100,7 +101,8 @@ struct Look {
   Eigen::MatrixXd moments;   ///< of the muscles at full activation, angles x muscles
   Eigen::RowVectorXd wrist;  ///< the same about the wrist
   double wrist_load = 0.0;
-  std::vector<ThumbPress> presses;
+  double wrist_per_torque = 0.0;  ///< of what a turn measures
+  std::vector<DigitPress> presses;
   VolarVector gap = VolarVector::Zero();  ///< over its spread; 0 where skin touches
   VolarRates gap_rate = VolarRates::Zero();
   EffortSolution effort;  ///< with the state held
@@ -116,7 +118,7 @@ class LeastEffort {
       : hand_(&hand.hand()),
         task_(&task),
         start_(start),
-        meeting_(hand.hand(), start.posture),
+        meeting_(hand.hand()),
         has_skin_on_skin_(contact.skin_on_skin),
         skin_(hand, product, contact, task.friction, start),
         coarse_skin_(hand.coarse().prepared, product, without_touches(contact), task.friction,
@@ -135,7 +137,9 @@ class LeastEffort {
   const Vec3& centre() const { return skin_.centre(); }
 
  private:
-  double lightness() const { return std::max(1.0, task_->model.light_grip / target_); }
+  double lightness() const { return std::max(1.0, task_->model.light_grip * unit() / target_); }
+  /// Of what is measured, per N.
+  double unit() const { return task_->measure == EffortMeasure::kTurn ? kTurnArm : 1.0; }
   ContactForces& forces() { return is_coarse_ ? coarse_skin_ : skin_; }
   bool look(const GripState& state, Look& at);
   void measure(const ContactForces& forces, Look& at) const;
@@ -160,7 +164,7 @@ class LeastEffort {
   double asked_ = 0.0;   ///< grip force, N
   double target_ = 0.0;  ///< of the search under way, N
   double price_ = 1.0;   ///< of what is missing, in the search under way
-  ThumbMeeting meeting_;
+  DigitMeeting meeting_;
   bool has_skin_on_skin_;
   ContactForces skin_, coarse_skin_;
   const hand::SkinSample* coarse_;
@@ -239,11 +243,13 @@ void LeastEffort::measure(const ContactForces& forces, Look& at) const {
   at.measured = at.grip.force;
   at.measured_rate = forces.squeeze_rate();
   if (task_->measure == EffortMeasure::kSqueeze) return;
-  const Vec3 way = at.state.product_from_hand.rotation.conjugate() * task_->push;
-  const Vec3 force = forces.force().segment<3>(kGripJoints);
-  at.measured = way.dot(force);
-  at.measured_rate = -forces.stiffness().middleRows<3>(kGripJoints).transpose() * way;
-  at.measured_rate.tail<3>() += way.cross(force);
+  // Along a direction that goes with the product.
+  const int first = task_->measure == EffortMeasure::kPush ? kGripJoints : kGripJoints + 3;
+  const Vec3 along = at.state.product_from_hand.rotation.conjugate() * task_->along;
+  const Vec3 force = forces.force().segment<3>(first);
+  at.measured = along.dot(force);
+  at.measured_rate = -forces.stiffness().middleRows<3>(first).transpose() * along;
+  at.measured_rate.tail<3>() += along.cross(force);
 }
 
 bool LeastEffort::look(const GripState& state, Look& at) {
@@ -262,6 +268,11 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   at.outside.segment<3>(kGripJoints) += force;
   at.outside.tail<3>() += moment + (hand_from_product.translation - at.centre).cross(force);
   at.wrist_load = hand::wrist_moment(*hand_, force, hand_from_product.translation, moment);
+  if (task_->measure == EffortMeasure::kTurn) {
+    const Vec3 axis = hand_from_product.rotation * task_->along;
+    at.wrist_per_torque = -hand::wrist_moment(*hand_, Vec3::Zero(), Vec3::Zero(), axis);
+    at.wrist_load += at.wrist_per_torque * at.measured;
+  }
   add_muscles(at);
   std::vector<Vec3> posed = forces.posed();
   if (!is_coarse_) {
@@ -277,7 +288,7 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   }
   if (is_coarse_ || !has_skin_on_skin_) {
     at.presses = meeting_.presses(state.posture);
-    for (const ThumbPress& press : at.presses) at.outside += press.force * press.moment;
+    for (const DigitPress& press : at.presses) at.outside += press.force * press.moment;
     at.stiffness += meeting_.stiffness(state.posture);
   }
   return true;
@@ -312,8 +323,15 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.price[kForceRow] = task_->model.squeeze_price;
   // Soft skin that is lightly pressed gives way a lot for little force.
   program.price *= price_ * lightness();
-  const bool stands_fast = task_->measure == EffortMeasure::kPush;
-  if (stands_fast) program.required.segment<6>(kGripJoints).setZero();
+  // What the product stands on or turns carries what isn't asked of the hand.
+  Eigen::Matrix<double, 6, 6> left = Eigen::Matrix<double, 6, 6>::Identity();
+  if (task_->measure == EffortMeasure::kPush) left.setZero();
+  if (task_->measure == EffortMeasure::kTurn) {
+    const Vec3 axis = at.state.product_from_hand.rotation.conjugate() * task_->along;
+    left.bottomRightCorner<3, 3>() -= axis * axis.transpose();
+    program.price[kForceRow] = task_->model.moment_price * price_ * lightness();
+  }
+  program.required.segment<6>(kGripJoints) = left * program.required.segment<6>(kGripJoints);
   for (int j = 0; j < kGripJoints; ++j) {
     if (is_idle_[index_of(grip_finger(j))]) program.required[j] = 0.0;
   }
@@ -323,8 +341,10 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.motion.setZero();
   program.motion.topRows<kGripCoordinates>() = -(at.stiffness + more_stiffness_);
   program.motion.topRows<kGripCoordinates>() += muscle_rate(at);
-  if (stands_fast) program.motion.middleRows<6>(kGripJoints).setZero();
+  program.motion.middleRows<6>(kGripJoints) =
+      (left * program.motion.middleRows<6>(kGripJoints)).eval();
   program.motion.row(kForceRow) = (at.measured_rate + more_rate_).transpose();
+  program.motion.row(kWristRow) = at.wrist_per_torque * program.motion.row(kForceRow);
   for (int j = 0; j < kGripJoints; ++j) {
     if (!is_idle_[index_of(grip_finger(j))]) continue;
     program.motion.row(j).setZero();
@@ -397,14 +417,14 @@ void LeastEffort::finish(const Look& at, EffortRest& rest) const {
   rest.asked = asked_;
   rest.state = at.state;
   rest.grip = at.grip;
-  rest.force = task_->measure == EffortMeasure::kPush ? at.measured : at.grip.force;
+  rest.force = task_->measure == EffortMeasure::kNone ? at.grip.force : at.measured;
   rest.activation = at.effort.activation;
   rest.missing = at.effort.missing.head<kGripCoordinates>();
   rest.strongest_moment = (at.moments * at.effort.activation).lpNorm<Eigen::Infinity>();
   rest.arm = skin_.arm();
   rest.load.wrist = at.wrist_load;
   GripVector load = at.contact;
-  for (const ThumbPress& press : at.presses) load += press.force * press.moment;
+  for (const DigitPress& press : at.presses) load += press.force * press.moment;
   for (int j = 0; j < kGripJoints; ++j) {
     rest.load.digit[j / hand::kDigitDofs][j % hand::kDigitDofs] = load[j];
   }
@@ -449,7 +469,7 @@ bool LeastEffort::pass_a_jump(Look& now, const Descent& how) {
 /// Goes down from a state until steps promise too little.
 void LeastEffort::descend(Look& now, const Descent& how, const Progress& progress,
                           EffortRest& rest) {
-  target_ = std::max(how.level * asked_, how.least);
+  target_ = std::max(how.level * asked_, how.least * unit());
   price_ = how.price;
   judge(now);
   rest.merit.assign(1, now.merit());
@@ -543,9 +563,9 @@ EffortRest LeastEffort::run(const GripState* from, const Progress& progress) {
   held_at_ = now.centre;
   held_point_ = start_.product_from_hand * held_at_;
   if (task_->is_hardest) {
-    asked_ = kTooMuch;
-  } else if (task_->grip_force) {
-    asked_ = *task_->grip_force;
+    asked_ = kTooMuch * unit();
+  } else if (task_->force) {
+    asked_ = *task_->force;
   } else if (skin_.look(start_, kAccuracy)) {
     Look closed;
     closed.state = start_;
@@ -558,6 +578,7 @@ EffortRest LeastEffort::run(const GripState* from, const Progress& progress) {
         asked_ = closed.measured + (task_->friction > 0.0 ? 0.5 * load / task_->friction : 0.0);
         break;
       case EffortMeasure::kPush:
+      case EffortMeasure::kTurn:
         asked_ = closed.measured;
         break;
       case EffortMeasure::kNone:

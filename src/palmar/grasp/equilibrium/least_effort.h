@@ -11,7 +11,7 @@
 #include "palmar/grasp/equilibrium/contact_forces.h"
 #include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/equilibrium/ligaments.h"
-#include "palmar/grasp/equilibrium/thumb_meeting.h"
+#include "palmar/grasp/equilibrium/digit_meeting.h"
 #include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
@@ -37,16 +37,18 @@ struct EffortModel {
 enum class EffortMeasure {
   kSqueeze,  ///< grip_force()
   kPush,     ///< that on the product along a direction; what it stands on carries all else
+  kTurn,     ///< the torque on the product about an axis, N mm; what it turns resists that
   kNone      ///< nothing: hooked fingers carry what pulls at them
 };
 
 /// What a hand is asked to do with what it holds.
 struct EffortTask {
   EffortMeasure measure = EffortMeasure::kSqueeze;
-  Vec3 push = Vec3::UnitZ();         ///< kPush: unit, product frame
-  std::optional<double> grip_force;  ///< N, as `measure` says; unset: as firm as it was
-                                     ///< closed, under a load half of it over mu more
-  bool is_hardest = false;           ///< as hard as `strength` can, whatever `grip_force` says
+  Vec3 along = Vec3::UnitZ();  ///< of a push or turn: unit, product frame
+  /// What is measured, N or N mm; unset: as firm as it was closed, under a load half of it over mu
+  /// more. A turn needs it or `is_hardest`.
+  std::optional<double> force;
+  bool is_hardest = false;  ///< as hard as `strength` can, whatever `force` says
   /// Share with which the gap of each part of the hand counts: 0 where it takes no part in the
   /// hold.
   VolarVector takes_part = VolarVector::Ones();
@@ -66,7 +68,7 @@ struct EffortRest {
   double asked = 0.0;           ///< force that the search was for, N
   GripState state;
   Squeeze grip;
-  double force = 0.0;                       ///< what the task measures, N
+  double force = 0.0;                       ///< what the task measures, N or N mm; else the squeeze
   Eigen::VectorXd activation;               ///< of `strength`: the digits' muscles, the wrist's
   GripVector missing = GripVector::Zero();  ///< to equilibrium, N and N mm
   double strongest_moment = 0.0;            ///< of the muscles about any angle, N mm

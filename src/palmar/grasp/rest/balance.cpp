@@ -52,7 +52,7 @@ VolarVector parts_that_hold(const hand::Hand& hand, const Grasp& grasp) {
 EffortTask task_of(const hand::Hand& hand, const product::Product& product, const Grasp& grasp,
                    const BalanceOptions& options) {
   EffortTask task;
-  task.grip_force = options.asked_grip_force(grasp.grip);
+  task.force = options.asked_grip_force(grasp.grip);
   task.is_hardest = options.activation.has_value();
   task.takes_part = parts_that_hold(hand, grasp);
   task.friction = options.friction;
@@ -62,15 +62,23 @@ EffortTask task_of(const hand::Hand& hand, const product::Product& product, cons
     // What the product stands on carries all but the push, and any load; nothing slides.
     task.measure = EffortMeasure::kPush;
     task.friction = 0.0;
-    task.push = grasp.grip == Grip::kFingerPush && !grasp.fingertips.empty()
-                    ? Vec3(-grasp.fingertips.front().normal)
-                    : Vec3(grasp.product_from_hand.rotation * Vec3::UnitZ());
+    task.along = grasp.grip == Grip::kFingerPush && !grasp.fingertips.empty()
+                     ? Vec3(-grasp.fingertips.front().normal)
+                     : Vec3(grasp.product_from_hand.rotation * Vec3::UnitZ());
     return task;
+  }
+  if (options.turn) {
+    task.measure = EffortMeasure::kTurn;
+    task.along = grasp.grip_axis;
+    task.force = std::abs(*options.turn);
+    if (*options.turn < 0.0) task.along = -task.along;
+    // As people leave it before a slip.
+    task.friction = options.friction / kGripMargin;
   }
   if (options.load.weight > 0.0 || !options.load.force.isZero(0.0) ||
       !options.load.torque.isZero(0.0)) {
     task.load = contact::wrench_of(options.load, geometry::centre_of_volume(product.mesh));
-    if (grasp.grip == Grip::kFixedHook) task.measure = EffortMeasure::kNone;
+    if (grasp.grip == Grip::kFixedHook && !options.turn) task.measure = EffortMeasure::kNone;
   }
   return task;
 }
@@ -98,12 +106,14 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   grasp.posture = rest.state.posture;
   grasp.product_from_hand = rest.state.product_from_hand;
   balance.friction = task.friction;
-  balance.grip_force = rest.force;
+  const bool turns = task.measure == EffortMeasure::kTurn;
+  balance.grip_force = turns ? rest.grip.force : rest.force;
+  if (turns) balance.turn = std::copysign(rest.force, *options.turn);
   balance.sum_of_normals = rest.grip.sum_of_normals;
   balance.residual_force = rest.missing.segment<3>(kGripJoints).norm();
   balance.residual_moment = rest.missing.tail<3>().norm();
   balance.residual_share =
-      std::max(balance.residual_force, balance.residual_moment / rest.arm) / rest.force;
+      std::max(balance.residual_force, balance.residual_moment / rest.arm) / balance.grip_force;
   balance.friction_use = rest.friction_use;
   balance.friction_force = rest.friction_force;
   balance.moved = rest.moved;
@@ -112,9 +122,9 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   balance.joint_load = rest.load;
 
   const double at_joints = rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>();
-  const double allowed = std::max(kBalanced, task.model.nothing / rest.force);
-  const double asked = task.grip_force.value_or(rest.force);
-  if (!task.is_hardest && rest.force < kLost * asked) {
+  const double allowed = std::max(kBalanced, task.model.nothing / balance.grip_force);
+  const double asked = task.force.value_or(rest.force);
+  if (!task.is_hardest && !turns && rest.force < kLost * asked) {
     balance.status = BalanceStatus::kSlipsOut;
     balance.message = fmt::format(
         "slips out: {:.1f} N are left of the {:.0f} N that were requested", rest.force, asked);
@@ -133,16 +143,20 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
                       grasp.grip == Grip::kFingerPush ? "is pushed" : "is rested on", rest.force);
     } else {
       balance.status = BalanceStatus::kBalanced;
-      balance.message = fmt::format("in balance at a grip force of {:.0f} N", rest.force);
+      balance.message =
+          turns ? fmt::format("turns it with {:.1f} N m at a grip force of {:.0f} N",
+                              1e-3 * *balance.turn, balance.grip_force)
+                : fmt::format("in balance at a grip force of {:.0f} N", balance.grip_force);
     }
     if (!task.is_hardest && std::abs(rest.force / asked - 1.0) > kLevelSaid) {
-      balance.message +=
-          fmt::format("; {:.0f} N were requested, which the hand doesn't reach", asked);
+      balance.message += fmt::format(
+          "; {} were requested, which the hand doesn't reach",
+          turns ? fmt::format("{:.1f} N m", 1e-3 * asked) : fmt::format("{:.0f} N", asked));
     }
     return balance;
   }
   balance.status = BalanceStatus::kSlipsOut;
-  if (balance.residual_force >= allowed * rest.force) {
+  if (balance.residual_force >= allowed * balance.grip_force) {
     // What is missing is what would have to push the product back.
     balance.slip = -rest.missing.segment<3>(kGripJoints).normalized();
     balance.message = fmt::format("slips out, towards {}: {:.1f} N and {:.0f} N mm are missing",
@@ -156,7 +170,7 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
         "slips out: the muscles lack {:.0f} N mm about a joint of a finger or the thumb",
         at_joints);
   }
-  balance.message += fmt::format(" at a grip force of {:.0f} N", rest.force);
+  balance.message += fmt::format(" at a grip force of {:.0f} N", balance.grip_force);
   return balance;
 }
 

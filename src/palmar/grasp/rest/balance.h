@@ -37,12 +37,16 @@ struct BalanceOptions {
   /// 2012, Tribol Lett 45:1-27: mean 0.46, SD 0.15).
   double friction = 0.5;
   contact::ProductLoad load;  ///< weight and further forces; none by default
-  // How firmly; at most one of the three. None: as firm as it was closed.
+  // How firmly; at most one of the four. None: as firm as it was closed.
   std::optional<double> grip_force;  ///< N, as grip_force()
   std::optional<ShareOfStrength> share_of_strength;
   /// With what the load asks for, and the margin that people leave before a slip
   /// (holding_grip_force()); without a load or friction as firm as it was closed.
   bool holds_load = false;
+  /// The product is turned about the grip axis with that torque [N mm], right-handed about the axis
+  /// towards the thumb's side; the grip force is what that takes with people's margin before a slip
+  /// (kGripMargin). With `activation` as hard as the hand can, in the sense of its sign.
+  std::optional<double> turn;
   /// Instead of a grip force: as hard as a power grip can with no muscle above this activation, 0
   /// to `strength`. 1 with `strength` 1: as hard as the hand can.
   std::optional<double> activation;
@@ -72,11 +76,12 @@ std::string_view name_of(BalanceStatus status);  ///< "balanced", "slips_out", .
 /// How a grasp came to rest.
 struct Balance {
   BalanceStatus status = BalanceStatus::kOff;
-  std::string message;           ///< one sentence for people
-  double friction = 0.0;         ///< coefficient that was used
-  double grip_force = 0.0;       ///< N, across the plane of largest squeeze
-  double sum_of_normals = 0.0;   ///< N
-  double residual_force = 0.0;   ///< N; what the forces on the product add up to, load included
+  std::string message;          ///< one sentence for people
+  double friction = 0.0;        ///< coefficient that was used
+  double grip_force = 0.0;      ///< N, across the plane of largest squeeze
+  double sum_of_normals = 0.0;  ///< N
+  std::optional<double> turn;   ///< torque that the hand turns it with, N mm; where it was asked to
+  double residual_force = 0.0;  ///< N; what the forces on the product add up to, load included
   double residual_moment = 0.0;  ///< N mm, about the centre of contact
   double residual_share = 0.0;   ///< the larger of force / grip force, moment / (grip force arm)
   double friction_use = 0.0;     ///< sum of tangential forces over the most they could be

@@ -2,12 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "palmar/core/error.h"
 #include "palmar/grasp/rest/balance.h"
 
 namespace palmar::grasp {
+namespace {
+
+constexpr double kMostTorque = 5e4;  // N mm; no hand turns a handle that hard
+
+}  // namespace
 std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
-  if (!is_on || grip == Grip::kFixedHook) return std::nullopt;
+  if (!is_on || grip == Grip::kFixedHook || turn) return std::nullopt;
   if (is_laid(grip)) return grip_force.value_or(kRestingForce);
   if (holds_load) {
     const double needed =
@@ -24,6 +31,10 @@ std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
 
 std::string BalanceOptions::asked_words(Grip grip) const {
   if (!is_on) return "as the hand was closed to the limit depths";
+  if (turn) {
+    return fmt::format("what turning it with {:g} N m takes, with {:g} times what friction needs",
+                       1e-3 * *turn, kGripMargin);
+  }
   if (grip == Grip::kFixedHook) return "hooked fingers carry and don't squeeze";
   if (is_laid(grip) && !grip_force) {
     return "the weight of a hand and its share of the forearm's (Winter 2009)";
@@ -55,6 +66,15 @@ void BalanceOptions::check() const {
   }
   if (holds_load && (grip_force || share_of_strength || activation)) {
     throw UsageError("balance: it is asked to hold its load, and how firmly; one is allowed");
+  }
+  if (turn && (holds_load || grip_force || share_of_strength)) {
+    throw UsageError("balance: it is asked to turn, and how firmly; one is allowed");
+  }
+  if (turn && !(std::abs(*turn) > 0.0 && std::abs(*turn) <= kMostTorque)) {
+    throw UsageError(
+        fmt::format("balance: turn is {:g} N mm; not 0, and at most {:g} N mm either "
+                    "way, is allowed",
+                    *turn, kMostTorque));
   }
   if (grip_force && share_of_strength) {
     throw UsageError("balance: grip force and share of strength are both given; one is allowed");

@@ -46,6 +46,16 @@ void RestSettings::check() const {
                     : grip_force ? "grip force"
                                  : "strength share"));
   }
+  if (turn && (holds_load || limit_depths || grip_force || strength_share || !is_balanced)) {
+    throw UsageError(
+        fmt::format("setting \"turn\" asks for what the torque takes, and setting \"{}\" says how "
+                    "firmly to grip; one is allowed",
+                    holds_load     ? "task"
+                    : limit_depths ? "limit depths"
+                    : grip_force   ? "grip force"
+                    : !is_balanced ? "no balance"
+                                   : "strength share"));
+  }
   if (holds_load && !is_balanced) {
     throw UsageError(
         "setting \"no balance\" keeps the hand at its limit depths; it can't hold a load with it");
@@ -85,6 +95,7 @@ BalanceOptions RestSettings::options(std::optional<double> friction,
   BalanceOptions result;
   result.is_on = is_balanced;
   result.holds_load = holds_load;
+  if (turn) result.turn = 1e3 * *turn;
   result.friction = friction.value_or(kUsualFriction);
   result.grip_force = grip_force;
   if (strength_share) {

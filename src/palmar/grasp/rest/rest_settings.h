@@ -22,10 +22,13 @@ struct PersonOfAge {
 struct RestSettings {
   /// Off: the hand stays as it was closed to the limit depths, forces out of balance (Xie 2014).
   bool is_balanced = true;
-  // How firmly; at most one of the four. None: usual_share(), the same for all designs and hands
+  // How firmly; at most one of the five. None: usual_share(), the same for all designs and hands
   // of a comparison.
   /// With what each product's own load asks for (holding_grip_force()).
   bool holds_load = false;
+  /// Torque about the grip axis that the product is turned with, N m; right-handed about the axis
+  /// towards the thumb's side.
+  std::optional<double> turn;
   /// As firm as closing to the limit depths made it, under a load a little more.
   bool limit_depths = false;
   std::optional<double> grip_force;      ///< N, as a dynamometer reads it
@@ -36,7 +39,7 @@ struct RestSettings {
 
   /// Nothing is said about how firmly.
   bool is_usual() const {
-    return is_balanced && !holds_load && !limit_depths && !grip_force && !strength_share;
+    return is_balanced && !holds_load && !turn && !limit_depths && !grip_force && !strength_share;
   }
   /// Throws UsageError: setting, value, what is allowed.
   void check() const;

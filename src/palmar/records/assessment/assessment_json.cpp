@@ -292,6 +292,7 @@ Json balance_object(const grasp::Balance& balance) {
           {"friction_coefficient", balance.friction},
           {"grip_force_n", balance.grip_force},
           {"sum_of_normal_forces_n", balance.sum_of_normals},
+          {"turn_n_m", balance.turn ? Json(1e-3 * *balance.turn) : Json(nullptr)},
           {"residual_force_n", balance.residual_force},
           {"residual_moment_n_mm", balance.residual_moment},
           {"residual_over_grip_force", balance.residual_share},

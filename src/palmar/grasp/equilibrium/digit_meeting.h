@@ -9,32 +9,31 @@
 
 namespace palmar::grasp {
 
-/// A place along the thumb that lies in the flesh of a finger's phalanx, and both press on each
-/// other with one force. It does nothing to the product.
-struct ThumbPress {
-  hand::Finger finger{};
-  double overlap = 0.0;                    ///< of their flesh beyond that at the start, mm
+/// A place along a digit's phalanx that lies in the flesh of another digit's, and both press on
+/// each other with one force. It does nothing to the product.
+struct DigitPress {
+  double overlap = 0.0;                    ///< of their flesh beyond that of the open hand, mm
   double force = 0.0;                      ///< N
   double stiffness = 0.0;                  ///< of force against overlap, N/mm
   GripVector moment = GripVector::Zero();  ///< of 1 N of it about the angles, mm
 };
 
-/// Where the thumb meets fingers while a grasp comes to rest. At each of five places along a
-/// phalanx of the thumb flesh that overlaps with a finger's by D beyond what it did at the start
-/// pushes the bones apart with
+/// Where digits meet while a grasp comes to rest: the thumb any finger, and fingers their
+/// neighbours. At each of five places along a phalanx of the first, flesh that overlaps with the
+/// other's by D beyond what it does in the open hand, where webs join, pushes the bones apart with
 ///
 ///     N = 1 N (D / 4 mm)^4.
 ///
 /// A fingertip pressed 2 mm deep gives 1.5 to 2.5 N (thesis band, ball of 7 mm); two of them, 2 mm
 /// each, make D = 4 mm, at some two of the places. The power is our choice: bones don't pass each
 /// other. Places, and not the nearest points of two bones, which jump where these are parallel.
-class ThumbMeeting {
+class DigitMeeting {
  public:
   /// Keeps a reference to the hand.
-  ThumbMeeting(const hand::Hand& hand, const hand::Posture& start);
+  explicit DigitMeeting(const hand::Hand& hand);
 
   /// Of all places that overlap.
-  std::vector<ThumbPress> presses(const hand::Posture& posture) const;
+  std::vector<DigitPress> presses(const hand::Posture& posture) const;
 
   /// How the moments of all presses [N mm] change with the angles, N mm/rad: the loss per angle
   /// (columns), with the presses' own way of turning.
@@ -42,9 +41,9 @@ class ThumbMeeting {
 
  private:
   struct Place {
-    std::size_t thumb = 0, finger = 0;  ///< of the cones
-    double along = 0.0;                 ///< the thumb's cone
-    double at_start = 0.0;              ///< overlap, at least 0, mm
+    std::size_t first = 0, second = 0;  ///< of the cones
+    double along = 0.0;                 ///< the first cone
+    double open = 0.0;                  ///< overlap in the open hand, at least 0, mm
   };
 
   const hand::Hand* hand_;
