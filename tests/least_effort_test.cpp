@@ -8,15 +8,18 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 
 #include "palmar/contact/contact_normals.h"
 #include "palmar/contact/prepared/coarse_hand.h"
 #include "palmar/core/enum_index.h"
+#include "palmar/geometry/distance/mesh_distance.h"
 #include "palmar/grasp/equilibrium/nearby_rests.h"
 #include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/grasp/find/find_grasp.h"
+#include "palmar/grasp/rest/balance.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/tendons/joint_limits.h"
 #include "palmar/product/primitives.h"
@@ -324,6 +327,38 @@ TEST_F(LeastEffort, ASecondRestIsNamedWhereThereIsOne) {
     EXPECT_LT(there.force().segment<3>(grasp::kGripJoints).norm(), 1.1);
   }
   EXPECT_GT(named, 0);
+}
+
+// An ellipse of the girth of a circle is turned by its form, too, and not by friction alone.
+TEST_F(LeastEffort, AnEllipticHandleTurnsHarderThanARoundOneOfItsGirth) {
+  const contact::PreparedHand& hand = hand_on_bone();
+  struct Turned {
+    double grip = 0.0, sum = 0.0, torque = 0.0;
+  };
+  // Semi-axes of 25 and 16.6 mm have the girth of a circle of 21 mm, 132 mm.
+  const auto turned = [&](double a, double b, double torque) {
+    product::Product handle = cylinder(42.0);
+    for (Vec3& v : handle.mesh.vertices) v = Vec3(v.x() * a / 21.0, v.y() * b / 21.0, v.z());
+    handle.distance = std::make_shared<geometry::MeshDistance>(handle.mesh);
+    grasp::Grasp grasp = grasp::close_power_grasp(hand.hand(), handle);
+    grasp::BalanceOptions options;
+    options.turn = torque;
+    const grasp::Balance rest = grasp::balance_grasp(hand, handle, grasp, options);
+    EXPECT_EQ(rest.status, grasp::BalanceStatus::kBalanced) << rest.message;
+    return Turned{rest.grip_force, rest.sum_of_normals, rest.turn.value_or(0.0)};
+  };
+  constexpr double kTorque = 1500.0;  // N mm
+  const Turned round = turned(21.0, 21.0, kTorque), oval = turned(25.0, 16.6, kTorque);
+  EXPECT_NEAR(round.torque, kTorque, 0.01 * kTorque);
+  EXPECT_NEAR(oval.torque, kTorque, 0.01 * kTorque);
+  // What Coulomb asks of a round bar.
+  EXPECT_GT(round.sum, kTorque / (0.5 / grasp::kGripMargin * 21.0));
+  EXPECT_LT(oval.grip, 0.95 * round.grip);
+  constexpr double kTooMuch = 9000.0;
+  const double most_round = turned(21.0, 21.0, kTooMuch).torque;
+  EXPECT_GT(turned(25.0, 16.6, kTooMuch).torque, 1.2 * most_round);
+  EXPECT_GT(most_round, 1500.0);
+  EXPECT_LT(most_round, 6000.0);
 }
 
 // What is searched on first: near enough that the whole skin finds its rest in a few steps.

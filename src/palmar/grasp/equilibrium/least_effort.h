@@ -73,7 +73,7 @@ struct EffortRest {
   GripVector missing = GripVector::Zero();  ///< to equilibrium, N and N mm
   double strongest_moment = 0.0;            ///< of the muscles about any angle, N mm
   double arm = 1.0;                         ///< of the contact forces about their centre, mm
-  /// Moments about the angles of the digits of contact, friction and of thumb and fingers on each
+  /// Moments about the angles of the digits of contact, friction and of digits on each
   /// other, and of the task's load about the wrist.
   hand::HandLoad load;
   double share = 0.0;        ///< least share of `strength` that holds it so

@@ -131,7 +131,10 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
     return balance;
   }
   if (balance.residual_share < allowed && at_joints < kJointSaid * rest.strongest_moment) {
-    balance.strength_use = rest.share * task.strength / options.strength;
+    // Of light holds by some parts of the hand it would be what it takes to keep the posture.
+    if (task.takes_part.minCoeff() > 0.0) {
+      balance.strength_use = rest.share * task.strength / options.strength;
+    }
     if (options.looks_nearby) {
       balance.nearby = std::make_shared<const NearbyRests>(
           nearby_rests(hand, product, rest, task, contact, progress));

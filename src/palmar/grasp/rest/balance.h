@@ -29,6 +29,9 @@ namespace palmar::grasp {
 /// (choices).
 inline constexpr double kRestingForce = 8.2;
 
+/// Largest torque that may be asked for, N mm: no hand turns a handle that hard.
+inline constexpr double kMostTurn = 5e4;
+
 struct NearbyRests;
 
 struct BalanceOptions {

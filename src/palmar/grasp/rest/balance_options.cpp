@@ -8,11 +8,7 @@
 #include "palmar/grasp/rest/balance.h"
 
 namespace palmar::grasp {
-namespace {
 
-constexpr double kMostTorque = 5e4;  // N mm; no hand turns a handle that hard
-
-}  // namespace
 std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
   if (!is_on || grip == Grip::kFixedHook || turn) return std::nullopt;
   if (is_laid(grip)) return grip_force.value_or(kRestingForce);
@@ -70,11 +66,11 @@ void BalanceOptions::check() const {
   if (turn && (holds_load || grip_force || share_of_strength)) {
     throw UsageError("balance: it is asked to turn, and how firmly; one is allowed");
   }
-  if (turn && !(std::abs(*turn) > 0.0 && std::abs(*turn) <= kMostTorque)) {
+  if (turn && !(std::abs(*turn) > 0.0 && std::abs(*turn) <= kMostTurn)) {
     throw UsageError(
         fmt::format("balance: turn is {:g} N mm; not 0, and at most {:g} N mm either "
                     "way, is allowed",
-                    *turn, kMostTorque));
+                    *turn, kMostTurn));
   }
   if (grip_force && share_of_strength) {
     throw UsageError("balance: grip force and share of strength are both given; one is allowed");

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "palmar/core/error.h"
@@ -55,6 +56,12 @@ void RestSettings::check() const {
                     : grip_force   ? "grip force"
                     : !is_balanced ? "no balance"
                                    : "strength share"));
+  }
+  if (turn && !(std::abs(*turn) > 0.0 && std::abs(*turn) <= 1e-3 * kMostTurn)) {
+    throw UsageError(
+        fmt::format("setting \"turn\" is {:g} N m; not 0, and at most {:g} N m either "
+                    "way, is allowed",
+                    *turn, 1e-3 * kMostTurn));
   }
   if (holds_load && !is_balanced) {
     throw UsageError(

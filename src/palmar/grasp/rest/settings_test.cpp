@@ -164,6 +164,13 @@ TEST(RestSettings, AHeldLoadExcludesWhatElseSaysHowFirmly) {
               HasSubstr("\"limit depths\" says how firmly to grip"));
   EXPECT_THAT(refusal(RestSettings{.holds_load = true, .grip_force = 40.0}),
               HasSubstr("\"grip force\" says how firmly to grip"));
+  EXPECT_THAT(refusal(RestSettings{.holds_load = true, .turn = 2.0}),
+              HasSubstr("setting \"turn\" asks for what the torque takes, and setting \"task\""));
+  EXPECT_THAT(refusal(RestSettings{.turn = 2.0, .grip_force = 40.0}),
+              HasSubstr("setting \"grip force\" says how firmly to grip"));
+  EXPECT_THAT(refusal(RestSettings{.turn = 60.0}),
+              HasSubstr("setting \"turn\" is 60 N m; not 0, and at most 50 N m either way"));
+  EXPECT_NEAR(*RestSettings{.turn = -2.0}.options({}).turn, -2000.0, 1e-9);
   EXPECT_THAT(refusal(RestSettings{.is_balanced = false, .holds_load = true}),
               HasSubstr("\"no balance\""));
 }
