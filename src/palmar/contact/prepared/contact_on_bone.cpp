@@ -16,7 +16,6 @@ namespace palmar::contact {
 namespace {
 
 constexpr int kMostRounds = 60;
-constexpr double kNoDirection = 1e-3;       // of a vertex' area; skin that faces nothing
 constexpr double kSteadyStiffening = 1e-5;  // relative change of a block's modulus, for results
 // Accuracy of the solutions on the way, per relative change of the moduli: the last one's; in the
 // end; and at most, from nothing or from another posture.
@@ -62,7 +61,7 @@ Vec3 ContactSolver::Impl::pressed_along(const SkinOnProduct& skin, int v) const 
     const double near = std::clamp(1.0 - skin.sample[w].distance / kPressedNear, 0.0, 1.0);
     if (near > 0.0) sum += near * facing(w);
   }
-  return sum.isZero(kNoDirection * surface.area[v]) ? skin.facing[v] : sum.normalized();
+  return sum.isZero(0.0) ? skin.facing[v] : sum.normalized();
 }
 
 /// The directions in which the product presses the skin, turned back with it.

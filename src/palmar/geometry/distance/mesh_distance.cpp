@@ -21,10 +21,8 @@ namespace palmar::geometry {
 namespace {
 
 constexpr double kOnSurface = 1e-7;  // mm; below, (q - x) / d is rounding
-// Cosines: triangles turned against each other by less are facets of one smooth surface; by more
-// they meet at an edge.
-constexpr double kFacet = 0.866, kEdge = 0.707;
-constexpr int kChunk = 1024;  // points that one thread takes at a time
+constexpr double kEdge = 0.707;      // cosine of the angle from which on triangles meet at an edge
+constexpr int kChunk = 1024;         // points that one thread takes at a time
 
 /// For every vertex the smallest vertex at exactly the same place.
 std::vector<int> same_place(const std::vector<Vec3>& vertices) {
@@ -51,7 +49,7 @@ struct Side {
 };
 
 /// 1 for facets of one smooth surface, 0 across an edge.
-double belongs(double cosine) { return smooth_step((cosine - kEdge) / (kFacet - kEdge)); }
+double belongs(double cosine) { return smooth_step((cosine - kEdge) / (1.0 - kEdge)); }
 
 struct Surface {
   std::vector<Triangle> triangles;  ///< corners with same_place() applied

@@ -10,8 +10,8 @@
 #include "palmar/core/progress.h"
 #include "palmar/grasp/equilibrium/contact_forces.h"
 #include "palmar/grasp/equilibrium/coordinates.h"
-#include "palmar/grasp/equilibrium/ligaments.h"
 #include "palmar/grasp/equilibrium/digit_meeting.h"
+#include "palmar/grasp/equilibrium/ligaments.h"
 #include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
