@@ -401,7 +401,7 @@ TEST_F(LeastEffort, RatesOfTheGapsAreTheirSlopes) {
 // What thumb and fingers do to each other has an energy, sum N D / 5 for N that grows with the
 // fourth power of D: moments are its slopes, stiffness theirs.
 TEST_F(LeastEffort, DigitsThatMeetPressLikeSomethingElastic) {
-  const grasp::DigitMeeting meeting(hand());
+  const grasp::DigitMeeting meeting(hand(), hand::reference_posture(hand().skeleton));
   hand::Posture met = closed().posture;
   for (int k = 0; k < hand::kDigitDofs; ++k) {
     const hand::JointDof& dof = hand().skeleton.dof(grasp::grip_dof(k));

@@ -55,6 +55,7 @@ export function assessment(): Assessment {
       segments: [{ segment: "palm", stopped_by: "limit_depth", penetration_mm: 6.9 }],
       fingertips: [], score: 1, candidates: 1, runners_up: [],
     },
+    certainty: null,
     balance: { status: "off", message: "" },
     contact: {
       ...totals(12.3456789, 345, 1.2, 0.06), status: "solved", message: "", grip_force_n: 5.4321, complementarity_error_n_mm: 0,

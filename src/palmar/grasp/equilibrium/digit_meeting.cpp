@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "palmar/core/enum_index.h"
-#include "palmar/hand/posture.h"
 
 namespace palmar::grasp {
 namespace {
@@ -26,9 +25,9 @@ double overlap_at(const RoundCone& first, double along, const RoundCone& second)
 
 }  // namespace
 
-DigitMeeting::DigitMeeting(const hand::Hand& hand) : hand_(&hand), cones_(hand) {
-  const std::vector<RoundCone> cones =
-      cones_.posed(hand.skeleton, hand::reference_posture(hand.skeleton));
+DigitMeeting::DigitMeeting(const hand::Hand& hand, const hand::Posture& apart)
+    : hand_(&hand), cones_(hand) {
+  const std::vector<RoundCone> cones = cones_.posed(hand.skeleton, apart);
   const auto meet = [](hand::Finger a, hand::Finger b) {
     return a == hand::Finger::kThumb ? b != a : index_of(b) == index_of(a) + 1;
   };
@@ -59,7 +58,7 @@ std::vector<DigitPress> DigitMeeting::presses(const hand::Posture& posture) cons
   };
   for (const Place& place : places_) {
     const RoundCone &first = cones[place.first], &second = cones[place.second];
-    const double more = overlap_at(first, place.along, second) - place.open;
+    const double more = overlap_at(first, place.along, second) - place.apart;
     if (more <= 0.0) continue;
     DigitPress press{.overlap = more};
     press.force = kPulpForce * std::pow(more / kPulps, kPulpPower);

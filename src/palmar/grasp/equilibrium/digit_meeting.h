@@ -12,7 +12,7 @@ namespace palmar::grasp {
 /// A place along a digit's phalanx that lies in the flesh of another digit's, and both press on
 /// each other with one force. It does nothing to the product.
 struct DigitPress {
-  double overlap = 0.0;                    ///< of their flesh beyond that of the open hand, mm
+  double overlap = 0.0;                    ///< of their flesh beyond that where they are apart, mm
   double force = 0.0;                      ///< N
   double stiffness = 0.0;                  ///< of force against overlap, N/mm
   GripVector moment = GripVector::Zero();  ///< of 1 N of it about the angles, mm
@@ -20,7 +20,7 @@ struct DigitPress {
 
 /// Where digits meet while a grasp comes to rest: the thumb any finger, and fingers their
 /// neighbours. At each of five places along a phalanx of the first, flesh that overlaps with the
-/// other's by D beyond what it does in the open hand, where webs join, pushes the bones apart with
+/// other's by D beyond what it does where digits are apart pushes the bones apart with
 ///
 ///     N = 1 N (D / 4 mm)^4.
 ///
@@ -29,8 +29,8 @@ struct DigitPress {
 /// other. Places, and not the nearest points of two bones, which jump where these are parallel.
 class DigitMeeting {
  public:
-  /// Keeps a reference to the hand.
-  explicit DigitMeeting(const hand::Hand& hand);
+  /// `apart`: the posture whose overlaps count as none. Keeps a reference to the hand.
+  DigitMeeting(const hand::Hand& hand, const hand::Posture& apart);
 
   /// Of all places that overlap.
   std::vector<DigitPress> presses(const hand::Posture& posture) const;
@@ -43,7 +43,7 @@ class DigitMeeting {
   struct Place {
     std::size_t first = 0, second = 0;  ///< of the cones
     double along = 0.0;                 ///< the first cone
-    double open = 0.0;                  ///< overlap in the open hand, at least 0, mm
+    double apart = 0.0;                 ///< overlap that counts as none, mm
   };
 
   const hand::Hand* hand_;

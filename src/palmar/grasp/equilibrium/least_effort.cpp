@@ -65,6 +65,13 @@ GripVector spread(const EffortModel& model) {
   return s;
 }
 
+/// Where digits are apart: in the open hand, where webs join; of fingertips, that are put beside
+/// each other, as they were put.
+hand::Posture apart(const hand::Hand& hand, const GripState& start, const EffortTask& task) {
+  const bool is_whole_hand = task.takes_part.minCoeff() > 0.0;
+  return is_whole_hand ? hand::reference_posture(hand.skeleton) : start.posture;
+}
+
 /// The digits of which no phalanx takes part.
 std::array<bool, hand::kFingerCount> idle_digits(const VolarVector& takes_part) {
   std::array<bool, hand::kFingerCount> is_idle;
@@ -118,7 +125,7 @@ class LeastEffort {
       : hand_(&hand.hand()),
         task_(&task),
         start_(start),
-        meeting_(hand.hand()),
+        meeting_(hand.hand(), apart(hand.hand(), start, task)),
         has_skin_on_skin_(contact.skin_on_skin),
         skin_(hand, product, contact, task.friction, start),
         coarse_skin_(hand.coarse().prepared, product, without_touches(contact), task.friction,
