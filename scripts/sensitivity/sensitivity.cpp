@@ -279,7 +279,7 @@ Json Holds::hold() {
   for (Held& held : held_) {
     held.closed = close(held);
     held.closed = close(held);  // in the hold that was found
-    held.effort.grip_force = held.task.force;
+    held.effort.force = held.task.force;
     held.effort.takes_part = parts_that_hold(*hand_, held.task.grip);
     held.ranking = rank(held);
     grasp::Grasp at_rest = held.closed;
