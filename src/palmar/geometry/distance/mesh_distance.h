@@ -36,8 +36,8 @@ class MeshDistance : public DistanceField {
   bool is_lipschitz() const override { return is_closed(); }
   /// Interpolated over the triangle between its corners; at a corner the mean of the triangles that
   /// meet there, by their angle and by how little they are turned against this one: not at all
-  /// from 45 degrees on, where an edge is meant (our choice). The gradient where it differs from the
-  /// triangle's normal as much.
+  /// from 45 degrees on, where an edge is meant (our choice). The gradient where it differs from
+  /// the triangle's normal as much.
   Vec3 smooth_normal(const DistanceSample& sample) const override;
 
   /// Whether every edge is used equally often in both directions (corners at the same place count
