@@ -142,8 +142,8 @@ TEST_F(PrecisionThings, AreHeldAtRestAtForcesThatPeopleUse) {
     EXPECT_EQ(held.balance.status, grasp::BalanceStatus::kBalanced) << held.balance.message;
     EXPECT_NEAR(held.balance.grip_force, thing.force, 0.01 * thing.force);
     for (const grasp::FingertipContact& tip : held.grasp.fingertips) {
-      // Even shares among the fingers against the thumb would be a quarter at least; of the cube the
-      // index finger has 6 % (docs/method/equilibrium.md).
+      // Even shares among the fingers against the thumb would be a quarter at least; of the cube
+      // the index finger has 6 % (docs/method/equilibrium.md).
       EXPECT_GT(held.force_of(tip.finger, hand()), 0.05 * thing.force) << name_of(tip.finger);
     }
     // No farther than people vary in where they take a thing: two standard deviations.
