@@ -14,6 +14,7 @@ namespace {
 constexpr double kPulps = 4.0, kPulpForce = 1.0;  // mm, N
 constexpr double kPulpPower = 4.0;
 constexpr std::array kAlong{0.1, 0.3, 0.5, 0.7, 0.9};  // a phalanx
+constexpr int kFingertip = 3;                          // its level
 constexpr double kStep = 1e-4;                         // rad; of differences
 
 Vec3 place_on(const RoundCone& cone, double along) { return cone.a + along * (cone.b - cone.a); }
@@ -28,13 +29,15 @@ double overlap_at(const RoundCone& first, double along, const RoundCone& second)
 DigitMeeting::DigitMeeting(const hand::Hand& hand, const hand::Posture& apart)
     : hand_(&hand), cones_(hand) {
   const std::vector<RoundCone> cones = cones_.posed(hand.skeleton, apart);
-  const auto meet = [](hand::Finger a, hand::Finger b) {
-    return a == hand::Finger::kThumb ? b != a : index_of(b) == index_of(a) + 1;
+  const auto meet = [](const RoundCone& a, const RoundCone& b) {
+    const bool is_thumb = a.finger == hand::Finger::kThumb;
+    if (a.level == 0) return false;
+    if (b.level == 0) return !is_thumb && a.level == kFingertip;
+    return is_thumb ? b.finger != a.finger : index_of(b.finger) == index_of(a.finger) + 1;
   };
   for (std::size_t a = 0; a < cones.size(); ++a) {
     for (std::size_t b = 0; b < cones.size(); ++b) {
-      if (cones[a].level == 0 || cones[b].level == 0) continue;
-      if (!meet(cones[a].finger, cones[b].finger)) continue;
+      if (!meet(cones[a], cones[b])) continue;
       for (const double along : kAlong) {
         places_.push_back({a, b, along, std::max(0.0, overlap_at(cones[a], along, cones[b]))});
       }
@@ -48,6 +51,7 @@ std::vector<DigitPress> DigitMeeting::presses(const hand::Posture& posture) cons
   std::array<std::optional<hand::PosedDigit>, hand::kFingerCount> digit;
   const auto add_moments = [&](const RoundCone& cone, const Vec3& at, const Vec3& push,
                                DigitPress& press) {
+    if (cone.level == 0 && cone.finger != hand::Finger::kThumb) return;  // the palm stands fast
     const std::size_t f = index_of(cone.finger);
     if (!digit[f]) digit[f] = hand::pose_digit(hand_->skeleton, cone.finger, posture);
     for (int k = 0; k < hand::kDigitDofs; ++k) {

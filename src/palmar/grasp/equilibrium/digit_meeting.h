@@ -9,8 +9,8 @@
 
 namespace palmar::grasp {
 
-/// A place along a digit's phalanx that lies in the flesh of another digit's, and both press on
-/// each other with one force. It does nothing to the product.
+/// A place along a digit's phalanx that lies in the flesh of another digit's or of the palm; both
+/// press on each other with one force. It does nothing to the product.
 struct DigitPress {
   double overlap = 0.0;                    ///< of their flesh beyond that where they are apart, mm
   double force = 0.0;                      ///< N
@@ -18,9 +18,10 @@ struct DigitPress {
   GripVector moment = GripVector::Zero();  ///< of 1 N of it about the angles, mm
 };
 
-/// Where digits meet while a grasp comes to rest: the thumb any finger, and fingers their
-/// neighbours. At each of five places along a phalanx of the first, flesh that overlaps with the
-/// other's by D beyond what it does where digits are apart pushes the bones apart with
+/// Where digits meet while a grasp comes to rest: the thumb any finger, fingers their neighbours,
+/// and fingertips the palm and the ball of the thumb. At each of five places along a phalanx of the
+/// first, flesh that overlaps with the other's by D beyond what it does where digits are apart
+/// pushes the bones apart with
 ///
 ///     N = 1 N (D / 4 mm)^4.
 ///
