@@ -152,10 +152,10 @@ EffortResult assess_effort(const hand::Hand& hand, const hand::Posture& posture,
   options.check();
   const hand::HandMuscles muscles(hand, {.tendons = options.tendons,
                                          .specific_tension = options.specific_tension,
+                                         .has_passive = at_rest != nullptr,
                                          .stops = {.is_on = options.joint_stops,
                                                    .tight_mcp_flexion = options.tight_mcp_flexion,
                                                    .margin = options.stop_margin},
-                                         .has_passive = at_rest != nullptr,
                                          .wrist = options.wrist});
   std::array<DigitMoments, hand::kFingerCount> external;
   double largest = 0.0;

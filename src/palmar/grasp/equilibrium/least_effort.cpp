@@ -27,6 +27,8 @@ struct Descent {
 constexpr Descent kOnCoarseSkin[] = {{0.6, 30.0, 30, 2e-2, 10.0, 1.0 / 3.0},
                                      {1.0, 0.0, 30, 1e-2, 1.0, 1.0}};
 constexpr Descent kOnSkin{1.0, 0.0, 60, 5e-3, 1.0, 1.0};
+// What is missing may cost less than what E asks for to have it: once more, for that much more.
+constexpr Descent kInNeed{1.0, 0.0, 40, 5e-3, 100.0, 8.0};
 // Fingertips lose a small thing by less of a way than a whole hand.
 constexpr Descent kWithFingertips[] = {{1.0, 0.0, 40, 1e-2, 100.0, 0.1},
                                        {1.0, 0.0, 60, 5e-3, 100.0, 1.0}};
@@ -132,7 +134,7 @@ class LeastEffort {
                      start),
         coarse_(&hand.coarse().sample),
         gaps_(hand, product),
-        muscles_(hand.hand(), {.wrist = task.wrist}),
+        muscles_(hand.hand(), {.ligaments = task.model.ligaments, .wrist = task.wrist}),
         weight_(spread(task.model).cwiseAbs2().cwiseInverse()),
         damped_(step_weight()),
         is_idle_(idle_digits(task.takes_part)) {}
@@ -155,6 +157,7 @@ class LeastEffort {
   EffortProgram program(const Look& at, double damping) const;
   void judge(Look& at) const;
   GripVector departure(const GripState& state) const;
+  static bool is_in_need(const Look& at);
   bool differentiate(const Look& at);
   bool go(const Look& from, const GripVector& way, Look& to);
   bool pass_a_jump(Look& now, const Descent& how);
@@ -203,11 +206,8 @@ void LeastEffort::add_muscles(Look& at) const {
       }
       at.wrist[column] = strength * digit.wrist_arm[t].x();
     }
-    const hand::PassiveMoments ligaments = ligament_moments(
-        hand_->skeleton, digit.finger, at.state.posture, start_.posture, task_->model.ligaments);
-    at.outside.segment<hand::kDigitDofs>(first) += digit.passive.moment + ligaments.moment;
-    at.stiffness.block<hand::kDigitDofs, hand::kDigitDofs>(first, first) +=
-        digit.passive.stiffness + ligaments.stiffness;
+    at.outside.segment<hand::kDigitDofs>(first) += digit.passive.moment;
+    at.stiffness.block<hand::kDigitDofs, hand::kDigitDofs>(first, first) += digit.passive.stiffness;
   }
   const hand::WristMuscles& motors = muscles_.wrist();
   for (std::size_t i = 0; i < motors.arm.size(); ++i) {
@@ -299,6 +299,12 @@ bool LeastEffort::look(const GripState& state, Look& at) {
     at.stiffness += meeting_.stiffness(state.posture);
   }
   return true;
+}
+
+/// Something is missing.
+bool LeastEffort::is_in_need(const Look& at) {
+  const double missing = at.effort.value - at.effort.activation.array().cube().sum();
+  return missing > kNoMissing * at.merit();
 }
 
 /// How far a state is from the start, coordinate by coordinate.
@@ -484,12 +490,8 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
   bool is_new = true;       // the state, since its derivatives were taken
   double last_share = 0.0;  // of what was promised
   int refused = 0;
-  const auto is_in_need = [&] {
-    const double missing = now.effort.value - now.effort.activation.array().cube().sum();
-    return missing > kNoMissing * now.merit();
-  };
   const auto passes_a_jump = [&] {
-    if (!is_in_need() || !pass_a_jump(now, how)) return false;
+    if (!is_in_need(now) || !pass_a_jump(now, how)) return false;
     refused = 0;
     damping = how.first_damping;
     growth = kGrowth;
@@ -502,7 +504,7 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
     progress.throw_if_cancelled();
     ++rest.iterations;
     progress.update(std::min(1.0, rest.iterations / kUsualSteps), "letting the grasp come to rest");
-    if (refused >= (is_in_need() ? kMostInNeed : kMostRefused) && !passes_a_jump()) break;
+    if (refused >= (is_in_need(now) ? kMostInNeed : kMostRefused) && !passes_a_jump()) break;
     // Derivatives serve as long as steps keep what they promise; where to end is never theirs.
     if (is_new && last_share < kKept) {
       if (!differentiate(now)) return;
@@ -614,6 +616,7 @@ EffortRest LeastEffort::run(const GripState* from, const Progress& progress) {
   } else {
     for (const Descent& how : kWithFingertips) descend(now, how, progress, rest);
   }
+  if (is_in_need(now)) descend(now, kInNeed, progress, rest);
   if (!skin_.is_at(now.state) && !skin_.look(now.state, kAccuracy)) return rest;
   rest.status = EffortRest::Status::kSolved;
   finish(now, rest);

@@ -11,7 +11,6 @@
 #include "palmar/grasp/equilibrium/contact_forces.h"
 #include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/equilibrium/digit_meeting.h"
-#include "palmar/grasp/equilibrium/ligaments.h"
 #include "palmar/grasp/equilibrium/volar_gaps.h"
 #include "palmar/hand/tendons/hand_muscles.h"
 
@@ -30,7 +29,7 @@ struct EffortModel {
   double light_grip = 107.0;  ///< N; below it prices grow as the force gets less: soft skin gives
                               ///< way a lot for little force
   double nothing = 0.1;       ///< N; less that is missing is nothing to a hand: the weight of 10 g
-  LigamentModel ligaments{};
+  hand::LigamentModel ligaments{};
 };
 
 /// What a task measures as its force.

@@ -47,8 +47,9 @@ double fibres_of(Finger finger, std::size_t tendon) {
 
 HandMuscles::HandMuscles(const Hand& hand, const MuscleModel& model)
     : hand_(&hand),
-      stops_(model.stops),
       has_passive_(model.has_passive),
+      ligaments_(model.ligaments),
+      stops_(model.stops),
       wrist_(wrist_muscles(hand, model.wrist, model.specific_tension)) {
   for (int f = 0; f < kFingerCount; ++f) {
     const auto finger = static_cast<Finger>(f);
@@ -83,7 +84,10 @@ DigitMuscles HandMuscles::in(Finger finger, const Posture& posture) const {
     result.arm.push_back(moment_arms(muscle.path, digit));
     result.wrist_arm.push_back(muscle.wrist_arm);
   }
-  if (has_passive_) result.passive = passive_moments(hand_->skeleton, finger, posture);
+  if (has_passive_) {
+    result.passive = passive_moments(hand_->skeleton, finger, posture, ligaments_);
+    return result;
+  }
   for (std::size_t k = 0; k < kDigitDofs; ++k) {
     result.stop[k] = stop_of(hand_->skeleton, digit.dof[k], posture, stops_);
   }

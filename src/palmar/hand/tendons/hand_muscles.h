@@ -16,10 +16,11 @@ namespace palmar::hand {
 struct MuscleModel {
   TendonModel tendons{};
   double specific_tension = kSpecificTension;  ///< MPa
-  JointStops stops{};
   /// passive_moments() count. Not for a posture that was measured: a few degrees off the coupling
   /// of DIP and PIP would outweigh what the hand holds.
   bool has_passive = true;
+  LigamentModel ligaments{};
+  JointStops stops{};  ///< without passive_moments()
   WristPosture wrist{};
 };
 
@@ -73,8 +74,9 @@ class HandMuscles {
     double wrist_stretch = 0.0;  ///< mm
   };
   const Hand* hand_;
-  JointStops stops_;
   bool has_passive_;
+  LigamentModel ligaments_;
+  JointStops stops_;
   WristMuscles wrist_;
   std::array<std::vector<Muscle>, kFingerCount> muscles_;
 };
