@@ -68,7 +68,7 @@ TEST(Assess, AHeldProductIsGrippedAsItsWeightAsks) {
     EXPECT_EQ(held.err.find("no mass is given") == std::string::npos, !options.empty());
   }
   EXPECT_THAT(run("--grip-force-n 40").err, HasSubstr("says how firmly to grip"));
-  EXPECT_THAT(run("--turn-n-m 2").err, HasSubstr("--task turn is required"));
+  EXPECT_THAT(run("--turn-n-m 2").err, HasSubstr("--task is required with it"));
   EXPECT_THAT(run("--population ansur2_women").err, HasSubstr("--task is of one hand"));
 }
 

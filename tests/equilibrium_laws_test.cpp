@@ -19,6 +19,7 @@
 #include "palmar/grasp/equilibrium/least_effort.h"
 #include "palmar/grasp/find/find_grasp.h"
 #include "palmar/grasp/rest/balance.h"
+#include "palmar/grasp/rest/hold_at_rest.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"
 #include "template_on_bone.h"
@@ -190,6 +191,35 @@ TEST(EquilibriumLaws, WhatAHandCanAtMostIsReachedWhenItIsAskedFor) {
   const Figures reached = figures_of(bar, closed, asked);
   EXPECT_EQ(reached.status, grasp::BalanceStatus::kBalanced);
   EXPECT_NEAR(reached.force, hardest.force, 0.015 * hardest.force);
+}
+
+// Where the palm lies on the product, it lies there in a hand of any size.
+TEST(EquilibriumLaws, AHandOfOtherSizeHasTheProductAtTheSamePlaceOfItsPalm) {
+  grasp::HoldAtRest hold;
+  hold.palm = Vec3(12.0, 60.0, -20.0);
+  hold.hand_length = 180.0;
+  hold.rest.product_from_hand =
+      geometry::Rigid3::about_axis(Vec3(0.6, 0.0, 0.8), Vec3(3.0, 1.0, -2.0), 0.7);
+  const grasp::GripState larger = hold.scaled(hold.rest, 198.0);
+  EXPECT_LT(
+      (larger.product_from_hand * Vec3(1.1 * hold.palm) - hold.rest.product_from_hand * hold.palm)
+          .norm(),
+      1e-9);
+  EXPECT_EQ(larger.posture.angle, hold.rest.posture.angle);
+}
+
+TEST(EquilibriumLaws, AHandThatHoldsLikeItselfRestsAsItDid) {
+  const product::Product bar = cylinder(48.0);
+  const grasp::Grasp closed = grasp::close_power_grasp(hand_on_bone().hand(), bar);
+  grasp::BalanceOptions options;
+  options.grip_force = 107.0;
+  const Figures first = figures_of(bar, closed, options);
+  options.like = grasp::hold_at_rest(hand_on_bone(), bar, closed, options);
+  ASSERT_NE(options.like, nullptr);
+  const Figures again = figures_of(bar, closed, options);
+  EXPECT_EQ(again.status, grasp::BalanceStatus::kBalanced);
+  EXPECT_LT(change(again.peak, first.peak), 0.02);
+  EXPECT_LT(change(again.area, first.area), 0.01);
 }
 
 }  // namespace

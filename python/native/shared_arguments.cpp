@@ -158,6 +158,10 @@ grasp::RestSettings rest_of(Arguments& arguments, const std::string& person) {
   arguments.take("grip_force_n", settings.grip_force);
   arguments.take("strength_share", settings.strength_share);
   arguments.take("strength_n", settings.strength);
+  arguments.take("turn_n_m", settings.turn);
+  std::string task;
+  arguments.take("task", task);
+  settings.take_task(task);
   settings = workflow::held_by(person, settings);
   settings.check();
   return settings;

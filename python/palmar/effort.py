@@ -30,6 +30,8 @@ def grasp(
     strength_share: Optional[float] = None,
     strength_n: Optional[float] = None,
     limit_depths: Optional[bool] = None,
+    task: Optional[str] = None,
+    turn_n_m: Optional[float] = None,
     friction: Optional[float] = None,
     mass_kg: Optional[float] = None,
     wrist_flexion_deg: float = -30.0,
@@ -45,7 +47,8 @@ def grasp(
 
     Args:
         grasp: Grasp to take instead of finding one: JSON of `palmar grasp close`.
-        grip_force_n, strength_share, strength_n, limit_depths: As in palmar.assess(); N.
+        grip_force_n, strength_share, strength_n, limit_depths, task, turn_n_m: As in palmar.assess(); N,
+            N m.
         at, axis: Point of the grip axis in mid-palm (mm) and its direction, product frame.
         mass_kg: Of the product, kg.
         wrist_flexion_deg, wrist_deviation_deg: Posture of the wrist, deg; extension is negative.

@@ -32,7 +32,7 @@ void BalanceArguments::add_to(CLI::App& verb) {
                       "friction needs (Westling & Johansson 1984), without a mass the weight of a "
                       "solid of 1 g/cm3; turn, with what --turn-n-m takes")
           ->check(CLI::IsMember({"squeeze", "hold", "turn"}))
-          ->default_str("squeeze");
+          ->default_str("squeeze of handles, hold of what fingers don't meet round");
   verb.add_option("--turn-n-m", settings_.turn,
                   "With --task turn: the torque about the grip axis that the product is turned "
                   "with, N m; right-handed about the axis towards the thumb's side")
@@ -59,11 +59,7 @@ void BalanceArguments::add_to(CLI::App& verb) {
 grasp::RestSettings BalanceArguments::settings() const {
   grasp::RestSettings result = settings_;
   result.is_balanced = !no_balance_;
-  result.holds_load = task_ == "hold";
-  if ((task_ == "turn") != result.turn.has_value()) {
-    throw UsageError(result.turn ? "--turn-n-m is given; --task turn is required with it"
-                                 : "--task is turn; --turn-n-m, a torque in N m, is required");
-  }
+  result.take_task(task_);
   result = workflow::held_by(person_, result);
   result.check();
   return result;

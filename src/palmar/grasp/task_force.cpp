@@ -42,13 +42,33 @@ void HeaviestLoad::add(const product::Product& one, const contact::ProductLoad& 
 
 double ShareOfStrength::reached(Grip grip) const { return strength * strength_share(grip); }
 
-double ShareOfStrength::force(Grip grip) const {
-  return std::max(share * reached(grip), std::min(least, reached(grip)));
+void ShareOfStrength::take_least(double friction, const HeaviestLoad& heaviest) {
+  least = holding_grip_force(heaviest.force, friction);
+  why_least = fmt::format(
+      "the {:.1f} N of {}{} by friction with a margin of {:.0f} % (Westling & Johansson 1984)",
+      heaviest.force, heaviest.product,
+      heaviest.is_estimated
+          ? fmt::format(" (no mass is given; estimated as solid, {:g} g/cm3)", kAssumedDensity)
+          : "",
+      100.0 * (kGripMargin - 1.0));
 }
 
-bool ShareOfStrength::is_raised(Grip grip) const { return force(grip) > share * reached(grip); }
+double ShareOfStrength::force(Grip grip) const {
+  const double of_strength = share * reached(grip);
+  if (grip == Grip::kFingerPush) return of_strength;
+  const double held = std::min(least, reached(grip));
+  return holds_only ? std::max(kLightestHold, held) : std::max(of_strength, held);
+}
+
+bool ShareOfStrength::is_raised(Grip grip) const {
+  return !holds_only && force(grip) > share * reached(grip);
+}
 
 std::string ShareOfStrength::words(Grip grip) const {
+  if (holds_only && grip != Grip::kFingerPush) {
+    return least < kLightestHold ? "as even the lightest thing is held; its weight asks for less"
+                                 : "what holds " + why_least;
+  }
   if (is_raised(grip)) {
     return fmt::format("raised from {:.0f} N to hold {}", share * reached(grip), why_least);
   }
@@ -71,14 +91,7 @@ ShareOfStrength usual_share(double friction, const HeaviestLoad& heaviest) {
   ShareOfStrength usual;
   usual.strength = usual_grip_strength();
   usual.whose = usual_people();
-  usual.least = holding_grip_force(heaviest.force, friction);
-  usual.why_least = fmt::format(
-      "the {:.1f} N of {}{} by friction with a margin of {:.0f} % (Westling & Johansson 1984)",
-      heaviest.force, heaviest.product,
-      heaviest.is_estimated
-          ? fmt::format(" (no mass is given; estimated as solid, {:g} g/cm3)", kAssumedDensity)
-          : "",
-      100.0 * (kGripMargin - 1.0));
+  usual.take_least(friction, heaviest);
   return usual;
 }
 

@@ -35,6 +35,9 @@ inline constexpr double kGripMargin = 1.4;
 /// 0 without friction, which then has no share in holding it.
 double holding_grip_force(double load, double friction);
 
+/// What even the lightest thing is held with, N; our choice.
+inline constexpr double kLightestHold = 1.0;
+
 /// Density of a product whose mass isn't known [g/cm^3]: water's, that of most plastics. For the
 /// question alone whether the usual grip force holds it; nothing weighs on the hand.
 inline constexpr double kAssumedDensity = 1.0;
@@ -57,9 +60,13 @@ struct ShareOfStrength {
   std::string whose;                   ///< "women of 45 years (Steiber 2016)"; may be empty
   double least = 0.0;                  ///< N; what holds a load: a smaller share is raised to it
   std::string why_least;               ///< "the 12.0 N of kettle by friction ..."
+  bool holds_only = false;  ///< `least` alone, but at least kLightestHold (UsualTask::kHold)
 
+  /// Takes `least` from a load, as friction holds it.
+  void take_least(double friction, const HeaviestLoad& heaviest);
   double reached(Grip grip) const;  ///< N; strength times strength_share(grip)
-  /// N; the share of that, or `least` if it is more, but not above all of it.
+  /// N; the share of that, or `least` if it is more, but not above all of it. A push holds nothing:
+  /// the share.
   double force(Grip grip) const;
   bool is_raised(Grip grip) const;  ///< by `least`
   /// Where the force comes from, to follow "107 N: ".

@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "palmar/grasp/rest/rest_settings.h"
+#include "palmar/grasp/rest/usual_task.h"
 #include "palmar/product/primitives.h"
 
 namespace palmar::grasp {
@@ -136,6 +139,51 @@ TEST(RestSettings, WhatIsSaidIsNeitherReplacedNorRaised) {
 
 TEST(BalanceOptions, HookedFingersCarryAndAreNotAskedToSqueeze) {
   EXPECT_FALSE(RestSettings().options(std::nullopt).asked_grip_force(Grip::kFixedHook));
+}
+
+// A can holds 2.0 N: 1.4 x 2.0 / (2 x 0.5) = 2.8 N, whatever the hand could.
+TEST(UsualShare, OfWhatIsOnlyHeldIsWhatItsWeightAsksFor) {
+  ShareOfStrength held = usual_share(0.5, {.force = 2.0, .product = "can"});
+  held.holds_only = true;
+  EXPECT_NEAR(held.force(Grip::kLargeDiameter), 2.8, 1e-9);
+  EXPECT_FALSE(held.is_raised(Grip::kLargeDiameter));
+  EXPECT_THAT(held.words(Grip::kLargeDiameter), HasSubstr("what holds the 2.0 N of can"));
+  ShareOfStrength card = usual_share(0.5, {.force = 0.05, .product = "card"});
+  card.holds_only = true;
+  EXPECT_NEAR(card.force(Grip::kTipPinch), kLightestHold, 1e-12);
+  EXPECT_THAT(card.words(Grip::kTipPinch), HasSubstr("even the lightest thing"));
+  // A button isn't held.
+  EXPECT_NEAR(card.force(Grip::kFingerPush), 0.25 * card.reached(Grip::kFingerPush), 1e-9);
+}
+
+Grasp taken(Grip grip) {
+  Grasp grasp;
+  grasp.grip = grip;
+  grasp.grip_axis = Vec3::UnitZ();
+  return grasp;
+}
+
+TEST(UsualTask, IsToGripAHandleAndToHoldABody) {
+  constexpr double kHand = 184.0;  // mm; thumb and fingers meet round 66
+  const product::Product bar = cylinder(40.0, 120.0);
+  EXPECT_EQ(usual_task(bar, taken(Grip::kMediumWrap), kHand), UsualTask::kGrip);
+  EXPECT_EQ(usual_task(bar, taken(Grip::kPalmarPinch), kHand), UsualTask::kHold);
+  EXPECT_EQ(usual_task(bar, taken(Grip::kWritingTripod), kHand), UsualTask::kGrip);
+  EXPECT_EQ(usual_task(bar, taken(Grip::kFixedHook), kHand), std::nullopt);
+  EXPECT_EQ(usual_task(cylinder(90.0, 120.0), taken(Grip::kLargeDiameter), kHand),
+            UsualTask::kHold);
+  // As thick as a handle by its girth, but a hand doesn't meet round it: 8 x 72 mm.
+  const product::Product phone = product::make_prism_product(
+      {.width = 8.0, .depth = 72.0, .length = 150.0, .fillet_radius = 2.0});
+  EXPECT_EQ(usual_task(phone, taken(Grip::kMediumWrap), kHand), UsualTask::kHold);
+}
+
+TEST(UsualTask, OfAComparisonIsOneForAll) {
+  using Tasks = std::vector<std::optional<UsualTask>>;
+  const auto hold = UsualTask::kHold;
+  EXPECT_EQ(task_of_all(Tasks{hold, hold, std::nullopt}), UsualTask::kHold);
+  EXPECT_EQ(task_of_all(Tasks{hold, UsualTask::kGrip}), UsualTask::kGrip);
+  EXPECT_EQ(task_of_all(Tasks{std::nullopt}), UsualTask::kGrip);
 }
 
 }  // namespace

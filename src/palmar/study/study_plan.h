@@ -60,6 +60,9 @@ struct StudySetting {
   bool limit_depths = false;             ///< as firm as closing to the limit depths made it
   std::optional<double> strength;        ///< N; the same for all hands; unset: each person's own
   double least_grip_force = 0.0;  ///< N; to which a share is raised, at most to all of `strength`
+  /// Products that are only held (grasp::UsualTask), all of them, are held with the least grip
+  /// force in place of the share.
+  bool follows_product = false;
   double friction = 0.5;
   /// Whether a grasp comes to rest; if not, it stays as the hand was closed (Xie 2014).
   bool is_balanced = true;

@@ -22,6 +22,8 @@
 #include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/grasp/find/grasp_place.h"
 #include "palmar/grasp/joint_strength.h"
+#include "palmar/grasp/rest/hold_at_rest.h"
+#include "palmar/grasp/rest/usual_task.h"
 #include "palmar/grasp/task_force.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/product/gloved.h"
@@ -186,6 +188,48 @@ struct StudyBench::Impl {
     return options;
   }
 
+  /// How a person does a task.
+  AssessOptions options_of(const StudyTask& task, const population::HandSample& person) const {
+    const StudyProduct& product = plan.products[task.product];
+    const StudySetting& setting = plan.settings[task.setting];
+    const population::HandProfile& profile = plan.profiles[task.profile];
+    AssessOptions options;
+    options.grasp = grasp_options(task);
+    options.seed = plan.seed;
+    options.footprint = false;  // the study's own map serves
+    options.indices.is_on = setting.indices;
+    options.indices.stability.with_volume = setting.wrench_volume;
+    options.indices.torque = setting.torque;
+    options.contact.refine = setting.refine;
+
+    if (profile.glove_thickness > 0.0) {
+      contact::Coating glove;
+      glove.thickness = profile.glove_thickness;
+      glove.shear_modulus = profile.glove_shear_modulus;
+      options.contact.coatings.push_back(glove);
+    }
+    options.balance.is_on = setting.is_balanced;
+    options.balance.friction = setting.friction;
+    options.balance.load.weight = product.mass * kGravity;
+    options.balance.grip_force = setting.grip_force;
+    // The person's own muscles, before a profile weakens them: whose share a grasp takes is judged
+    // afterwards, alike for all profiles (exclusion.h).
+    if (person.grip_strength > 0.0) {
+      options.balance.strength =
+          std::clamp(person.grip_strength / grasp::usual_grip_strength(), 0.01, 10.0);
+    }
+    if (setting.strength_share) {
+      if (!setting.strength && !(person.grip_strength > 0.0)) {
+        throw Failure{"a share of the grip strength is requested, but the person's isn't known"};
+      }
+      options.balance.share_of_strength =
+          share_of_strength(setting, population::with_profile(person, profile).grip_strength);
+      options.balance.share_of_strength->holds_only =
+          setting.follows_product && holds_only[task.setting];
+    }
+    return options;
+  }
+
   const StudyPlan& plan;
   const StudyInputs& inputs;
   StudyDetail detail;
@@ -209,11 +253,18 @@ struct StudyBench::Impl {
   /// Where the mean hand holds a product, or why that can't be said.
   struct Place {
     std::unique_ptr<const grasp::GraspPlace> place;
+    std::shared_ptr<const grasp::HoldAtRest> at_rest;  ///< that hand's, if it is a wrap
     std::string failure;
   };
   std::vector<std::shared_ptr<const hand::Hand>> mean_hands;  ///< by profile; null: not needed
   std::vector<std::string> mean_failures;                     ///< by profile
   std::map<StudyTask, Place> places;                          ///< by task, of hand 0
+  std::vector<bool> holds_only;  ///< by setting: products are only held (grasp::UsualTask)
+
+  /// Says what hands do with the products where nothing is said (holds_only).
+  void settle_usual_tasks();
+  /// Lets the mean hands come to rest on the products.
+  void rest_mean_hands(const Progress& progress);
 
   /// The task that stands for all hands.
   StudyTask place_key(StudyTask task) const {
@@ -250,12 +301,12 @@ class StudySubject {
     const product::Product& product = bench_.product_for(task.profile, task.product);
     const contact::PreparedHand& prepared = prepared_for(setting.model);
 
-    AssessOptions options = options_of(task, setting);
+    AssessOptions options = bench_.options_of(task, sample_);
     HeldGrasp held;
     if (const auto source = bench_.posture_source[product_index]) {
       StudyTask other = task;
       other.product = static_cast<int>(*source);
-      held = at_rest(prepared, other, options_of(other, setting), progress);
+      held = at_rest(prepared, other, bench_.options_of(other, sample_), progress);
       held.balance = {};  // at rest is the other product
       options.balance.is_on = false;
     } else {
@@ -329,43 +380,6 @@ class StudySubject {
     return *prepared_.back().second;
   }
 
-  AssessOptions options_of(const StudyTask& task, const StudySetting& setting) const {
-    const StudyProduct& product = bench_.plan.products[task.product];
-    AssessOptions options;
-    options.grasp = bench_.grasp_options(task);
-    options.seed = bench_.plan.seed;
-    options.footprint = false;  // the study's own map serves
-    options.indices.is_on = setting.indices;
-    options.indices.stability.with_volume = setting.wrench_volume;
-    options.indices.torque = setting.torque;
-    options.contact.refine = setting.refine;
-
-    if (profile_.glove_thickness > 0.0) {
-      contact::Coating glove;
-      glove.thickness = profile_.glove_thickness;
-      glove.shear_modulus = profile_.glove_shear_modulus;
-      options.contact.coatings.push_back(glove);
-    }
-    options.balance.is_on = setting.is_balanced;
-    options.balance.friction = setting.friction;
-    options.balance.load.weight = product.mass * kGravity;
-    options.balance.grip_force = setting.grip_force;
-    // The person's own muscles, before a profile weakens them: whose share a grasp takes is judged
-    // afterwards, alike for all profiles (exclusion.h).
-    if (sample_.grip_strength > 0.0) {
-      options.balance.strength =
-          std::clamp(sample_.grip_strength / grasp::usual_grip_strength(), 0.01, 10.0);
-    }
-    if (setting.strength_share) {
-      if (!setting.strength && !(sample_.grip_strength > 0.0)) {
-        throw Failure{"a share of the grip strength is requested, but the person's isn't known"};
-      }
-      options.balance.share_of_strength =
-          share_of_strength(setting, population::with_profile(sample_, profile_).grip_strength);
-    }
-    return options;
-  }
-
   /// The grasp of a task that doesn't keep another one's posture, come to rest. Kept where another
   /// product wants the same posture.
   HeldGrasp at_rest(const contact::PreparedHand& prepared, const StudyTask& task,
@@ -374,17 +388,21 @@ class StudySubject {
     if (known != at_rest_.end()) return known->second;
     const auto index = static_cast<std::size_t>(task.product);
     const product::Product& product = bench_.product_for(task.profile, task.product);
+    const StudySetting& setting = bench_.plan.settings[task.setting];
+    const StudyTask key = bench_.place_key(task);
     HeldGrasp held;
-    if (bench_.plan.settings[task.setting].is_place_per_hand) {
+    if (setting.is_place_per_hand) {
       held.grasp = grasp::find_grasp(prepared.hand(), product, options.grasp, progress);
     } else {
-      const StudyBench::Impl::Place& place = bench_.places.at(bench_.place_key(task));
+      const StudyBench::Impl::Place& place = bench_.places.at(key);
       if (place.place == nullptr) throw Failure{place.failure};
       held.grasp = place.place->hold(*grasping_, progress);
     }
     if (is_held(held.grasp)) {
-      held.balance = grasp::balance_grasp(prepared, product, held.grasp, options.balance,
-                                          options.contact, progress);
+      grasp::BalanceOptions balance = options.balance;
+      if (!setting.is_place_per_hand) balance.like = bench_.places.at(key).at_rest;
+      held.balance =
+          grasp::balance_grasp(prepared, product, held.grasp, balance, options.contact, progress);
       if (held.balance.status == grasp::BalanceStatus::kSlipsOut) {
         held.grasp.message += "; but it " + held.balance.message;
       }
@@ -426,11 +444,18 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
   }
   const std::size_t profiles = bench.plan.profiles.size();
   std::vector<bool> is_needed(profiles, false);
-  for (const std::int64_t number : tasks) {
+  const auto need = [&](std::int64_t number, bool for_all) {
     const StudyTask task = task_at(bench.plan, number);
-    if (bench.plan.settings[task.setting].is_place_per_hand) continue;
+    const StudySetting& setting = bench.plan.settings[task.setting];
+    if (setting.is_place_per_hand || (for_all && !setting.follows_product)) return;
     bench.places[bench.place_key(task)];
     is_needed[task.profile] = true;
+  };
+  for (const std::int64_t number : tasks) need(number, false);
+  // What is usual is said of all products, whichever are still to be run.
+  const auto hands = static_cast<std::int64_t>(bench.plan.hands.size());
+  for (std::int64_t n = 0; n < task_count(bench.plan) / std::max<std::int64_t>(1, hands); ++n) {
+    need(n, true);
   }
   bench.mean_hands.resize(profiles);
   bench.mean_failures.resize(profiles);
@@ -466,6 +491,42 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
       } catch (const Error& error) {
         found.failure = std::string("no place on the product for the mean hand: ") + error.what();
       }
+    });
+  });
+  bench.settle_usual_tasks();
+  bench.rest_mean_hands(progress);
+}
+
+void StudyBench::Impl::settle_usual_tasks() {
+  holds_only.assign(plan.settings.size(), false);
+  for (std::size_t s = 0; s < plan.settings.size(); ++s) {
+    std::vector<std::optional<grasp::UsualTask>> usual;
+    for (const auto& [task, found] : places) {
+      if (task.setting != static_cast<int>(s) || found.place == nullptr) continue;
+      usual.push_back(grasp::usual_task(product_for(task.profile, task.product),
+                                        found.place->reference_grasp(),
+                                        mean_hands[task.profile]->dimensions.hand_length));
+    }
+    holds_only[s] = grasp::task_of_all(usual) == grasp::UsualTask::kHold;
+  }
+}
+
+void StudyBench::Impl::rest_mean_hands(const Progress& progress) {
+  population::HandSample mean;
+  mean.grip_strength = grasp::usual_grip_strength();
+  std::vector<std::pair<const StudyTask, Place>*> open;
+  for (auto& entry : places) {
+    if (entry.second.place != nullptr && entry.second.at_rest == nullptr) open.push_back(&entry);
+  }
+  parallel_for(static_cast<int>(open.size()), [&](int i) {
+    auto& [task, place] = *open[i];
+    const contact::HandFamily* family = family_of(plan.settings[task.setting].model);
+    run_isolated([&, &key = task, &found = place] {
+      const AssessOptions options = options_of(key, mean);
+      const contact::PreparedHand prepared(mean_hands[key.profile], *family);
+      found.at_rest = grasp::hold_at_rest(prepared, product_for(key.profile, key.product),
+                                          found.place->reference_grasp(), options.balance,
+                                          options.contact, progress);
     });
   });
 }

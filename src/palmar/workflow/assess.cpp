@@ -9,6 +9,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
+#include "palmar/grasp/rest/usual_task.h"
 #include "palmar/records/posture/coordination_file.h"
 #include "palmar/records/sensors/measured_pressure_file.h"
 #include "palmar/records/sensors/sensor_layout_file.h"
@@ -23,6 +24,7 @@ namespace {
 
 // Shares of the whole: reading and preparing, assessing, writing the report.
 constexpr double kPrepared = 0.1;
+constexpr double kHeld = 0.25;
 constexpr double kAssessed = 0.7;
 constexpr double kWritten = 0.9;  // if it is printed, too
 
@@ -36,6 +38,32 @@ struct ProductTask {
   grasp::GraspOptions grasp;
   contact::FrictionOptions friction;
 };
+
+/// Takes hold of all products, so that what is usual for them can be said of all.
+std::vector<HeldProduct> take_products(const AssessRequest& request,
+                                       const std::shared_ptr<const hand::Hand>& hand,
+                                       const std::vector<ProductTask>& tasks,
+                                       const Progress& progress) {
+  std::vector<HeldProduct> held;
+  const double step = (kHeld - kPrepared) / static_cast<double>(tasks.size());
+  for (const ProductTask& task : tasks) {
+    const double start = kPrepared + step * static_cast<double>(held.size());
+    held.push_back(take_product(
+        hand, task.product, request.grasp, task.grasp,
+        part_of(progress, start, start + step, "taking hold of " + task.product.name)));
+  }
+  return held;
+}
+
+/// What hands do with products that are taken so.
+grasp::UsualTask usual_task_of(const std::vector<ProductTask>& tasks,
+                               const std::vector<HeldProduct>& held, double hand_length) {
+  std::vector<std::optional<grasp::UsualTask>> usual;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    usual.push_back(grasp::usual_task(tasks[i].product, held[i].grasp, hand_length));
+  }
+  return grasp::task_of_all(usual);
+}
 
 std::vector<ProductTask> read_products(const AssessRequest& request, const Progress& progress) {
   std::vector<ProductTask> tasks;
@@ -121,31 +149,43 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   const auto hand = load_hand(request.hand);
   study::AssessOptions options = options_of(request, hand->skeleton);
   options.sensors = sensors;
-  const grasp::HeaviestLoad heaviest =
-      request.rest.is_usual() ? heaviest_of(tasks) : grasp::HeaviestLoad{};
+  const grasp::HeaviestLoad heaviest = request.rest.follows_product() || request.rest.is_usual()
+                                           ? heaviest_of(tasks)
+                                           : grasp::HeaviestLoad{};
   options.balance = request.rest.options(request.friction.friction, heaviest);
   options.balance.looks_nearby = true;
   const contact::PreparedHand prepared =
       prepared_hand(request.hand, hand, request.model, request.note);
 
+  std::vector<HeldProduct> held;
+  try {
+    held = take_products(request, hand, tasks, progress);
+  } catch (const Cancelled&) {
+    throw cancelled_early();
+  }
+  if (request.rest.follows_product()) {
+    options.balance.share_of_strength->holds_only =
+        usual_task_of(tasks, held, hand->dimensions.hand_length) == grasp::UsualTask::kHold;
+  }
+
   AssessOutcome outcome;
   outcome.asked = tasks.size();
   outcome.set = {.hand = hand, .assessments = {}, .command_line = request.command_line};
-  const double step = (kAssessed - kPrepared) / static_cast<double>(tasks.size());
+  std::shared_ptr<const contact::PreparedHand> reference;
+  const double step = (kAssessed - kHeld) / static_cast<double>(tasks.size());
   for (std::size_t i = 0; i < tasks.size() && !outcome.is_cancelled; ++i) {
     ProductTask& task = tasks[i];
-    const double start = kPrepared + step * static_cast<double>(i);
+    const double start = kHeld + step * static_cast<double>(i);
     options.grasp = task.grasp;
     options.friction = task.friction;
     options.balance.load = task.friction.load;
-    HeldProduct held;
     try {
-      study::Assessment assessment = study::assess(
-          prepared, task.product, options,
-          part_of(progress, start, start + step, task.product.name), [&](const Progress& p) {
-            held = take_product(hand, task.product, request.grasp, options.grasp, p);
-            return held.grasp;
-          });
+      options.balance.like = reference_at_rest(held[i].reference_grasp, hand, task.product, options,
+                                               reference, progress);
+      study::Assessment assessment =
+          study::assess(prepared, task.product, options,
+                        part_of(progress, start, start + step, task.product.name),
+                        [&](const Progress&) { return held[i].grasp; });
       if (measured) add_measured(task.product, *measured, assessment);
       std::shared_ptr<const study::ErrorBudget> errors;
       if (request.error_budget) {
@@ -154,11 +194,11 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
           return tissue_on_bone(own, {.tissue = contact::TissueModel::kBone});
         };
         errors = std::make_shared<const study::ErrorBudget>(
-            study::error_budget(hand, prepared, task.product, held.grasp, assessment, budget,
+            study::error_budget(hand, prepared, task.product, held[i].grasp, assessment, budget,
                                 part_of(progress, start, start + step, task.product.name)));
       }
-      outcome.set.assessments.push_back({std::move(task.product), std::move(assessment), held.ways,
-                                         held.ways_hand, std::move(errors)});
+      outcome.set.assessments.push_back({std::move(task.product), std::move(assessment),
+                                         held[i].ways, held[i].ways_hand, std::move(errors)});
     } catch (const Cancelled&) {
       outcome.is_cancelled = true;
       break;

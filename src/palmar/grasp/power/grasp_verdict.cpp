@@ -4,9 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
+
+#include "palmar/core/enum_index.h"
 
 namespace palmar::grasp {
 namespace {
@@ -28,12 +31,13 @@ std::string words_of(hand::Segment segment) {
 }
 
 // A clause about the phalanges without contact; empty if all touch.
-std::string open_segments(const Grasp& grasp) {
+std::string open_segments(const Touching& touches, Grip grip) {
   std::vector<std::string> list;
-  for (std::size_t s = 1; s < grasp.stops.size(); ++s) {
-    const bool is_thumb = hand::finger_of(grasp.stops[s].segment) == hand::Finger::kThumb;
-    if (is_thumb && grasp.grip == Grip::kFixedHook) continue;  // takes no part
-    if (grasp.stops[s].penetration <= 0.0) list.push_back(words_of(grasp.stops[s].segment));
+  for (std::size_t s = 1; s < touches.size(); ++s) {
+    const auto segment = static_cast<hand::Segment>(s);
+    const bool is_thumb = hand::finger_of(segment) == hand::Finger::kThumb;
+    if (is_thumb && grip == Grip::kFixedHook) continue;  // takes no part
+    if (!touches[s]) list.push_back(words_of(segment));
   }
   if (list.empty()) return "";
   std::string clause = "; ";
@@ -51,6 +55,15 @@ std::string count_words(int fingers) {
 }
 
 }  // namespace
+
+std::string held_words(const Touching& touches, Grip grip) {
+  std::array<bool, hand::kFingerCount> holds{};
+  for (std::size_t s = 1; s < touches.size(); ++s) {
+    if (touches[s]) holds[index_of(*hand::finger_of(static_cast<hand::Segment>(s)))] = true;
+  }
+  return "held by " + count_words(static_cast<int>(std::count(holds.begin(), holds.end(), true))) +
+         open_segments(touches, grip);
+}
 
 void finish_stops(const HoldMeasure& measure, const DepthLimits& limits, Grasp& grasp) {
   for (int s = 0; s < hand::kSegmentCount; ++s) {
@@ -78,7 +91,11 @@ void finish_stops(const HoldMeasure& measure, const DepthLimits& limits, Grasp& 
 
 void judge_hold(const hand::Hand& hand, const HoldMeasure& measure, const GripSite& site,
                 Grasp& grasp) {
-  const std::string open = open_segments(grasp);
+  Touching touches{};
+  for (std::size_t s = 0; s < touches.size(); ++s) {
+    touches[index_of(grasp.stops[s].segment)] = grasp.stops[s].penetration > 0.0;
+  }
+  const std::string open = open_segments(touches, grasp.grip);
   const std::string girth = fmt::format("its girth at the grip is {:.0f} mm", site.girth);
   if (measure.wrap < kHalfRound && site.girth > kLargeGirth * hand.dimensions.hand_length) {
     grasp.status = GraspStatus::kTooLarge;

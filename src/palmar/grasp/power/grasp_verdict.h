@@ -2,11 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <string>
+
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/power/closing.h"
 #include "palmar/grasp/power/grip_axis.h"
 
 namespace palmar::grasp {
+
+using Touching = std::array<bool, hand::kSegmentCount>;  ///< by segment: whether its skin touches
+
+/// "held by four fingers; the tip of the little finger does not touch".
+std::string held_words(const Touching& touches, Grip grip);
 
 /// What stopped every segment once the hand is closed, from `measure` and the reasons that closing
 /// left in grasp.stops.

@@ -11,8 +11,7 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr double kSmallShare = 0.14;  // of hand length
-constexpr double kLargeShare = 0.36;
+constexpr double kSmallShare = 0.14;   // of hand length
 constexpr double kEvenExtents = 1.33;  // largest over smallest extent of a ball
 constexpr double kLeastFill = 0.42, kMostFill = 0.63;
 constexpr double kSectionSpacing = 3.0;  // mm
@@ -49,7 +48,7 @@ bool is_ball_like(const BodyShape& shape) {
 Grip wrap_for(double girth, double hand_length) {
   const double share = girth / std::numbers::pi / hand_length;
   if (share < kSmallShare) return Grip::kSmallDiameter;
-  return share > kLargeShare ? Grip::kLargeDiameter : Grip::kMediumWrap;
+  return share > kLargestClosed ? Grip::kLargeDiameter : Grip::kMediumWrap;
 }
 
 std::vector<GripSite> ball_sites(const geometry::TriangleMesh& mesh, const BodyShape& shape) {

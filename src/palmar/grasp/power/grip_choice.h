@@ -23,10 +23,14 @@ BodyShape body_shape(const geometry::TriangleMesh& mesh);
 /// 0.63; a cylinder as long as thick fills 0.79, a cube 1).
 bool is_ball_like(const BodyShape& shape);
 
+/// Above this share of hand length (66 mm for 184 mm) thumb and fingers don't meet round what they
+/// hold.
+inline constexpr double kLargestClosed = 0.36;
+
 /// The wrap that a girth [mm] is held in. The taxonomy (Feix et al. 2016) draws the line by what
 /// fingers do; by Palmar's own hands that happens at these equivalent diameters (girth over pi):
 /// below 14 % of hand length (26 mm for 184 mm) the fingertips meet the palm: small diameter; above
-/// 36 % (66 mm) thumb and fingers no longer meet: large diameter; medium wrap between.
+/// kLargestClosed: large diameter; medium wrap between.
 Grip wrap_for(double girth, double hand_length);
 
 /// Ways through the middle of a rounded body, for a palm on any side of it: a grip site along each

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "palmar/geometry/mesh/mesh_measures.h"
@@ -13,6 +14,7 @@
 #include "palmar/grasp/equilibrium/nearby_rests.h"
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/precision/precision_shape.h"
+#include "palmar/grasp/rest/hold_at_rest.h"
 #include "palmar/grasp/rest/way_words.h"
 
 namespace palmar::grasp {
@@ -20,15 +22,14 @@ namespace {
 
 constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
 constexpr double kJointSaid = 0.05;  // residual moment over the strongest; more is a slip
+constexpr double kNothingAt = 30.0;  // mm; at which too little force is too little moment
 constexpr double kLost = 0.05;       // of the grip force asked for; less is a lost grip
 constexpr double kLevelSaid = 0.05;  // of the grip force asked for
 
 /// Which parts of the hand lie on what is held: all of them in a power grip, the fingers in a hook,
 /// the pads that touch in a precision grip.
 VolarVector parts_that_hold(const hand::Hand& hand, const Grasp& grasp) {
-  if (is_laid(grasp.grip) || (is_power(grasp.grip) && grasp.grip != Grip::kFixedHook)) {
-    return VolarVector::Ones();
-  }
+  if (is_laid(grasp.grip) || is_by_whole_hand(grasp.grip)) return VolarVector::Ones();
   VolarVector parts = VolarVector::Zero();
   const auto take = [&](hand::Segment segment) { parts[static_cast<int>(segment) - 1] = 1.0; };
   if (grasp.grip == Grip::kFixedHook) {
@@ -75,21 +76,37 @@ EffortTask task_of(const hand::Hand& hand, const product::Product& product, cons
     // As people leave it before a slip.
     task.friction = options.friction / kGripMargin;
   }
-  if (options.load.weight > 0.0 || !options.load.force.isZero(0.0) ||
-      !options.load.torque.isZero(0.0)) {
-    task.load = contact::wrench_of(options.load, geometry::centre_of_volume(product.mesh));
-    if (grasp.grip == Grip::kFixedHook && !options.turn) task.measure = EffortMeasure::kNone;
+  contact::ProductLoad load = options.load;
+  const bool is_loaded = load.weight > 0.0 || !load.force.isZero(0.0) || !load.torque.isZero(0.0);
+  const bool carries = grasp.grip == Grip::kFixedHook && !options.turn;
+  if (carries && !is_loaded) {  // nothing but what it carries closes a hook
+    HeaviestLoad own;
+    own.add(product, {});
+    load.weight = own.force;
+    // As it comes to hang: its centre below what the fingers are hooked round.
+    load.gravity = (geometry::centre_of_volume(product.mesh) - grasp.grip_point).normalized();
+  }
+  if (is_loaded || load.weight > 0.0) {
+    task.load = contact::wrench_of(load, geometry::centre_of_volume(product.mesh));
+    if (carries) task.measure = EffortMeasure::kNone;
   }
   return task;
 }
 
-/// A grasp at rest with least effort.
+/// A grasp at rest with least effort, from how it was closed or as another hand holds it.
 Balance settle(const contact::PreparedHand& hand, const product::Product& product, Grasp& grasp,
                const BalanceOptions& options, const contact::ContactOptions& contact,
                const Progress& progress) {
   const EffortTask task = task_of(hand.hand(), product, grasp, options);
-  const GripState closed{grasp.posture, grasp.product_from_hand};
-  const EffortRest rest = rest_with_least_effort(hand, product, closed, task, contact, progress);
+  GripState closed{grasp.posture, grasp.product_from_hand};
+  std::optional<GripState> from;
+  if (options.like != nullptr) {
+    const double length = hand.hand().dimensions.hand_length;
+    closed = options.like->scaled(options.like->closed, length);
+    from = options.like->scaled(options.like->rest, length);
+  }
+  const EffortRest rest = rest_with_least_effort(hand, product, closed, task, contact, progress,
+                                                 from ? &*from : nullptr);
   Balance balance;
   balance.iterations = rest.iterations;
   balance.fallbacks = rest.fallbacks;
@@ -122,7 +139,11 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   balance.joint_load = rest.load;
 
   const double at_joints = rest.missing.head<kGripJoints>().lpNorm<Eigen::Infinity>();
-  const double allowed = std::max(kBalanced, task.model.nothing / balance.grip_force);
+  const double allowed_force = std::max(kBalanced * balance.grip_force, task.model.nothing);
+  const double no_moment = task.model.nothing * kNothingAt;
+  const double allowed_moment = std::max(kBalanced * balance.grip_force * rest.arm, no_moment);
+  const bool is_force_held = balance.residual_force < allowed_force;
+  const bool is_moment_held = balance.residual_moment < allowed_moment;
   const double asked = task.force.value_or(rest.force);
   if (!task.is_hardest && !turns && rest.force < kLost * asked) {
     balance.status = BalanceStatus::kSlipsOut;
@@ -130,7 +151,8 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
         "slips out: {:.1f} N are left of the {:.0f} N that were requested", rest.force, asked);
     return balance;
   }
-  if (balance.residual_share < allowed && at_joints < kJointSaid * rest.strongest_moment) {
+  const double allowed_at_joints = std::max(kJointSaid * rest.strongest_moment, no_moment);
+  if (is_force_held && is_moment_held && at_joints < allowed_at_joints) {
     // Of light holds by some parts of the hand it would be what it takes to keep the posture.
     if (task.takes_part.minCoeff() > 0.0) {
       balance.strength_use = rest.share * task.strength / options.strength;
@@ -159,13 +181,13 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
     return balance;
   }
   balance.status = BalanceStatus::kSlipsOut;
-  if (balance.residual_force >= allowed * balance.grip_force) {
+  if (!is_force_held) {
     // What is missing is what would have to push the product back.
     balance.slip = -rest.missing.segment<3>(kGripJoints).normalized();
     balance.message = fmt::format("slips out, towards {}: {:.1f} N and {:.0f} N mm are missing",
                                   way_words(hand.hand(), *balance.slip), balance.residual_force,
                                   balance.residual_moment);
-  } else if (balance.residual_share >= allowed) {
+  } else if (!is_moment_held) {
     balance.message =
         fmt::format("turns in the hand: {:.0f} N mm are missing", balance.residual_moment);
   } else {
@@ -210,6 +232,22 @@ Balance balance_grasp(const contact::PreparedHand& hand, const product::Product&
   if (!options.is_on) return {};
   contact::ContactOptions plain = contact;
   plain.error_band = false;
+  if (options.like != nullptr) {
+    BalanceOptions own = options;
+    own.like = nullptr;
+    const bool is_asked =
+        options.asked_grip_force(grasp.grip) || options.turn || options.activation;
+    if (!is_asked || !is_by_whole_hand(grasp.grip)) {
+      return balance_grasp(hand, product, grasp, own, contact, progress);
+    }
+    Grasp there = grasp;
+    const Balance balance = settle(hand, product, there, options, plain, progress);
+    if (balance.status != BalanceStatus::kBalanced) {
+      return balance_grasp(hand, product, grasp, own, contact, progress);
+    }
+    grasp = std::move(there);
+    return balance;
+  }
   const bool has_other_places = !is_power(grasp.grip) && !is_non_prehensile(grasp.grip);
   return has_other_places ? settle_precision(hand, product, grasp, options, plain, progress)
                           : settle(hand, product, grasp, options, plain, progress);

@@ -32,6 +32,7 @@ inline constexpr double kRestingForce = 8.2;
 /// Largest torque that may be asked for, N mm: no hand turns a handle that hard.
 inline constexpr double kMostTurn = 5e4;
 
+struct HoldAtRest;
 struct NearbyRests;
 
 struct BalanceOptions {
@@ -55,6 +56,9 @@ struct BalanceOptions {
   std::optional<double> activation;
   /// Largest activation: the person's muscles over those of HandMuscles.
   double strength = 1.0;
+  /// The hold of another hand, from which a wrap by the whole hand comes to rest; null: from how it
+  /// was closed. Where that fails it is tried from there, too.
+  std::shared_ptr<const HoldAtRest> like;
   bool looks_nearby = false;  ///< finds NearbyRests of what comes to rest: for three times the time
   hand::WristPosture wrist{};  ///< of a power grip; changes what muscles can, not the picture
   /// N; nothing if a grasp of that grip stays as firm as it was closed, as hooked fingers always

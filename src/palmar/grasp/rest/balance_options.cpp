@@ -17,10 +17,6 @@ std::optional<double> BalanceOptions::asked_grip_force(Grip grip) const {
         holding_grip_force(contact::wrench_of(load, Vec3::Zero()).force.norm(), friction);
     return needed > 0.0 ? std::optional(needed) : std::nullopt;
   }
-  // A push holds no weight that would raise it.
-  if (share_of_strength && grip == Grip::kFingerPush) {
-    return share_of_strength->share * share_of_strength->reached(grip);
-  }
   if (share_of_strength) return share_of_strength->force(grip);
   return grip_force;
 }
@@ -40,11 +36,6 @@ std::string BalanceOptions::asked_words(Grip grip) const {
         "what its load asks for of two opposed contacts, {:g} times what friction needs (Westling "
         "& Johansson 1984)",
         kGripMargin);
-  }
-  if (share_of_strength && grip == Grip::kFingerPush) {
-    ShareOfStrength push = *share_of_strength;
-    push.least = 0.0;
-    return push.words(grip);
   }
   if (share_of_strength) return share_of_strength->words(grip);
   return grip_force ? "as given" : "as firm as closing to the limit depths";

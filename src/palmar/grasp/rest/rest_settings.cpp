@@ -20,6 +20,20 @@ std::string person_words(const PersonOfAge& person) {
 
 }  // namespace
 
+void RestSettings::take_task(const std::string& name) {
+  if (!name.empty() && name != "squeeze" && name != "hold" && name != "turn") {
+    throw UsageError("setting \"task\" is \"" + name + "\"; squeeze, hold or turn is required");
+  }
+  if ((name == "turn") != turn.has_value()) {
+    throw UsageError(
+        turn ? "setting \"turn n m\" is given; setting \"task\" is required with it, as turn"
+             : "setting \"task\" is \"turn\"; setting \"turn n m\", a torque, is "
+               "required with it");
+  }
+  squeezes = name == "squeeze";
+  holds_load = name == "hold";
+}
+
 void RestSettings::check() const {
   if (strength && person) {
     throw UsageError(
@@ -111,6 +125,7 @@ BalanceOptions RestSettings::options(std::optional<double> friction,
     share.strength = strength ? *strength : *grasp::grip_strength(person->sex, person->age);
     if (person) share.whose = person_words(*person);
     result.strength = std::clamp(share.strength / usual_grip_strength(), 0.01, 10.0);
+    if (is_share_usual) share.take_least(result.friction, heaviest);
   } else if (is_usual()) {
     result.share_of_strength = usual_share(result.friction, heaviest);
   }

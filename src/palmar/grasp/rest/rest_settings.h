@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/balance.h"
@@ -22,8 +23,9 @@ struct PersonOfAge {
 struct RestSettings {
   /// Off: the hand stays as it was closed to the limit depths, forces out of balance (Xie 2014).
   bool is_balanced = true;
-  // How firmly; at most one of the five. None: usual_share(), the same for all designs and hands
-  // of a comparison.
+  // How firmly; at most one of the five. None: what UsualTask says of the products, with
+  // usual_share(), the same for all designs and hands of a comparison.
+  bool squeezes = false;  ///< firmly, whatever is held
   /// With what each product's own load asks for (holding_grip_force()).
   bool holds_load = false;
   /// Torque about the grip axis that the product is turned with, N m; right-handed about the axis
@@ -37,10 +39,16 @@ struct RestSettings {
   std::optional<double> strength;                    ///< N
   std::optional<PersonOfAge> person = std::nullopt;  ///< mean of that group (Steiber 2016)
 
+  bool is_share_usual = false;  ///< nobody asked for `strength_share`
+
+  /// Whether UsualTask decides.
+  bool follows_product() const { return !squeezes && (is_usual() || is_share_usual); }
   /// Nothing is said about how firmly.
   bool is_usual() const {
     return is_balanced && !holds_load && !turn && !limit_depths && !grip_force && !strength_share;
   }
+  /// "squeeze", "hold", "turn" (needs `turn`), or "" for what is usual. Throws UsageError.
+  void take_task(const std::string& name);
   /// Throws UsageError: setting, value, what is allowed.
   void check() const;
   /// `friction`: coefficient while it settles; unset: kUsualFriction. `heaviest` of all products of

@@ -190,18 +190,19 @@ void fill_in_grip_force(LoadedStudy& study) {
     const grasp::ShareOfStrength usual = grasp::usual_share(setting.friction, heaviest);
     setting.strength_share = usual.share;
     setting.strength = usual.strength;
+    setting.least_grip_force = usual.least;
+    setting.follows_product = true;
+    grasp::ShareOfStrength held = usual;
+    held.holds_only = true;
     for (const std::optional<grasp::Grip>& grip : study.plan.grips) {
-      for (int g = 0; g < grasp::kGripCount; ++g) {
-        const bool is_possible = !grip || *grip == static_cast<grasp::Grip>(g);
-        if (!is_possible || !usual.is_raised(static_cast<grasp::Grip>(g))) continue;
-        setting.least_grip_force = usual.least;
-      }
       const grasp::Grip told = grip.value_or(grasp::Grip::kMediumWrap);
       words.insert(fmt::format(
-          "{}{}grip force {:.0f} N for all hands and products: {}",
+          "{}{}grip force {:.0f} N for all hands and products: {}; {:.1f} N, {}, if thumb and "
+          "fingers "
+          "meet round none of them",
           study.plan.settings.size() > 1 ? "setting " + setting.name + ": " : std::string(),
           grip ? "grip " + std::string(name_of(*grip)) + ": " : std::string(), usual.force(told),
-          usual.words(told)));
+          usual.words(told), held.force(told), held.words(told)));
     }
   }
   study.notes.insert(study.notes.end(), words.begin(), words.end());

@@ -265,6 +265,7 @@ Json setting_json(const study::StudySetting& setting) {
   // Plans without these stay those of older files.
   if (setting.refine) json["refine"] = true;
   if (setting.torque) json["torque"] = true;
+  if (setting.follows_product) json["follows_product"] = true;
   return json;
 }
 
@@ -293,6 +294,7 @@ study::StudySetting setting_from(const Json& json) {
   setting.is_place_per_hand = json.at("place_per_hand");
   setting.refine = json.value("refine", false);
   setting.torque = json.value("torque", false);
+  setting.follows_product = json.value("follows_product", false);
   return setting;
 }
 

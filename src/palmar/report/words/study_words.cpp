@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "palmar/report/words/study_words.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -100,8 +101,13 @@ std::string grip_force_words(const study::StudySetting& setting) {
            " % of the person’s own strength";
   }
   const grasp::ShareOfStrength share = study::share_of_strength(setting, 0.0);
-  return "grip force " + short_number(share.force(grasp::Grip::kMediumWrap)) +
-         " N: " + share.words(grasp::Grip::kMediumWrap) + "; a pinch as much of what it reaches";
+  const std::string words = "grip force " + short_number(share.force(grasp::Grip::kMediumWrap)) +
+                            " N: " + share.words(grasp::Grip::kMediumWrap) +
+                            "; a pinch as much of what it reaches";
+  if (!setting.follows_product) return words;
+  return words +
+         "; where thumb and fingers meet round none of the products, what holds the heaviest: " +
+         short_number(std::max(share.least, grasp::kLightestHold)) + " N";
 }
 
 std::string grasp_words(const study::StudyRecord& record) {

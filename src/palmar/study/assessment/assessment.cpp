@@ -5,8 +5,10 @@
 #include <chrono>
 
 #include "palmar/contact/refine/refined_contact.h"
+#include "palmar/core/enum_index.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/equilibrium/grip_force.h"
+#include "palmar/grasp/power/grasp_verdict.h"
 #include "palmar/grasp/rest/other_grip.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/study/assessment/held_torque.h"
@@ -34,6 +36,15 @@ std::string other_grip_words(const contact::PreparedHand& hand, const product::P
                : "; no other grip holds it either";
 }
 
+/// The segments whose skin carries force.
+grasp::Touching touching(const hand::Hand& hand, const contact::ContactResult& contact) {
+  grasp::Touching touches{};
+  for (std::size_t v = 0; v < contact.force.size(); ++v) {
+    if (contact.force[v] > 0.0) touches[index_of(hand.segment[v])] = true;
+  }
+  return touches;
+}
+
 }  // namespace
 
 double grip_force_of(const AssessedProduct& one) {
@@ -59,6 +70,11 @@ Assessment evaluate(const contact::PreparedHand& hand, const product::Product& p
   result.contact = contact::solve_hand_contact(
       hand, result.posed_skin, result.grasp.product_from_hand, *product.distance, options.contact);
   result.times.contact = contact_watch.seconds();
+
+  const bool is_wrap = grasp::is_power(grasp.grip) && grasp.status == grasp::GraspStatus::kHeld;
+  if (is_wrap && result.balance.status == grasp::BalanceStatus::kBalanced) {
+    result.grasp.message = grasp::held_words(touching(hand.hand(), result.contact), grasp.grip);
+  }
 
   if (result.balance.nearby && result.contact.total.force > 0.0) {
     result.certainty =

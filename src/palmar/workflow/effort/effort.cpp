@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "palmar/grasp/rest/usual_task.h"
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/workflow/grasp/grasp.h"
 #include "palmar/workflow/grasp/hold_product.h"
@@ -30,7 +31,7 @@ effort::EffortResult effort_of_grasp(const EffortRequest& request, const Progres
   options.contact.error_band = false;
   options.friction = request.rest.load(request.friction).options_for(product);
   grasp::HeaviestLoad load;
-  if (request.rest.is_usual()) load.add(product, options.friction.load);
+  if (request.rest.follows_product()) load.add(product, options.friction.load);
   options.balance = request.rest.options(request.friction.friction, load);
   options.balance.load = options.friction.load;
   effort::EffortOptions effort = request.effort;
@@ -41,12 +42,22 @@ effort::EffortResult effort_of_grasp(const EffortRequest& request, const Progres
   const auto hand = load_hand(request.hand);
   const contact::PreparedHand prepared =
       prepared_hand(request.hand, hand, request.model, request.note);
+  HeldProduct taken;
+  if (request.grasp_file.empty()) {
+    taken = take_product(hand, product, request.grasp, options.grasp, progress);
+    if (request.rest.follows_product()) {
+      options.balance.share_of_strength->holds_only =
+          grasp::usual_task(product, taken.grasp, hand->dimensions.hand_length) ==
+          grasp::UsualTask::kHold;
+    }
+    std::shared_ptr<const contact::PreparedHand> reference;
+    options.balance.like =
+        reference_at_rest(taken.reference_grasp, hand, product, options, reference, progress);
+  }
   study::Assessment held =
       request.grasp_file.empty()
           ? study::assess(prepared, product, options, progress,
-                          [&](const Progress& p) {
-                            return hold_product(hand, product, request.grasp, options.grasp, p);
-                          })
+                          [&](const Progress&) { return taken.grasp; })
           : study::evaluate(prepared, product, read_grasp(request.grasp_file, *hand, product),
                             options, progress);
   if (const auto asked = options.balance.asked_grip_force(held.grasp.grip);

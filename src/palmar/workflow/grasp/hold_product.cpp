@@ -6,6 +6,7 @@
 #include "palmar/grasp/find/grasp_place.h"
 #include "palmar/hand/mirror.h"
 #include "palmar/workflow/hand/load_hand.h"
+#include "palmar/workflow/hand/tissue_on_bone.h"
 
 namespace palmar::workflow {
 namespace {
@@ -45,8 +46,22 @@ HeldProduct take_product(const std::shared_ptr<const hand::Hand>& hand,
   const grasp::GraspPlace place(*reference, product, options, progress);
   held.grasp =
       reference == hand ? place.reference_grasp() : place.hold(grasp::GraspingHand(hand), progress);
+  if (reference != hand) held.reference_grasp = place.reference_grasp();
   take_ways(place, reference, held);
   return held;
+}
+
+std::shared_ptr<const grasp::HoldAtRest> reference_at_rest(
+    const std::optional<grasp::Grasp>& grasp, const std::shared_ptr<const hand::Hand>& hand,
+    const product::Product& product, const study::AssessOptions& options,
+    std::shared_ptr<const contact::PreparedHand>& reference, const Progress& progress) {
+  if (!grasp || !options.balance.is_on || !grasp::is_by_whole_hand(grasp->grip)) return nullptr;
+  if (reference == nullptr) {
+    reference = std::make_shared<const contact::PreparedHand>(
+        prepared_hand({}, reference_for(hand), contact::palmar_model()));
+  }
+  return grasp::hold_at_rest(*reference, product, *grasp, options.balance, options.contact,
+                             progress);
 }
 
 grasp::Grasp hold_product(const std::shared_ptr<const hand::Hand>& hand,

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "palmar/core/progress.h"
 #include "palmar/grasp/find/grasp_settings.h"
+#include "palmar/grasp/rest/hold_at_rest.h"
 #include "palmar/hand/hand.h"
 #include "palmar/product/product.h"
+#include "palmar/study/assessment/assessment.h"
 
 namespace palmar::workflow {
 
@@ -16,6 +19,8 @@ struct HeldProduct {
   grasp::Grasp grasp;
   std::shared_ptr<const grasp::RankedHolds> ways;  ///< null where a hold or coordinates were given
   std::shared_ptr<const hand::Hand> ways_hand;     ///< that they were ranked with
+  /// How that hand takes hold of it, where it is another one than the hand that holds.
+  std::optional<grasp::Grasp> reference_grasp;
 };
 
 /// The hand that holds are ranked and places are searched with, so that hands differ in size and
@@ -30,6 +35,13 @@ std::shared_ptr<const hand::Hand> reference_for(const std::shared_ptr<const hand
 HeldProduct take_product(const std::shared_ptr<const hand::Hand>& hand,
                          const product::Product& product, const grasp::GraspSettings& settings,
                          const grasp::GraspOptions& options, const Progress& progress = {});
+
+/// HeldProduct::reference_grasp at rest, for BalanceOptions::like of `hand`; null without one.
+/// `reference` keeps the other hand prepared from call to call.
+std::shared_ptr<const grasp::HoldAtRest> reference_at_rest(
+    const std::optional<grasp::Grasp>& grasp, const std::shared_ptr<const hand::Hand>& hand,
+    const product::Product& product, const study::AssessOptions& options,
+    std::shared_ptr<const contact::PreparedHand>& reference, const Progress& progress = {});
 
 /// The grasp alone.
 grasp::Grasp hold_product(const std::shared_ptr<const hand::Hand>& hand,

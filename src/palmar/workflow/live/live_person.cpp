@@ -35,6 +35,7 @@ LiveTask task_of_person(LiveTask task, const std::optional<PersonOfSize>& person
   if (task.rest.is_usual() && person) {
     task.rest.person = grasp::PersonOfAge{person->sex, grasp::kUsualAge};
     task.rest.strength_share = grasp::kUsualStrengthShare;
+    task.rest.is_share_usual = true;
   }
   return task;
 }

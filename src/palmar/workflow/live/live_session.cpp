@@ -9,6 +9,7 @@
 #include "palmar/core/error.h"
 #include "palmar/core/progress_part.h"
 #include "palmar/grasp/given_grasp.h"
+#include "palmar/grasp/rest/usual_task.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/hand/tendons/joint_limits.h"
 #include "palmar/workflow/grasp/contact_with_band.h"
@@ -57,7 +58,7 @@ study::AssessOptions LiveSession::options_for_task(const LiveTask& task) const {
   options.contact = refined_contact_with_band();
   options.friction = task.friction.options_for(*product_);
   grasp::HeaviestLoad heaviest;
-  if (task.rest.is_usual()) heaviest.add(*product_, options.friction.load);
+  if (task.rest.follows_product()) heaviest.add(*product_, options.friction.load);
   options.balance = task.rest.options(task.friction.friction, heaviest);
   options.balance.load = options.friction.load;
   return options;
@@ -97,8 +98,10 @@ study::AssessmentSet LiveSession::take_hold(int number, const LiveTask& task,
     grasps_.emplace(number, is_own ? place->second.reference_grasp()
                                    : place->second.hold(grasp::GraspingHand(hand_.hand), search));
   }
+  std::optional<grasp::Grasp> reference;
+  if (hand_.reference != hand_.hand) reference = places_.at(number).reference_grasp();
   study::AssessmentSet set =
-      rest_of(options, grasps_.at(number), part_of(progress, kHoldFound, 1.0));
+      rest_of(options, task, grasps_.at(number), part_of(progress, kHoldFound, 1.0), reference);
   const grasp::RankedHolds& ranked = places_.at(number).ranked();
   if (!ranked.holds.empty()) {
     set.assessments.front().ways = std::make_shared<const grasp::RankedHolds>(ranked);
@@ -107,8 +110,16 @@ study::AssessmentSet LiveSession::take_hold(int number, const LiveTask& task,
   return set;
 }
 
-study::AssessmentSet LiveSession::rest_of(const study::AssessOptions& options,
-                                          const grasp::Grasp& grasp, const Progress& progress) {
+study::AssessmentSet LiveSession::rest_of(study::AssessOptions options, const LiveTask& task,
+                                          const grasp::Grasp& grasp, const Progress& progress,
+                                          const std::optional<grasp::Grasp>& reference) {
+  if (task.rest.follows_product()) {
+    options.balance.share_of_strength->holds_only =
+        grasp::usual_task(*product_, grasp, hand_.hand->dimensions.hand_length) ==
+        grasp::UsualTask::kHold;
+  }
+  options.balance.like =
+      reference_at_rest(reference, hand_.hand, *product_, options, reference_, progress);
   return set_of(study::assess(*hand_.prepared, *product_, options, progress,
                               [&grasp](const Progress&) { return grasp; }));
 }
@@ -133,12 +144,12 @@ study::AssessmentSet LiveSession::close_here(const LivePose& pose, std::optional
   options.grasp = options_for(settings, *product_);
   const grasp::Grasp grasp =
       grasp::find_grasp(*hand_.hand, *product_, options.grasp, part_of(progress, 0.0, kHoldFound));
-  return rest_of(options, grasp, part_of(progress, kHoldFound, 1.0));
+  return rest_of(options, task, grasp, part_of(progress, kHoldFound, 1.0));
 }
 
 study::AssessmentSet LiveSession::rest_here(const LivePose& pose, grasp::Grip grip,
                                             const LiveTask& task, const Progress& progress) {
-  return rest_of(options_for_task(task), given(pose, grip), progress);
+  return rest_of(options_for_task(task), task, given(pose, grip), progress);
 }
 
 study::AssessmentSet LiveSession::evaluate_here(const LivePose& pose, grasp::Grip grip,

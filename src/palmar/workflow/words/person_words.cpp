@@ -63,12 +63,13 @@ std::optional<PersonOfSize> parse_person_size(const std::string& text) {
 grasp::RestSettings held_by(const std::string& text, grasp::RestSettings settings) {
   if (text.empty()) return settings;
   const PersonWords person = person_words(text);
-  const bool is_force_said =
-      settings.grip_force || settings.holds_load || settings.limit_depths || !settings.is_balanced;
+  const bool is_force_said = settings.grip_force || settings.holds_load || settings.turn ||
+                             settings.limit_depths || !settings.is_balanced;
   if (is_force_said && person.percentile) return settings;
   settings.person = person.strength;
   if (!settings.strength_share && person.percentile) {
     settings.strength_share = grasp::kUsualStrengthShare;
+    settings.is_share_usual = true;
   }
   return settings;
 }
