@@ -337,7 +337,9 @@ class StudySubject {
     record.fallbacks = held.balance.fallbacks;
     record.fallbacks += contact.fallbacks;
     if (contact.total.force > 0.0) {
-      record.grip_force = grasp::grip_force(contact, *product.distance).force;
+      record.grip_force = held.balance.status == grasp::BalanceStatus::kBalanced
+                              ? held.balance.grip_force
+                              : grasp::grip_force(contact, *product.distance).force;
     }
     const bool has_fields = bench_.detail == StudyDetail::kAll;
     if (has_fields) record.skin_pressure = sparse(contact.pressure);
@@ -515,18 +517,28 @@ void StudyBench::Impl::rest_mean_hands(const Progress& progress) {
   population::HandSample mean;
   mean.grip_strength = grasp::usual_grip_strength();
   std::vector<std::pair<const StudyTask, Place>*> open;
+  std::map<std::pair<int, int>, std::unique_ptr<const contact::PreparedHand>> prepared;
   for (auto& entry : places) {
-    if (entry.second.place != nullptr && entry.second.at_rest == nullptr) open.push_back(&entry);
+    const auto& [task, found] = entry;
+    if (found.place == nullptr || found.at_rest != nullptr) continue;
+    const grasp::Grasp& grasp = found.place->reference_grasp();
+    const grasp::BalanceOptions options = options_of(task, mean).balance;
+    const bool is_asked = options.is_on && options.asked_grip_force(grasp.grip);
+    if (!is_asked || !grasp::is_by_whole_hand(grasp.grip)) continue;
+    open.push_back(&entry);
+    auto& hand = prepared[{task.profile, task.setting}];
+    if (hand == nullptr) {
+      hand = std::make_unique<const contact::PreparedHand>(
+          mean_hands[task.profile], *family_of(plan.settings[task.setting].model));
+    }
   }
   parallel_for(static_cast<int>(open.size()), [&](int i) {
     auto& [task, place] = *open[i];
-    const contact::HandFamily* family = family_of(plan.settings[task.setting].model);
     run_isolated([&, &key = task, &found = place] {
       const AssessOptions options = options_of(key, mean);
-      const contact::PreparedHand prepared(mean_hands[key.profile], *family);
-      found.at_rest = grasp::hold_at_rest(prepared, product_for(key.profile, key.product),
-                                          found.place->reference_grasp(), options.balance,
-                                          options.contact, progress);
+      found.at_rest = grasp::hold_at_rest(
+          *prepared.at({key.profile, key.setting}), product_for(key.profile, key.product),
+          found.place->reference_grasp(), options.balance, options.contact, progress);
     });
   });
 }

@@ -153,8 +153,8 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   }
   const double allowed_at_joints = std::max(kJointSaid * rest.strongest_moment, no_moment);
   if (is_force_held && is_moment_held && at_joints < allowed_at_joints) {
-    // Of light holds by some parts of the hand it would be what it takes to keep the posture.
-    if (task.takes_part.minCoeff() > 0.0) {
+    // Of light holds it would be what it takes to keep the posture.
+    if (task.takes_part.minCoeff() > 0.0 && !options.is_light()) {
       balance.strength_use = rest.share * task.strength / options.strength;
     }
     if (options.looks_nearby) {

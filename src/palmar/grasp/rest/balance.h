@@ -64,6 +64,11 @@ struct BalanceOptions {
   /// N; nothing if a grasp of that grip stays as firm as it was closed, as hooked fingers always
   /// do: they carry and don't squeeze.
   std::optional<double> asked_grip_force(Grip grip) const;
+  /// Whether no more is asked for than what holds the product: what that takes of a hand's strength
+  /// is what it takes to keep the posture.
+  bool is_light() const {
+    return holds_load || (share_of_strength && share_of_strength->holds_only);
+  }
   /// Where it comes from, to follow "107 N: ", or why nothing is asked for.
   std::string asked_words(Grip grip) const;
   void check() const;  ///< throws UsageError: field, value, allowed range
@@ -93,7 +98,8 @@ struct Balance {
   double residual_share = 0.0;   ///< the larger of force / grip force, moment / (grip force arm)
   double friction_use = 0.0;     ///< sum of tangential forces over the most they could be
   /// Least share of the person's strength with which the muscles of all digits and the wrist hold
-  /// these contact forces and the load; nothing but for power grips that came to rest.
+  /// these contact forces and the load; nothing but for power grips that came to rest and aren't
+  /// light.
   std::optional<double> strength_use;
   bool is_by_wrist = false;  ///< the muscles of the digits alone would need a smaller share
   /// Moments about the angles of the digits of contact forces, friction and of thumb and fingers on

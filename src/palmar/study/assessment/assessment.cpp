@@ -48,7 +48,9 @@ grasp::Touching touching(const hand::Hand& hand, const contact::ContactResult& c
 }  // namespace
 
 double grip_force_of(const AssessedProduct& one) {
-  if (one.product.distance == nullptr) return one.assessment.balance.grip_force;
+  const grasp::Balance& balance = one.assessment.balance;
+  const bool is_known = balance.status == grasp::BalanceStatus::kBalanced;
+  if (is_known || one.product.distance == nullptr) return balance.grip_force;
   return grasp::grip_force(one.assessment.contact, *one.product.distance).force;
 }
 

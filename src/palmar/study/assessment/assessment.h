@@ -76,7 +76,8 @@ struct AssessedProduct {
   std::shared_ptr<const ErrorBudget> errors = nullptr;  ///< if it was asked for
 };
 
-/// Grip force of its contact [N]; of a grasp that slips out that of the hand as it was closed.
+/// Grip force with which it rests [N]; of what doesn't rest that of its contact, of a grasp that
+/// slips out that of the hand as it was closed.
 double grip_force_of(const AssessedProduct& one);
 
 /// What one `palmar assess` found: one hand, one or more products.

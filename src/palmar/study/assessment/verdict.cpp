@@ -22,6 +22,7 @@ std::optional<StrengthUse> strength_of(const AssessedProduct& one, double grip_f
   if (assessment.balance.status != grasp::BalanceStatus::kBalanced || !(grip_force > 0.0))
     return {};
   if (grip == grasp::Grip::kFixedHook) return {};  // carries; nobody squeezes
+  if (assessment.options.balance.is_light()) return {};
   StrengthUse use;
   use.grip_force = grip_force;
   use.share = assessment.balance.strength_use;
