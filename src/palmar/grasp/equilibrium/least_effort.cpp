@@ -39,6 +39,7 @@ constexpr double kAccuracy = 1e-4;          // relative, of contact forces
 constexpr double kStep = 8.0, kArm = 50.0;  // mm; angles count by what they move at that arm
 constexpr double kBackDamping = 30.0;       // of a correction
 constexpr double kFollowed = 1.0;           // damping of what follows a small change
+constexpr int kFollowedBack = 2;            // corrections: lightly pressed skin isn't linear
 constexpr int kMostCorrections = 4;
 constexpr int kMostUnasked = 4;       // steps across a jump of forces
 constexpr double kUsualSteps = 50.0;  // of all searches; of what progress is a share
@@ -142,7 +143,7 @@ class LeastEffort {
   EffortRest run(const GripState* from, const Progress& progress);
   /// The motion that a state on the whole skin asks for at a force; nothing where its contact has
   /// no solution.
-  GripVector next(const GripState& state, const Vec3& held_at, double force);
+  GripVector next(const GripState& state, const Vec3& held_at, double force, double damping);
   const Vec3& centre() const { return skin_.centre(); }
 
  private:
@@ -623,7 +624,8 @@ EffortRest LeastEffort::run(const GripState* from, const Progress& progress) {
   return rest;
 }
 
-GripVector LeastEffort::next(const GripState& state, const Vec3& held_at, double force) {
+GripVector LeastEffort::next(const GripState& state, const Vec3& held_at, double force,
+                             double damping) {
   is_coarse_ = false;
   held_at_ = held_at;
   held_point_ = start_.product_from_hand * held_at_;
@@ -633,7 +635,7 @@ GripVector LeastEffort::next(const GripState& state, const Vec3& held_at, double
   if (!look(state, now)) return GripVector::Zero();
   judge(now);
   if (!differentiate(now)) return GripVector::Zero();
-  return solve_effort(program(now, kFollowed)).motion;
+  return solve_effort(program(now, damping)).motion;
 }
 
 }  // namespace
@@ -643,9 +645,16 @@ GripState rest_after_change(const contact::PreparedHand& hand, const product::Pr
                             const EffortTask& task, const contact::ContactOptions& contact) {
   LeastEffort before(hand, product, rest.start, task, contact);
   LeastEffort after(hand, changed, rest.start, task, contact);
-  const GripVector way = after.next(rest.state, rest.held_at, force * rest.asked) -
-                         before.next(rest.state, rest.held_at, rest.asked);
-  return moved(rest.state, way, before.centre());
+  // What is left where the search ended is no change.
+  const double asked = force * rest.asked;
+  const GripVector way = after.next(rest.state, rest.held_at, asked, kFollowed) -
+                         before.next(rest.state, rest.held_at, rest.asked, kFollowed);
+  GripState state = moved(rest.state, way, before.centre());
+  for (int k = 0; k < kFollowedBack; ++k) {
+    const GripVector back = after.next(state, rest.held_at, asked, kBackDamping);
+    state = moved(state, back, after.centre());
+  }
+  return state;
 }
 
 EffortRest rest_with_least_effort(const contact::PreparedHand& hand,

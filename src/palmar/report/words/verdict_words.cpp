@@ -288,7 +288,8 @@ class SetSpeaker {
         values["area"] = area_words(pair.area_change, texts_);
         return texts_("verdict.lower", values);
       case study::PairVerdict::kSame:
-        values["limit"] = texts_.percent(grasp::kToldApart);
+        values["limit"] =
+            texts_.percent(std::max(grasp::kToldApart, pair.peak_unsure.value_or(0.0)));
         return texts_("verdict.same", values);
       case study::PairVerdict::kDependsOnSkin:
         return texts_("verdict.depends_on_skin", values);
