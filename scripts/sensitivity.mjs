@@ -1,16 +1,19 @@
 // Copyright the Palmar authors.
 // SPDX-License-Identifier: Apache-2.0
 //
-// node scripts/sensitivity.mjs [--share DIR] [--only TEXT] [--jobs N] [--measured] [--page]
+// node scripts/sensitivity.mjs [--share DIR] [--only TEXT] [--jobs N] [--minutes N] [--built] [--measured] [--page]
 //
 // Which constants of a hold shape its figures, and by how much? Copies the sources to build/sensitivity, where
 // every constant is one that can be changed while the program runs (scripts/sensitivity/constants.mjs), builds
 // that copy with a program that holds eight products (scripts/sensitivity/sensitivity.cpp), and has it change one
 // constant after the other by 5 %. Prints the page docs/method/sensitivity.md; --page writes it. --only: constants
-// whose name or file contains the text. --share: folder with the built-in hand, otherwise that of build/release.
-// --jobs: programs at a time, otherwise one per processor. --measured: nothing is built or measured, the page is
-// written from what was measured last. The program that people use keeps its constants as they are.
+// whose name or file contains the text, and those that say how large chance is. --share: folder with the built-in
+// hand, otherwise that of build/release. --jobs: programs at a time, otherwise one per processor. --minutes: no
+// constant is begun later than that. --built: the copy is taken as it was built last. --measured: nothing is built
+// or measured, the page is written from what was measured last, by a run that was stopped, too. What the same program
+// has measured before isn't measured again. The program that people use keeps its constants as they are.
 import { execFileSync, spawn, spawnSync } from "node:child_process";
+import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from "node:fs";
 import { availableParallelism } from "node:os";
 import { dirname, join } from "node:path";
@@ -24,6 +27,7 @@ const copy = join(root, "build", "sensitivity");
 const tree = join(copy, "tree");
 const kept = join(copy, "measured.json");
 const known_fixed = join(copy, "fixed.json");
+const built_last = join(copy, "built.json");
 const page = join(root, "docs", "method", "sensitivity.md");
 /** Rounds of building: constants that the compiler has to know are found by its messages. */
 const most_rounds = 8;
@@ -31,9 +35,14 @@ const most_rounds = 8;
 const most_minutes = 5;
 /** So that a search that goes on from where it ended finds what a small change does, it ends later in the copy. */
 const least_gain = 1e-3;
-const tight = [["kOnSkin.least_gain", least_gain], ["kWithFingertips[1].least_gain", least_gain],
+const tight = [["kOnSkin.least_gain", least_gain], ["kWithFingertips[1].least_gain", least_gain], ["kInNeed.least_gain", least_gain],
   // Prices that are low at first would lead it away again.
   ["kWithFingertips[0].least_gain", 1e9]];
+const tight_file = "grasp/equilibrium/least_effort.cpp";
+/** What is measured first: how large chance is, then what is wanted most. */
+const order = ["steering", "rest", "prepared", "closed", "fingertips", "searched", "ranked", "compliance"];
+/** So many constants are measured between two times that what was found is kept. */
+const kept_every = 20;
 
 function option(name, otherwise) {
   const k = process.argv.indexOf(name);
@@ -102,7 +111,11 @@ function build_copy() {
     console.error(`Building ${constants.length} constants, round ${round}`);
     const build = spawnSync("ninja", ["-C", binary, "-k", "0", "-j", String(availableParallelism()), "sensitivity"], { encoding: "utf8", maxBuffer: 1 << 28 });
     writeFileSync(known_fixed, JSON.stringify([...fixed]));
-    if (build.status === 0) return { constants, program: join(binary, "bin", "sensitivity") };
+    if (build.status === 0) {
+      const built = { constants, program: join(binary, "bin", "sensitivity") };
+      writeFileSync(built_last, JSON.stringify(built));
+      return built;
+    }
     const before = fixed.size;
     const said = build.stdout.split("\n");
     for (const one of constants) {
@@ -137,7 +150,7 @@ function start(program, share) {
   child.stdin.on("error", () => { /* it has ended: told where it is waited for */ });
   child.on("exit", () => waiting.splice(0).forEach((tell) => tell(undefined)));
   for (const [name, factor] of tight) {
-    child.stdin.write(`tight ${id_of("grasp/equilibrium/least_effort.cpp", name).replace("ULL", "")} ${factor}\n`);
+    child.stdin.write(`tight ${id_of(tight_file, name).replace("ULL", "")} ${factor}\n`);
   }
   return {
     end: () => child.stdin.end(),
@@ -153,11 +166,14 @@ function start(program, share) {
   };
 }
 
-async function measure(program, constants, share, jobs) {
+/** Measures those of `varied` that `before` hasn't; `keep` gets {held, results, minutes} now and then, and at the end. */
+async function measure(program, varied, share, jobs, most, before, keep) {
   const begin = Date.now();
-  const results = new Map();
-  let held;
-  const left = [...constants];
+  const minutes = () => (Date.now() - begin) / 60000;
+  const results = before?.results ?? {};
+  let held = before?.held;
+  const left = varied.filter(({ id }) => !(id in results)).sort((a, b) => order.indexOf(a.anew) - order.indexOf(b.anew));
+  const found = () => ({ held, results, minutes: (before?.minutes ?? 0) + minutes() });
   const worker = async () => {
     let one_program;
     for (;;) {
@@ -167,40 +183,57 @@ async function measure(program, constants, share, jobs) {
         if (!answer) throw new Error("the products can't be held");
         held ??= answer.held;
       }
-      const one = left.shift();
+      const one = minutes() < most ? left.shift() : undefined;
       if (!one) break;
-      const answer = await one_program.ask(`${one.anew} ${id_of(one.file, one.name).replace("ULL", "")}`, most_minutes);
-      results.set(one.id, answer ? { ...answer } : { error: "the program ended, or took too long" });
+      const id = id_of(one.file, one.name).replace("ULL", "");
+      let answer = await one_program.ask(`${one.anew} ${id}`, most_minutes);
+      if (answer && one.anew === "steering") {
+        // As in use, too.
+        const searched = await one_program.ask(`searched ${id}`, most_minutes);
+        answer = searched && { ...answer, searched: searched.results, seconds: answer.seconds + searched.seconds };
+      }
+      results[one.id] = answer ?? { error: "the program ended, or took too long" };
       if (!answer) one_program = undefined;
-      if (results.size % 25 === 0) {
-        console.error(`${results.size} of ${constants.length} constants, ${((Date.now() - begin) / 60000).toFixed(1)} min`);
+      const count = Object.keys(results).length;
+      if (count % kept_every === 0) {
+        keep(found());
+        console.error(`${count} of ${varied.length} constants, ${minutes().toFixed(1)} min`);
       }
     }
     one_program.end();
   };
-  await Promise.all(Array.from({ length: jobs }, worker));
-  return { held, results: Object.fromEntries(results), minutes: (Date.now() - begin) / 60000 };
+  if (left.length > 0) await Promise.all(Array.from({ length: jobs }, worker));
+  keep(found());
 }
 
-/** Builds and measures; what is found is kept, too. */
-async function made_anew() {
+/** Builds and measures; what is found is kept. */
+async function make_anew() {
   const share = option("--share", join(root, "build", "release", "share", "palmar"));
-  if (!existsSync(join(share, "template.compliance"))) {
-    throw new Error(`${share} has no template.compliance: build Palmar first, or name a folder with --share`);
+  if (!existsSync(join(share, "template.hand.glb"))) {
+    throw new Error(`${share} has no template.hand.glb: build Palmar first, or name a folder with --share`);
   }
   mkdirSync(copy, { recursive: true });
   const begin = Date.now();
-  const built = build_copy();
+  const built = process.argv.includes("--built") ? JSON.parse(readFileSync(built_last, "utf8")) : build_copy();
+  const { constants } = built;
+  const gone = tight.filter(([name]) => !constants.some((one) => one.file === tight_file && one.name === name && !one.is_fixed));
+  if (gone.length > 0) throw new Error(`${tight_file} has no changeable ${gone.map(([name]) => name).join(", ")}: mend \`tight\` in this script`);
   console.error(`Built in ${((Date.now() - begin) / 60000).toFixed(1)} min`);
+  const program = createHash("sha256").update(readFileSync(built.program)).digest("hex");
+  const before = existsSync(kept) ? JSON.parse(readFileSync(kept, "utf8")) : undefined;
   const only = option("--only", "");
-  const constants = built.constants.filter(({ id }) => id.includes(only));
-  const varied = constants.filter(({ is_fixed, value }) => !is_fixed && !value.startsWith("std::numbers"));
-  const found = await measure(built.program, varied, share, Number(option("--jobs", availableParallelism())));
-  const all = { date: new Date().toISOString().slice(0, 10), constants, ...found };
-  writeFileSync(kept, JSON.stringify(all, undefined, 1));
-  return all;
+  const varied = constants.filter(({ id, anew, is_fixed, value }) =>
+    (id.includes(only) || anew === "steering") && anew !== "never" && !is_fixed && !value.startsWith("std::numbers"));
+  await measure(built.program, varied, share, Number(option("--jobs", availableParallelism())), Number(option("--minutes", Infinity)),
+                before?.program === program ? before : undefined, (found) => {
+    writeFileSync(kept, JSON.stringify({ program, date: new Date().toISOString().slice(0, 10), constants, ...found }, undefined, 1));
+  });
 }
 
-const text = page_of(process.argv.includes("--measured") ? JSON.parse(readFileSync(kept, "utf8")) : await made_anew());
+if (!process.argv.includes("--measured")) await make_anew();
+const measured = JSON.parse(readFileSync(kept, "utf8"));
+// Kinds as they are told now.
+const constants = measured.constants.map((one) => ({ ...one, anew: anew_for(one.file, one.name) })).filter(({ anew }) => anew);
+const text = page_of({ ...measured, constants });
 if (process.argv.includes("--page")) writeFileSync(page, text);
 else console.log(text);

@@ -9,14 +9,15 @@ import { join } from "node:path";
 
 /** Folders of src/palmar whose constants are named, and what is done anew when one of them changes. */
 export const kFolders = [
-  // How the search goes on: from the closed hand.
-  { folder: "grasp/equilibrium", anew: "balanced", only: /\/(least_effort|effort_program)\.cpp$/ },
   { folder: "grasp/equilibrium", anew: "rest" },
   { folder: "hand/tendons", anew: "rest" },
+  { folder: "contact/bone", anew: "compliance" },
   { folder: "contact", anew: "prepared" },
   { folder: "grasp/power", anew: "closed" },
   { folder: "grasp/precision", anew: "fingertips" },
-  { folder: "grasp/rest", anew: "balanced" },
+  // What is asked of a hold, and what is said of it.
+  { folder: "grasp/rest", anew: "rest", only: /\/balance\.h$/ },
+  { folder: "grasp/rest", anew: "searched" },
   { folder: "grasp", anew: "closed", only: /^grasp\/\w+\.(h|cpp)$/ },
   // Where a hold lies on a product: the hand is closed by that.
   { folder: "grasp/holds", anew: "closed", only: /\/(hold_place|power_place)\.(h|cpp)$/ },
@@ -24,8 +25,38 @@ export const kFolders = [
   { folder: "grasp/find", anew: "ranked" },
 ];
 
-/** Files of those folders that no hold uses: presses, fits to measured presses, tables of strength. */
-const kElsewhere = /^contact\/(press|printed|tissue\/tissue_fit|tissue\/modulus_search|hand\/hand_press|footprint)|^grasp\/(joint_strength|pressure_thresholds|task_force)/;
+/**
+ * Constants that say how a search goes on, how it is damped, where it begins to look and when it ends, but not what it looks
+ * for: what they change is chance (file -> names).
+ */
+const kSteering = {
+  "grasp/equilibrium/least_effort.cpp":
+    /^kOnCoarseSkin\[|^kWithFingertips\[0\]|\.(least_gain|first_damping)$|^k(Accuracy|Step|Arm|BackDamping|UsualSteps|Poor|Worthwhile|LeastShare|Shorter|AsGood|Growth|Kept)$/,
+  "grasp/equilibrium/effort_program.cpp": /^kTolerance$/,
+  "grasp/equilibrium/contact_forces.cpp": /^kRates$/,
+  "grasp/equilibrium/digit_meeting.cpp": /^kStep$/,
+  "grasp/equilibrium/skin_motion.h": /^k(ForcePower|AngleStep)$/,
+};
+
+/** What nobody can choose otherwise: units, mathematics, and a share of which 5 % more breaks the method (file -> names). */
+const kNeverVaried = {
+  "contact/bone/half_space_tensor.cpp": /^kBinomial$/,
+  "contact/bone/mini_element.cpp": /^kBubble/,
+  "contact/response/layered_response.cpp": /^k(Node|Weight|Step|DiedOut)$/,
+  "contact/tissue/stiffening.cpp": /^kSlope$/,
+  "grasp/equilibrium/effort_program.cpp": /^kToBoundary$/,
+  "hand/tendons/tendon.cpp": /^kMm2PerCm2$/,
+  "hand/tendons/tendon_path.cpp": /^kTurn$/,
+};
+
+/**
+ * Files of those folders that are no part of a hold, its equilibrium or its contact: presses, fits to measured presses, the thesis'
+ * procedure, maps, what is done once a hold is at rest (refined skin, the margin of friction, what is told of edges), postures that
+ * are given, buttons within reach, what a person can and a task asks for, holds carried to another product, effort of a posture.
+ */
+const kElsewhere = new RegExp("^contact/(press/|printed/|refine/|footprint/|tissue/tissue_fit|tissue/modulus_search|hand/hand_press|prepared/resolution|" +
+  "friction/(friction|friction_limit|stick_slip)\\.)|^grasp/(joint_strength|pressure_thresholds|task_force|given_grasp|precision/reach|holds/carried_hold|" +
+  "rest/(usual_task|friction_settings|rest_settings))|^hand/tendons/muscle_balance");
 /** Structs with settings or figures of a model as their members' defaults. */
 const kStructs = /\w+(?:Model|Options)$/;
 /** Lists whose numbers have a meaning each; all other lists are changed as a whole. */
@@ -34,9 +65,11 @@ const kNumber = /(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=e))(?:e[-+]?\d+)?F?(?![\w.])/
 
 export const id_of = (file, name) => `0x${createHash("sha256").update(`${file}:${name}`).digest("hex").slice(0, 15)}ULL`;
 
-/** How a constant's effect is found, by its file; undefined: not at all. */
-export function anew_for(file) {
+/** How a constant's effect is found, by its file and name; undefined: not at all. */
+export function anew_for(file, name = "") {
   if (kElsewhere.test(file) || /_test\.|_test_/.test(file)) return undefined;
+  if (kNeverVaried[file]?.test(name)) return "never";
+  if (kSteering[file]?.test(name)) return "steering";
   return kFolders.find(({ folder, only }) => file.startsWith(`${folder}/`) && (only?.test(file) ?? true))?.anew;
 }
 
@@ -102,10 +135,9 @@ function by_member(list, members, name, file, found) {
  * `file`: below src/palmar. A constant has file, name, value, words and anew; `is_fixed`: the compiler has to know it.
  */
 export function with_changeable_constants(file, text, fixed = new Set()) {
-  const anew = anew_for(file);
   const constants = [];
   const take = (name, value, words, is_fixed = false) =>
-    constants.push({ id: `${file}:${name}`, file, name, value: in_one_line(value), words, anew, is_fixed });
+    constants.push({ id: `${file}:${name}`, file, name, value: in_one_line(value), words, anew: anew_for(file, name), is_fixed });
   const statement = /^([ \t]*)((?:inline |static )*)constexpr ((?:std::array(?:<[^=;{]*?>)?|\w+)) (k[A-Z][^;]*);/gm;
   let changed = text.replace(statement, (whole, indent, storage, type, list, at) => {
     const words = words_at(text, at, at + whole.length);
@@ -152,7 +184,8 @@ export function with_changeable_constants(file, text, fixed = new Set()) {
         const words = words_at(body, at, at + line.length);
         return `  double ${parts_of(list).map((part) => {
           const [, name, value] = /^\s*(\w+)(?:\s*=\s*([\s\S]+))?$/.exec(part) ?? [];
-          if (!value || Number(value) === 0) return part;
+          // One that has the value of a constant goes with that.
+          if (!value || Number(value) === 0 || /^k[A-Z]\w*$/.test(value.trim())) return part;
           const is_fixed = fixed.has(`${file}:${type}.${name}`);
           take(`${type}.${name}`, value, words, is_fixed);
           return is_fixed ? part : `${name} = palmar::sensitivity::varied<double>(${id_of(file, `${type}.${name}`)}, ${value})`;

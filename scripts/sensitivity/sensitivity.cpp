@@ -7,15 +7,20 @@
 //   tight ID FACTOR   changed in every search that goes on from a product at rest; before all else
 //   hold              holds the products; writes how
 //   rest ID           from the product at rest
+//   steering ID       the same, also of what is nothing to the product at rest
 //   prepared ID       the same with a hand that is prepared anew
-//   balanced ID       from the closed hand
-//   closed ID         the hand is closed anew, in the same hold
+//   compliance ID     the same with a hand whose tissue is computed anew, too
+//   closed ID         the hand is closed anew, in the same hold; the search goes on from there,
+//   moved as
+//                     hand and product had moved from the closed hand to rest
 //   fingertips ID     the same with the products that are held between fingertips
+//   searched ID       from the closed hand, as in use
 //   ranked ID         the holds are ranked anew
 //
 // A search that begins exactly where it ended before stays there, whatever a small change asks for.
 // So every search begins a little beside that, once on one side and once on another: figures that
-// both agree on are no chance.
+// both agree on are no chance. What doesn't change a digit of the problem at the product at rest
+// isn't searched for.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,6 +35,7 @@
 #include <string>
 #include <vector>
 
+#include "palmar/contact/bone/skin_compliance.h"
 #include "palmar/contact/prepared/prepared_hand.h"
 #include "palmar/core/parallel.h"
 #include "palmar/core/varied.h"
@@ -42,7 +48,6 @@
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/intake/make_product.h"
 #include "palmar/product/primitives.h"
-#include "palmar/records/hand/compliance_file.h"
 #include "palmar/records/hand/hand_file.h"
 
 namespace palmar {
@@ -53,6 +58,7 @@ using Json = nlohmann::json;
 constexpr double kChange = 1.05;  // factor of a constant, and of it 1 over that
 constexpr double kNudge = 0.05;   // mm and, over 50 mm, rad; by which searches begin beside
 constexpr int kStarts = 2;
+constexpr double kAtOnce = 1e9;  // times the gain that steps have to promise: none does
 
 struct Task {
   std::string name;
@@ -96,10 +102,17 @@ std::vector<std::pair<std::uint64_t, double>>& tight() {
   return factors;
 }
 
-/// While it exists, searches end as late as `tight` says.
+/// While it exists, searches end as late as `tight` says, or at once.
 class TightSearch {
  public:
-  TightSearch() { set(tight()); }
+  enum class End { kLate, kAtOnce };
+  explicit TightSearch(End end) {
+    auto lasting = tight();
+    if (end == End::kAtOnce) {
+      for (auto& [id, factor] : lasting) factor = kAtOnce;
+    }
+    set(lasting);
+  }
   ~TightSearch() { set({}); }
   TightSearch(const TightSearch&) = delete;
   TightSearch& operator=(const TightSearch&) = delete;
@@ -154,11 +167,10 @@ class Holds {
  public:
   explicit Holds(const std::string& share)
       : hand_(std::make_shared<const hand::Hand>(records::read_hand(share + "/template.hand.glb"))),
+        // Not the file's, whose digits may be rounded otherwise.
         compliance_(std::make_shared<const contact::SkinCompliance>(
-            records::read_compliance(share + "/template.compliance",
-                                     records::compliance_key(*hand_), *hand_)
-                .value())),
-        prepared_(prepare()) {
+            contact::skin_compliance(*hand_, contact::skin_geometry(hand_->skin)))),
+        prepared_(prepare(compliance_)) {
     std::vector<Task> all = tasks();
     for (Task& task : all) held_.push_back({.task = std::move(task)});
   }
@@ -172,19 +184,23 @@ class Holds {
     grasp::Grasp closed;
     grasp::EffortTask effort;
     grasp::GripState rest;
+    std::vector<double> problem;                        // at rest
     std::array<Figures, kStarts> at_rest, from_closed;  // by where the search begins
     Ranking ranking;
   };
 
-  contact::PreparedHand prepare() const {
-    return contact::PreparedHand(hand_, contact::palmar_model(), compliance_);
+  contact::PreparedHand prepare(std::shared_ptr<const contact::SkinCompliance> compliance) const {
+    return contact::PreparedHand(hand_, contact::palmar_model(), std::move(compliance));
   }
   grasp::Grasp close(const Held& held) const;
   Ranking rank(const Held& held) const;
   Figures look(const contact::PreparedHand& prepared, const product::Product& product,
                const grasp::GripState& state) const;
-  Figures rest(const contact::PreparedHand& prepared, const Held& held,
+  grasp::EffortRest search(const contact::PreparedHand& prepared, const Held& held,
+                           const grasp::Grasp& closed, const grasp::GripState& from) const;
+  Figures rest(const contact::PreparedHand& prepared, const Held& held, const grasp::Grasp& closed,
                const grasp::GripState& from, grasp::GripState* at = nullptr) const;
+  std::vector<double> problem(const contact::PreparedHand& prepared, const Held& held) const;
   Figures balance(const Held& held, grasp::Grasp grasp, int start) const;
 
   std::shared_ptr<const hand::Hand> hand_;
@@ -219,21 +235,62 @@ Figures Holds::look(const contact::PreparedHand& prepared, const product::Produc
   return figures;
 }
 
-Figures Holds::rest(const contact::PreparedHand& prepared, const Held& held,
-                    const grasp::GripState& from, grasp::GripState* at) const {
-  const grasp::GripState closed{held.closed.posture, held.closed.product_from_hand};
+grasp::EffortRest Holds::search(const contact::PreparedHand& prepared, const Held& held,
+                                const grasp::Grasp& closed, const grasp::GripState& from) const {
   grasp::EffortTask task = held.effort;
+  const grasp::BalanceOptions usual;
+  task.friction = usual.friction;
+  task.strength = usual.strength;
   task.model = {};
-  const TightSearch is_tight;
-  const grasp::EffortRest rest =
-      grasp::rest_with_least_effort(prepared, held.task.product, closed, task, {}, {}, &from);
+  return grasp::rest_with_least_effort(
+      prepared, held.task.product, {closed.posture, closed.product_from_hand}, task, {}, {}, &from);
+}
+
+bool is_held(const grasp::Grasp& grasp) {
+  return grasp.status == grasp::GraspStatus::kHeld ||
+         grasp.status == grasp::GraspStatus::kPartlyHeld;
+}
+
+Figures Holds::rest(const contact::PreparedHand& prepared, const Held& held,
+                    const grasp::Grasp& closed, const grasp::GripState& from,
+                    grasp::GripState* at) const {
+  if (!is_held(closed)) return {.status = grasp::name_of(closed.status)};
+  const TightSearch ends_late(TightSearch::End::kLate);
+  const grasp::EffortRest rest = search(prepared, held, closed, from);
   if (rest.status != grasp::EffortRest::Status::kSolved) return {.status = "no contact"};
   Figures figures = look(prepared, held.task.product, rest.state);
+  // As balance_grasp() judges it.
   const double missing = std::max(rest.missing.segment<3>(grasp::kGripJoints).norm(),
                                   rest.missing.tail<3>().norm() / rest.arm);
-  figures.status = missing < std::max(0.01 * rest.force, 0.1) ? "balanced" : "slips_out";
+  const double at_joints = rest.missing.head<grasp::kGripJoints>().lpNorm<Eigen::Infinity>();
+  const bool is_balanced = missing < std::max(0.01 * rest.force, 0.1) &&
+                           at_joints < std::max(0.05 * rest.strongest_moment, 0.1 * rest.arm);
+  figures.status = is_balanced ? "balanced" : "slips_out";
   if (at != nullptr) *at = rest.state;
   return figures;
+}
+
+/// All that the search sees at the product at rest, and what is looked at of it.
+std::vector<double> Holds::problem(const contact::PreparedHand& prepared, const Held& held) const {
+  const TightSearch ends_at_once(TightSearch::End::kAtOnce);
+  const grasp::EffortRest rest = search(prepared, held, held.closed, held.rest);
+  const Figures figures = look(prepared, held.task.product, held.rest);
+  std::vector<double> all{static_cast<double>(rest.status),
+                          rest.asked,
+                          rest.force,
+                          rest.arm,
+                          rest.strongest_moment,
+                          rest.share,
+                          rest.friction_use,
+                          rest.load.wrist,
+                          figures.force,
+                          figures.area,
+                          figures.peak};
+  all.insert(all.end(), rest.merit.begin(), rest.merit.end());
+  all.insert(all.end(), rest.activation.begin(), rest.activation.end());
+  all.insert(all.end(), rest.missing.begin(), rest.missing.end());
+  for (const auto& digit : rest.load.digit) all.insert(all.end(), digit.begin(), digit.end());
+  return all;
 }
 
 grasp::GripState nudged(grasp::GripState state, int k) {
@@ -246,10 +303,7 @@ grasp::GripState nudged(grasp::GripState state, int k) {
 }
 
 Figures Holds::balance(const Held& held, grasp::Grasp grasp, int start) const {
-  if (grasp.status != grasp::GraspStatus::kHeld &&
-      grasp.status != grasp::GraspStatus::kPartlyHeld) {
-    return {.status = std::string(name_of(grasp.status))};
-  }
+  if (!is_held(grasp)) return {.status = grasp::name_of(grasp.status)};
   const grasp::GripState from = nudged({grasp.posture, grasp.product_from_hand}, start);
   grasp.posture = from.posture;
   grasp.product_from_hand = from.product_from_hand;
@@ -289,12 +343,15 @@ Json Holds::hold() {
         grasp::balance_grasp(prepared_, held.task.product, at_rest, options);
     held.rest = {at_rest.posture, at_rest.product_from_hand};
     // Until the search finds nothing lower.
-    for (int k = 0; k < 3; ++k) rest(prepared_, held, nudged(held.rest, k), &held.rest);
+    for (int k = 0; k < 3; ++k) {
+      rest(prepared_, held, held.closed, nudged(held.rest, k), &held.rest);
+    }
+    held.problem = problem(prepared_, held);
     Json json{{"product", held.task.name},      {"force_n", held.task.force},
               {"hold", held.closed.hold_words}, {"message", balance.message},
               {"first", held.ranking.first},    {"lead", held.ranking.lead}};
     for (int k = 0; k < kStarts; ++k) {
-      held.at_rest[k] = rest(prepared_, held, nudged(held.rest, k));
+      held.at_rest[k] = rest(prepared_, held, held.closed, nudged(held.rest, k));
       held.from_closed[k] = this->balance(held, held.closed, k);
       json["at_rest"].push_back(json_of(held.at_rest[k]));
       json["from_closed"].push_back(json_of(held.from_closed[k]));
@@ -304,16 +361,32 @@ Json Holds::hold() {
   return all;
 }
 
+/// Where a closed hand comes to, if hand and product move as they did to `rest` from another.
+grasp::GripState moved_alike(const grasp::Grasp& closed, const grasp::Grasp& other,
+                             const grasp::GripState& rest) {
+  grasp::GripState state{
+      closed.posture,
+      closed.product_from_hand * other.product_from_hand.inverse() * rest.product_from_hand};
+  for (int j = 0; j < grasp::kGripJoints; ++j) {
+    const hand::Dof dof = grasp::grip_dof(j);
+    state.posture[dof] += rest.posture[dof] - other.posture[dof];
+  }
+  return state;
+}
+
 Json Holds::change(const std::string& what, std::uint64_t id) {
-  const bool is_warm = what == "rest" || what == "prepared";
+  const bool closes = what == "closed" || what == "fingertips";
+  const bool prepares = what == "prepared" || what == "compliance";
   Json results = Json::array();
   std::vector<char> moves(held_.size(), 1);
   for (const double factor : {kChange, 1.0 / kChange}) {
+    const bool is_first = factor == kChange;
     sensitivity::vary(id, factor);
     std::optional<contact::PreparedHand> own;
-    if (what == "prepared" && std::count(moves.begin(), moves.end(), 1) > 0) {
-      own.emplace(prepare());
+    if (prepares && std::count(moves.begin(), moves.end(), 1) > 0) {
+      own.emplace(prepare(what == "compliance" ? nullptr : compliance_));
     }
+    const contact::PreparedHand& prepared = own ? *own : prepared_;
     for (std::size_t h = 0; h < held_.size(); ++h) {
       const Held& held = held_[h];
       // What isn't used by the first factor isn't by the second.
@@ -324,15 +397,21 @@ Json Holds::change(const std::string& what, std::uint64_t id) {
         moves[h] = ranking == held.ranking ? 0 : 1;
         json["first"] = ranking.first;
         json["lead"] = ranking.lead;
+      } else if (what == "searched") {
+        const Figures found = balance(held, held.closed, 0);
+        if (is_first && found == held.from_closed[0]) moves[h] = 0;
+        json["starts"].push_back(json_of(found));
       } else {
-        const bool closes = what == "closed" || what == "fingertips";
         const grasp::Grasp closed = closes ? close(held) : held.closed;
-        if (closes && are_same(closed, held.closed)) moves[h] = 0;
+        if (closes && is_first) moves[h] = are_same(closed, held.closed) ? 0 : 1;
+        if ((prepares || what == "rest") && is_first) {
+          moves[h] = problem(prepared, held) == held.problem ? 0 : 1;
+        }
+        const grasp::GripState from =
+            closes ? moved_alike(closed, held.closed, held.rest) : held.rest;
         for (int k = 0; k < kStarts && moves[h] != 0; ++k) {
-          const Figures found = is_warm ? rest(own ? *own : prepared_, held, nudged(held.rest, k))
-                                        : balance(held, closed, k);
-          const Figures& usual = is_warm ? held.at_rest[k] : held.from_closed[k];
-          if (k == 0 && found == usual) moves[h] = 0;
+          const Figures found = rest(prepared, held, closed, nudged(from, k));
+          if (k == 0 && is_first && found == held.at_rest[k]) moves[h] = 0;
           json["starts"].push_back(json_of(found));
         }
       }

@@ -12,10 +12,10 @@ namespace palmar::grasp {
 enum class Better { kUp, kDown, kNeither };
 std::string name_of(Better better);  ///< "up", "down", "neither"
 
-/// Share by which two results of a grasp must differ to be told apart: our choice. Of the 51
-/// constants of the method that move the peak on sensor cells at all when they are changed by a
-/// fifth, 36 move it by less (docs/method/sensitivity.md), and people tell two forces apart when
-/// they differ by about 7 % (Jones 1989, Perception 18:681-687).
+/// Share by which two results of a grasp must differ to be told apart: our choice. 5 % more of
+/// a constant of the method moves the peak on sensor cells by less as a rule
+/// (docs/method/sensitivity.md), and people tell two forces apart when they differ by about 7 %
+/// (Jones 1989, Perception 18:681-687).
 inline constexpr double kToldApart = 0.10;
 
 /// One index of a grasp with everything that a reader needs to understand it. Indices are never
