@@ -437,5 +437,24 @@ TEST_F(LeastEffort, DigitsThatMeetPressLikeSomethingElastic) {
   }
 }
 
+// A finger bent to the ends of its ranges has its tip in the palm, which opens it again.
+TEST_F(LeastEffort, ThePalmHoldsAFingertipOff) {
+  const hand::Posture open = hand::reference_posture(hand().skeleton);
+  const grasp::DigitMeeting meeting(hand(), open);
+  EXPECT_TRUE(meeting.presses(open).empty());
+  hand::Posture bent = open;
+  const auto dofs = hand::digit_dofs(hand::Finger::kMiddle);
+  for (const hand::Dof dof : {dofs[0], dofs[2], dofs[3]}) {
+    bent[dof] = hand().skeleton.dof(dof).upper;
+  }
+  grasp::GripVector moment = grasp::GripVector::Zero();
+  for (const grasp::DigitPress& press : meeting.presses(bent)) {
+    moment += press.force * press.moment;
+  }
+  for (int j = 0; j < grasp::kGripJoints; ++j) {
+    if (grasp::grip_dof(j) == dofs[2]) EXPECT_LT(moment[j], -10.0);  // N mm
+  }
+}
+
 }  // namespace
 }  // namespace palmar::tests

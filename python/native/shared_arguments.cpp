@@ -159,7 +159,7 @@ grasp::RestSettings rest_of(Arguments& arguments, const std::string& person) {
   arguments.take("strength_share", settings.strength_share);
   arguments.take("strength_n", settings.strength);
   arguments.take("turn_n_m", settings.turn);
-  std::string task;
+  std::string task = "usual";
   arguments.take("task", task);
   settings.take_task(task);
   settings = workflow::held_by(person, settings);

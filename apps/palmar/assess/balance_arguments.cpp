@@ -26,13 +26,15 @@ void BalanceArguments::add_to(CLI::App& verb) {
       "Grip as firmly as closing to the limit depths made it: every product and hand with "
       "another force");
   CLI::Option* task =
-      verb.add_option("--task", task_,
-                      "What the hand does: squeeze, with a grip force as the options below say; "
-                      "hold, with what each product's weight and load ask for: 1.4 times what "
-                      "friction needs (Westling & Johansson 1984), without a mass the weight of a "
-                      "solid of 1 g/cm3; turn, with what --turn-n-m takes")
-          ->check(CLI::IsMember({"squeeze", "hold", "turn"}))
-          ->default_str("squeeze of handles, hold of what fingers don't meet round");
+      verb.add_option(
+              "--task", task_,
+              "What the hand does: usual, to squeeze handles and hold what thumb and "
+              "fingers don't meet round; squeeze, with a grip force as the options below say; "
+              "hold, with what each product's weight and load ask for: 1.4 times what "
+              "friction needs (Westling & Johansson 1984), without a mass the weight of a "
+              "solid of 1 g/cm3; turn, with what --turn-n-m takes")
+          ->check(CLI::IsMember({"usual", "squeeze", "hold", "turn"}))
+          ->default_str("usual");
   verb.add_option("--turn-n-m", settings_.turn,
                   "With --task turn: the torque about the grip axis that the product is turned "
                   "with, N m; right-handed about the axis towards the thumb's side")

@@ -24,7 +24,7 @@ class BalanceArguments {
  private:
   grasp::RestSettings settings_;
   bool no_balance_ = false;
-  std::string task_;
+  std::string task_ = "usual";
   std::string person_;
 };
 

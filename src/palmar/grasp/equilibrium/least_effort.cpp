@@ -415,7 +415,7 @@ double LeastEffort::least_share(const Look& at, bool with_wrist) const {
     held.muscles = share * muscles;
     return solve_effort(held).missing.cwiseAbs().dot(held.price);
   };
-  const double allowed = missing_with(1.0) + kNoMissing * lightness();
+  const double allowed = missing_with(1.0) + kNoMissing * lightness() * price_;
   double low = 0.0, high = 1.0;
   if (missing_with(0.0) <= allowed) return 0.0;
   while (high - low > 0.01 * high) {

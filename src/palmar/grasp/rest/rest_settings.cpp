@@ -21,8 +21,9 @@ std::string person_words(const PersonOfAge& person) {
 }  // namespace
 
 void RestSettings::take_task(const std::string& name) {
-  if (!name.empty() && name != "squeeze" && name != "hold" && name != "turn") {
-    throw UsageError("setting \"task\" is \"" + name + "\"; squeeze, hold or turn is required");
+  if (name != "usual" && name != "squeeze" && name != "hold" && name != "turn") {
+    throw UsageError("setting \"task\" is \"" + name +
+                     "\"; usual, squeeze, hold or turn is required");
   }
   if ((name == "turn") != turn.has_value()) {
     throw UsageError(

@@ -47,7 +47,7 @@ struct RestSettings {
   bool is_usual() const {
     return is_balanced && !holds_load && !turn && !limit_depths && !grip_force && !strength_share;
   }
-  /// "squeeze", "hold", "turn" (needs `turn`), or "" for what is usual. Throws UsageError.
+  /// "usual", "squeeze", "hold" or "turn" (needs `turn`). Throws UsageError.
   void take_task(const std::string& name);
   /// Throws UsageError: setting, value, what is allowed.
   void check() const;
