@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
     study::AssessOptions options;
     options.grasp.grip = grasp::Grip::kMediumWrap;
     options.balance.grip_force = asked;
+    options.balance.looks_beside = true;  // as assess does
     options.footprint = false;
     const study::Assessment found = study::assess(prepared, product, options);
     std::array<double, hand::kFingerCount> finger{};

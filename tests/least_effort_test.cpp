@@ -317,16 +317,39 @@ TEST_F(LeastEffort, ASecondRestIsNamedWhereThereIsOne) {
     const grasp::Grasp grasp = grasp::close_power_grasp(hand.hand(), product);
     const grasp::EffortRest rest = grasp::rest_with_least_effort(
         hand, product, {grasp.posture, grasp.product_from_hand}, task, {});
-    const grasp::NearbyRests nearby = grasp::nearby_rests(hand, product, rest, task, {});
-    if (!nearby.other) continue;
+    const auto other = grasp::other_rest(hand, product, rest, task, {});
+    if (!other) continue;
     ++named;
-    EXPECT_LT(nearby.other->merit, 1.05);
+    EXPECT_LT(other->merit.back(), 1.05 * rest.merit.back());
     grasp::ContactForces there(hand, product, {}, task.friction, rest.start);
-    ASSERT_TRUE(there.look(nearby.other->state, 1e-4));
+    ASSERT_TRUE(there.look(other->state, 1e-4));
     EXPECT_NEAR(there.grip().force, 107.0, 1.1);
     EXPECT_LT(there.force().segment<3>(grasp::kGripJoints).norm(), 1.1);
   }
   EXPECT_GT(named, 0);
+}
+
+// Round thin bars the thumb lies on the fingers or on the bar.
+TEST_F(LeastEffort, TheLowerOfTwoRestsIsTaken) {
+  const contact::PreparedHand& hand = hand_on_bone();
+  const grasp::EffortTask task{.force = 107.0};
+  int lower = 0;
+  for (const double diameter : {28.0, 29.0, 30.5}) {
+    const product::Product product = cylinder(diameter);
+    grasp::Grasp grasp = grasp::close_power_grasp(hand.hand(), product);
+    const grasp::EffortRest first = grasp::rest_with_least_effort(
+        hand, product, {grasp.posture, grasp.product_from_hand}, task, {});
+    const auto other = grasp::other_rest(hand, product, first, task, {});
+    const bool is_lower = other && other->merit.back() < first.merit.back();
+    grasp::BalanceOptions options;
+    options.grip_force = 107.0;
+    options.looks_beside = true;
+    const grasp::Balance balance = grasp::balance_grasp(hand, product, grasp, options);
+    EXPECT_EQ(balance.status, grasp::BalanceStatus::kBalanced);
+    EXPECT_EQ(grasp.posture.angle, (is_lower ? other->state : first.state).posture.angle);
+    lower += is_lower ? 1 : 0;
+  }
+  EXPECT_GT(lower, 0);
 }
 
 // An ellipse of the girth of a circle is turned by its form, too, and not by friction alone.

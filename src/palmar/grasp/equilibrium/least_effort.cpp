@@ -71,8 +71,8 @@ GripVector spread(const EffortModel& model) {
 /// Where digits are apart: in the open hand, where webs join; of fingertips, that are put beside
 /// each other, as they were put.
 hand::Posture apart(const hand::Hand& hand, const GripState& start, const EffortTask& task) {
-  const bool is_whole_hand = task.takes_part.minCoeff() > 0.0;
-  return is_whole_hand ? hand::reference_posture(hand.skeleton) : start.posture;
+  const bool is_by_whole_hand = task.takes_part.minCoeff() > 0.0;
+  return is_by_whole_hand ? hand::reference_posture(hand.skeleton) : start.posture;
 }
 
 /// The digits of which no phalanx takes part.
@@ -140,7 +140,8 @@ class LeastEffort {
         damped_(step_weight()),
         is_idle_(idle_digits(task.takes_part)) {}
 
-  EffortRest run(const GripState* from, const Progress& progress);
+  EffortRest run(const SearchStart* from, const Progress& progress);
+  std::optional<GripState> run_on_coarse_skin(const GripState* from, const Progress& progress);
   /// The motion that a state on the whole skin asks for at a force; nothing where its contact has
   /// no solution.
   GripVector next(const GripState& state, const Vec3& held_at, double force, double damping);
@@ -151,6 +152,11 @@ class LeastEffort {
   /// Of what is measured, per N.
   double unit() const { return task_->measure == EffortMeasure::kTurn ? kTurnArm : 1.0; }
   ContactForces& forces() { return is_coarse_ ? coarse_skin_ : skin_; }
+  bool is_whole_hand() const { return task_->takes_part.minCoeff() > 0.0; }
+  bool begin(Look& now, EffortRest& rest);
+  /// From a state, or from where begin() left off. False where that touches nothing.
+  bool rest_on_coarse_skin(const GripState* from, const Progress& progress, Look& now,
+                           EffortRest& rest);
   bool look(const GripState& state, Look& at);
   void measure(const ContactForces& forces, Look& at) const;
   void add_muscles(Look& at) const;
@@ -562,14 +568,23 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
   }
 }
 
-EffortRest LeastEffort::run(const GripState* from, const Progress& progress) {
-  EffortRest rest;
-  Look now;
-  if (!look(start_, now)) return rest;
-  if (now.grip.force == 0.0) {
-    rest.status = EffortRest::Status::kNoContact;
-    return rest;
+/// A state after the motion that takes `before` to `after`.
+GripState moved_alike(const GripState& state, const GripState& before, const GripState& after) {
+  GripState to = state;
+  for (int j = 0; j < kGripJoints; ++j) {
+    to.posture[grip_dof(j)] += after.posture[grip_dof(j)] - before.posture[grip_dof(j)];
   }
+  to.product_from_hand =
+      state.product_from_hand * before.product_from_hand.inverse() * after.product_from_hand;
+  return to;
+}
+
+/// Where the search is to go: what is asked for, and where the product is held. False, and the
+/// status says why, if there is no contact to begin with.
+bool LeastEffort::begin(Look& now, EffortRest& rest) {
+  if (!look(start_, now)) return false;
+  rest.status = EffortRest::Status::kNoContact;
+  if (now.grip.force == 0.0) return false;
   held_at_ = now.centre;
   held_point_ = start_.product_from_hand * held_at_;
   if (task_->is_hardest) {
@@ -594,25 +609,43 @@ EffortRest LeastEffort::run(const GripState* from, const Progress& progress) {
       case EffortMeasure::kNone:
         asked_ = load;
     }
-    if (!(asked_ > 0.0)) {
-      rest.status = EffortRest::Status::kNoContact;
-      return rest;
-    }
+    if (!(asked_ > 0.0)) return false;
   } else {
-    return rest;
+    rest.status = EffortRest::Status::kNoSolution;
+    return false;
   }
-  const bool is_whole_hand = task_->takes_part.minCoeff() > 0.0;
-  if (from == nullptr && is_whole_hand) {
-    for (const Descent& how : kOnCoarseSkin) descend(now, how, progress, rest);
+  rest.status = EffortRest::Status::kNoSolution;
+  return true;
+}
+
+bool LeastEffort::rest_on_coarse_skin(const GripState* from, const Progress& progress, Look& now,
+                                      EffortRest& rest) {
+  if (from != nullptr && (!look(*from, now) || now.grip.force == 0.0)) return false;
+  for (const Descent& how : kOnCoarseSkin) {
+    if (from == nullptr || how.level == 1.0) descend(now, how, progress, rest);
+  }
+  rest.on_coarse_skin = now.state;
+  return true;
+}
+
+EffortRest LeastEffort::run(const SearchStart* from, const Progress& progress) {
+  EffortRest rest;
+  Look now;
+  if (!begin(now, rest)) return rest;
+  GripState state = from != nullptr ? from->on_skin : start_;
+  if (from == nullptr && is_whole_hand() && rest_on_coarse_skin(nullptr, progress, now, rest)) {
+    state = now.state;
+  } else if (from != nullptr && from->on_coarse_skin &&
+             rest_on_coarse_skin(&*from->on_coarse_skin, progress, now, rest) && !is_in_need(now)) {
+    state = moved_alike(from->on_skin, *from->on_coarse_skin, now.state);
   }
   is_coarse_ = false;
-  const GripState state = from != nullptr ? *from : now.state;
   if (!look(state, now)) return rest;
   if (now.grip.force == 0.0) {
     rest.status = EffortRest::Status::kNoContact;
     return rest;
   }
-  if (is_whole_hand) {
+  if (is_whole_hand()) {
     descend(now, kOnSkin, progress, rest);
   } else {
     for (const Descent& how : kWithFingertips) descend(now, how, progress, rest);
@@ -622,6 +655,15 @@ EffortRest LeastEffort::run(const GripState* from, const Progress& progress) {
   rest.status = EffortRest::Status::kSolved;
   finish(now, rest);
   return rest;
+}
+
+std::optional<GripState> LeastEffort::run_on_coarse_skin(const GripState* from,
+                                                         const Progress& progress) {
+  EffortRest rest;
+  Look now;
+  if (!is_whole_hand() || !begin(now, rest)) return std::nullopt;
+  rest_on_coarse_skin(from, progress, now, rest);
+  return rest.on_coarse_skin;
 }
 
 GripVector LeastEffort::next(const GripState& state, const Vec3& held_at, double force,
@@ -660,8 +702,16 @@ GripState rest_after_change(const contact::PreparedHand& hand, const product::Pr
 EffortRest rest_with_least_effort(const contact::PreparedHand& hand,
                                   const product::Product& product, const GripState& closed,
                                   const EffortTask& task, const contact::ContactOptions& contact,
-                                  const Progress& progress, const GripState* from) {
+                                  const Progress& progress, const SearchStart* from) {
   return LeastEffort(hand, product, closed, task, contact).run(from, progress);
+}
+
+std::optional<GripState> rest_on_coarse_skin(const contact::PreparedHand& hand,
+                                             const product::Product& product,
+                                             const GripState& closed, const EffortTask& task,
+                                             const contact::ContactOptions& contact,
+                                             const Progress& progress, const GripState* from) {
+  return LeastEffort(hand, product, closed, task, contact).run_on_coarse_skin(from, progress);
 }
 
 }  // namespace palmar::grasp

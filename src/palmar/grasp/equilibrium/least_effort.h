@@ -66,6 +66,7 @@ struct EffortRest {
   Vec3 held_at = Vec3::Zero();  ///< centre of contact there, hand frame, mm
   double asked = 0.0;           ///< force that the search was for, N
   GripState state;
+  std::optional<GripState> on_coarse_skin;  ///< where the search came to on it
   Squeeze grip;
   double force = 0.0;                       ///< what the task measures, N or N mm; else the squeeze
   Eigen::VectorXd activation;               ///< of `strength`: the digits' muscles, the wrist's
@@ -85,6 +86,13 @@ struct EffortRest {
   std::vector<double> merit;         ///< of every state that the last search took; falls
   int iterations = 0;
   contact::ContactFallbacks fallbacks;
+};
+
+/// Where a search begins that doesn't come from the closed hand: a rest that is near, and where
+/// that rested on the coarse skin.
+struct SearchStart {
+  GripState on_skin;
+  std::optional<GripState> on_coarse_skin;
 };
 
 /// A hold at rest with least effort: over the angles q of all digits, the product's pose T
@@ -107,11 +115,22 @@ struct EffortRest {
 /// but 30 N at least, and at all of it, then on the whole; where only some parts of the hand hold,
 /// on the whole at once: they touch too little for the coarse skin. docs/method/equilibrium.md.
 ///
-/// `from`: where the search begins, on the whole skin at once. Deterministic. Throws Cancelled.
+/// `from`: where the search begins, on the whole skin at once; with a state on the coarse skin the
+/// search goes on there first, and the whole skin begins as far from its own state. Deterministic.
+/// Throws Cancelled.
 EffortRest rest_with_least_effort(const contact::PreparedHand& hand,
                                   const product::Product& product, const GripState& closed,
                                   const EffortTask& task, const contact::ContactOptions& contact,
-                                  const Progress& progress = {}, const GripState* from = nullptr);
+                                  const Progress& progress = {}, const SearchStart* from = nullptr);
+
+/// Where that search comes to on the coarse skin, from the closed hand or a state near the end.
+/// Nothing where only some parts of the hand hold, or nothing is touched. Throws Cancelled.
+std::optional<GripState> rest_on_coarse_skin(const contact::PreparedHand& hand,
+                                             const product::Product& product,
+                                             const GripState& closed, const EffortTask& task,
+                                             const contact::ContactOptions& contact,
+                                             const Progress& progress = {},
+                                             const GripState* from = nullptr);
 
 /// What a rest becomes, by its derivatives, if the force asked for changes by a factor and the
 /// product to `changed`, whose skin sticks where it did on the first.

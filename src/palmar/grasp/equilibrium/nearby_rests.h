@@ -23,8 +23,7 @@ struct NearbyRests {
   /// that has shrunk. The same pressures press on areas that are larger in truth, by the square.
   GripState in_larger_hand;
   std::shared_ptr<const geometry::DistanceField> shrunk;
-  /// Another state at rest, found from products that are 2 % larger and smaller. That whose merit
-  /// is the least.
+  /// Another state at rest (other_rest()).
   struct Other {
     GripState state;
     double merit = 1.0;  ///< over that of the first
@@ -32,12 +31,20 @@ struct NearbyRests {
   std::optional<Other> other;
 };
 
-/// The first two by the derivatives of the rest: the motion that the problem with linear forces
-/// asks for after the change less that before. `other` if its merit is at most 5 % above the
-/// first's and an angle or the product is elsewhere by more than 3 degrees or 1 mm. Deterministic.
+/// Another state at rest whose merit is at most 5 % above that of one, or below it, and in which an
+/// angle or the product is elsewhere by more than 3 degrees or 1 mm; the lower where there are two.
+/// Looked for by searches that begin where products 6 % larger and smaller come to rest; of a whole
+/// hand on the coarse skin, and on the whole one only where that ends elsewhere. Deterministic.
 /// Throws Cancelled.
+std::optional<EffortRest> other_rest(const contact::PreparedHand& hand,
+                                     const product::Product& product, const EffortRest& rest,
+                                     const EffortTask& task, const contact::ContactOptions& contact,
+                                     const Progress& progress = {});
+
+/// What a small change makes of a rest, by its derivatives: the motion that the problem with linear
+/// forces asks for after the change less that before. `other` stays unset. Deterministic.
 NearbyRests nearby_rests(const contact::PreparedHand& hand, const product::Product& product,
                          const EffortRest& rest, const EffortTask& task,
-                         const contact::ContactOptions& contact, const Progress& progress = {});
+                         const contact::ContactOptions& contact);
 
 }  // namespace palmar::grasp

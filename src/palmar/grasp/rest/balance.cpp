@@ -99,16 +99,24 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
                const Progress& progress) {
   const EffortTask task = task_of(hand.hand(), product, grasp, options);
   GripState closed{grasp.posture, grasp.product_from_hand};
-  std::optional<GripState> from;
+  std::optional<SearchStart> from;
   if (options.like != nullptr) {
     const double length = hand.hand().dimensions.hand_length;
     closed = options.like->scaled(options.like->closed, length);
-    from = options.like->scaled(options.like->rest, length);
+    from = SearchStart{options.like->scaled(options.like->rest, length),
+                       options.like->scaled(options.like->on_coarse_skin, length)};
   }
-  const EffortRest rest = rest_with_least_effort(hand, product, closed, task, contact, progress,
-                                                 from ? &*from : nullptr);
+  EffortRest rest = rest_with_least_effort(hand, product, closed, task, contact, progress,
+                                           from ? &*from : nullptr);
+  std::optional<EffortRest> other;
+  const bool looks_beside = options.looks_beside || options.looks_nearby;
+  if (looks_beside && rest.status == EffortRest::Status::kSolved) {
+    other = other_rest(hand, product, rest, task, contact, progress);
+    if (other && other->merit.back() < rest.merit.back()) std::swap(*other, rest);
+  }
   Balance balance;
   balance.iterations = rest.iterations;
+  balance.on_coarse_skin = rest.on_coarse_skin;
   balance.fallbacks = rest.fallbacks;
   if (rest.status == EffortRest::Status::kNoSolution) {
     balance.status = BalanceStatus::kFailed;
@@ -158,8 +166,11 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
       balance.strength_use = rest.share * task.strength / options.strength;
     }
     if (options.looks_nearby) {
-      balance.nearby = std::make_shared<const NearbyRests>(
-          nearby_rests(hand, product, rest, task, contact, progress));
+      NearbyRests nearby = nearby_rests(hand, product, rest, task, contact);
+      if (other) {
+        nearby.other = {.state = other->state, .merit = other->merit.back() / rest.merit.back()};
+      }
+      balance.nearby = std::make_shared<const NearbyRests>(std::move(nearby));
     }
     if (task.measure == EffortMeasure::kPush) {
       balance.status = BalanceStatus::kSupported;

@@ -11,6 +11,7 @@
 #include "palmar/contact/contact.h"
 #include "palmar/contact/friction/friction.h"
 #include "palmar/core/progress.h"
+#include "palmar/grasp/equilibrium/coordinates.h"
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/task_force.h"
 #include "palmar/hand/tendons/hand_muscles.h"
@@ -59,7 +60,8 @@ struct BalanceOptions {
   /// The hold of another hand, from which a wrap by the whole hand comes to rest; null: from how it
   /// was closed. Where that fails it is tried from there, too.
   std::shared_ptr<const HoldAtRest> like;
-  bool looks_nearby = false;  ///< finds NearbyRests of what comes to rest: for three times the time
+  bool looks_beside = false;   ///< takes other_rest() where it has the lower merit
+  bool looks_nearby = false;   ///< that, and finds NearbyRests of what comes to rest
   hand::WristPosture wrist{};  ///< of a power grip; changes what muscles can, not the picture
   /// N; nothing if a grasp of that grip stays as firm as it was closed, as hooked fingers always
   /// do: they carry and don't squeeze.
@@ -112,6 +114,7 @@ struct Balance {
   std::vector<Vec3> friction_force;  ///< per skin vertex, of the skin on the product, product
                                      ///< frame, N
   std::shared_ptr<const NearbyRests> nearby;  ///< of what came to rest, if it was asked for
+  std::optional<GripState> on_coarse_skin;    ///< where the search came to on it
   int iterations = 0;
   contact::ContactFallbacks fallbacks;  ///< of all contacts that were solved on the way
 };

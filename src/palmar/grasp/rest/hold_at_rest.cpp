@@ -60,10 +60,12 @@ std::shared_ptr<const HoldAtRest> hold_at_rest(const contact::PreparedHand& hand
   BalanceOptions own = options;
   own.like = nullptr;
   own.looks_nearby = false;
+  own.looks_beside = true;
   Grasp at_rest = grasp;
   const Balance balance = balance_grasp(hand, product, at_rest, own, contact, progress);
   if (balance.status != BalanceStatus::kBalanced) return nullptr;
   hold.rest = {at_rest.posture, at_rest.product_from_hand};
+  hold.on_coarse_skin = balance.on_coarse_skin.value_or(hold.rest);
   return std::make_shared<const HoldAtRest>(hold);
 }
 

@@ -18,6 +18,7 @@ namespace palmar::grasp {
 /// they hold: closing the hand has steps in its size.
 struct HoldAtRest {
   GripState closed, rest;
+  GripState on_coarse_skin;  ///< at rest there (PreparedHand::coarse())
   Vec3 palm = Vec3::Zero();  ///< where the palm lies on the product, hand frame, mm
   double hand_length = 0.0;  ///< mm
 
