@@ -223,7 +223,7 @@ TEST_F(BalanceTest, ASmoothBarSlipsOutAlongItsLoad) {
     grasp::Grasp grasp = closed();
     const grasp::Balance balance = grasp::balance_grasp(prepared(), bar(), grasp, options);
     ASSERT_EQ(balance.status, grasp::BalanceStatus::kSlipsOut) << balance.message;
-    const Vec3 pull = closed().product_from_hand.rotation.conjugate() * options.load.gravity;
+    const Vec3 pull = closed().product_from_hand.rotation.conjugate() * options.load.down();
     ASSERT_TRUE(balance.slip);
     EXPECT_GT(balance.slip->dot(pull), 0.8);
     EXPECT_THAT(balance.message, HasSubstr("slips out, towards "));
@@ -277,7 +277,7 @@ TEST_F(BalanceTest, TurningTheWorldChangesNothing) {
   options.load.weight = 5.0;
   options.load.gravity = Vec3(0.0, 1.0, -1.0);
   const Rest here = settle(bar(), closed(), options);
-  options.load.gravity = turn.rotation * options.load.gravity;
+  options.load.gravity = turn.rotation * *options.load.gravity;
   const Rest there = settle(turned, grasp, options);
   EXPECT_NEAR(there.balance.grip_force, here.balance.grip_force, 0.01 * here.balance.grip_force);
   EXPECT_NEAR(there.contact.total.force, here.contact.total.force, 0.01 * here.contact.total.force);

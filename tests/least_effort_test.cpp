@@ -96,6 +96,39 @@ TEST_F(LeastEffort, MeritFallsInEveryStepAndForcesAddUpToNothing) {
   }
 }
 
+// Statics: what hangs pulls with its weight, and its centre of mass is below what carries it.
+TEST_F(LeastEffort, WhatHooksCarryTurnsUntilItHangs) {
+  const contact::PreparedHand& hand = hand_on_bone();
+  const product::Product thin = cylinder(25.0);
+  grasp::PowerGraspOptions hook;
+  hook.grip = grasp::Grip::kFixedHook;
+  const grasp::Grasp closed = grasp::close_power_grasp(hand.hand(), thin, hook);
+  const hand::Skeleton& skeleton = hand.hand().skeleton;
+  const Vec3 distal = (skeleton.joint(hand::JointId::kMiddleMcp).centre -
+                       skeleton.joint(hand::JointId::kWrist).centre)
+                          .normalized();
+  const Vec3 below = closed.product_from_hand.rotation * distal;
+  const Vec3 across = closed.grip_axis.cross(below).normalized();
+  for (const double weight : {4.0, 20.0, 60.0}) {
+    for (const double aside : {-30.0, 0.0, 30.0}) {  // mm
+      grasp::EffortTask task{.measure = grasp::EffortMeasure::kHang,
+                             .hangs_at = closed.grip_point + 100.0 * below + aside * across,
+                             .force = weight};
+      task.takes_part.setZero();
+      for (int s = static_cast<int>(hand::Segment::kIndexProximal); s < hand::kSegmentCount; ++s) {
+        task.takes_part[s - 1] = 1.0;
+      }
+      const grasp::EffortRest found = grasp::rest_with_least_effort(
+          hand, thin, {closed.posture, closed.product_from_hand}, task, {});
+      ASSERT_EQ(found.status, grasp::EffortRest::Status::kSolved);
+      const contact::Wrench carried = wrench_on_bar(hand, thin, found);
+      EXPECT_NEAR(carried.force.norm(), weight, 0.02 * weight) << aside;
+      const Vec3 moment = carried.moment - task.hangs_at.cross(carried.force);
+      EXPECT_LT(moment.norm(), weight * 1.0) << weight << " N, " << aside << " mm";
+    }
+  }
+}
+
 TEST_F(LeastEffort, FrictionDragsTheProductAlongWithTheSkinAndKeepsItsBound) {
   const grasp::EffortRest found = rest(90.0);
   const contact::ContactResult contact =

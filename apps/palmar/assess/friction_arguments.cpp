@@ -33,8 +33,10 @@ void FrictionArguments::add_to(CLI::App& verb) {
   verb.add_option("--acceleration-g", settings_.acceleration,
                   "Upward acceleration that the hand gives the product, in multiples of 9.81 m/s2: "
                   "with 0.5 it weighs half as much again");
-  verb.add_option("--gravity", gravity_,
-                  "Direction of gravity in the product's frame, x,y,z; default 0,0,-1");
+  verb.add_option(
+      "--gravity", gravity_,
+      "Direction of gravity in the product's frame, x,y,z; if not given 0,0,-1, and what "
+      "hooked fingers carry hangs");
   verb.add_option("--mass-at", mass_at_,
                   "Centre of mass, x,y,z in mm; default: as if the product were solid throughout");
   verb.add_option("--load-n", load_n_, "Further force on the product, x,y,z in N");

@@ -33,7 +33,7 @@ double holding_grip_force(double load, double friction) {
 
 void HeaviestLoad::add(const product::Product& one, const contact::ProductLoad& load) {
   const std::optional<double> estimate = load.weight > 0.0 ? std::nullopt : estimated_weight(one);
-  const Vec3 sum = estimate.value_or(load.weight) * load.gravity.normalized() + load.force;
+  const Vec3 sum = estimate.value_or(load.weight) * load.down() + load.force;
   if (!(sum.norm() > force)) return;
   force = sum.norm();
   product = one.name;

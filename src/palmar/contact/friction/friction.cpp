@@ -122,7 +122,7 @@ void FrictionOptions::check() const {
     throw UsageError("friction: weight is " + std::to_string(load.weight) +
                      " N; 0 to 100000 N is required");
   }
-  require_finite(load.gravity, "gravity", "(direction)");
+  if (load.gravity) require_finite(*load.gravity, "gravity", "(direction)");
   require_finite(load.force, "force", "N");
   require_finite(load.torque, "torque", "N mm");
   constexpr double kMostForce = 1e5, kMostTorque = 1e7, kFarthest = 1e4;
@@ -140,7 +140,7 @@ void FrictionOptions::check() const {
   }
   if (load.mass_centre) require_finite(*load.mass_centre, "mass_centre", "mm");
   if (load.force_at) require_finite(*load.force_at, "force_at", "mm");
-  if (load.weight > 0.0 && !(load.gravity.norm() > 0.0)) {
+  if (load.weight > 0.0 && load.gravity && !(load.gravity->norm() > 0.0)) {
     throw UsageError("friction: gravity is 0, 0, 0; a direction is required");
   }
 }
@@ -148,7 +148,7 @@ void FrictionOptions::check() const {
 Wrench wrench_of(const ProductLoad& load, const Vec3& mass_centre) {
   Wrench wrench;
   if (load.weight > 0.0) {
-    wrench.force = load.weight * load.gravity.normalized();
+    wrench.force = load.weight * load.down();
     wrench.moment = load.mass_centre.value_or(mass_centre).cross(wrench.force);
   }
   wrench.moment +=

@@ -14,14 +14,17 @@ namespace palmar::contact {
 
 /// What pulls at the product while it is held; product frame.
 struct ProductLoad {
-  double weight = 0.0;            ///< N
-  Vec3 gravity = -Vec3::UnitZ();  ///< direction of the weight; any length but 0
+  double weight = 0.0;  ///< N
+  /// Direction of the weight; any length but 0. Unset: not known, that of -z where one is needed.
+  std::optional<Vec3> gravity = std::nullopt;
   std::optional<Vec3> mass_centre =
       std::nullopt;            ///< mm; unset: that of a solid of uniform density
   Vec3 force = Vec3::Zero();   ///< further force, of a screw or a wall, N
   Vec3 torque = Vec3::Zero();  ///< N mm
   std::optional<Vec3> force_at =
       std::nullopt;  ///< where `force` acts, mm; unset: at the centre of mass
+
+  Vec3 down() const { return gravity.value_or(-Vec3::UnitZ()).normalized(); }
 };
 
 struct FrictionOptions {

@@ -82,7 +82,7 @@ Vec3 sum(const std::vector<Vec3>& vectors) {
 TEST(Friction, PinchHoldsTwiceTheFrictionOfOneSide) {
   ASSERT_EQ(pinch().contact.status, ContactStatus::kSolved);
   const FrictionResult held =
-      pinch().hold({.weight = 0.25 * pinch().limit(), .gravity = {1, 0, 0}});
+      pinch().hold({.weight = 0.25 * pinch().limit(), .gravity = Vec3(1, 0, 0)});
   EXPECT_EQ(held.status, FrictionStatus::kHeld);
   EXPECT_NEAR(held.load_factor.value(), 4.0, 1e-4);
   EXPECT_NEAR(held.margin, 0.75, 1e-4);
@@ -99,7 +99,8 @@ TEST(Friction, PinchHoldsTwiceTheFrictionOfOneSide) {
 }
 
 TEST(Friction, MobilisedIsTheShareOfTheLimitVertexByVertex) {
-  const FrictionResult held = pinch().hold({.weight = 0.6 * pinch().limit(), .gravity = {1, 2, 0}});
+  const FrictionResult held =
+      pinch().hold({.weight = 0.6 * pinch().limit(), .gravity = Vec3(1, 2, 0)});
   ASSERT_EQ(held.mobilised.size(), pinch().contact.force.size());
   int slipping = 0;
   for (std::size_t v = 0; v < held.mobilised.size(); ++v) {
@@ -118,7 +119,7 @@ TEST(Friction, HeavierIsNeverSafer) {
   double margin = 1.0, slipping = 0.0;
   for (const double share : {0.1, 0.3, 0.5, 0.8, 0.95}) {
     const FrictionResult held =
-        pinch().hold({.weight = share * pinch().limit(), .gravity = {0, 1, 0}});
+        pinch().hold({.weight = share * pinch().limit(), .gravity = Vec3(0, 1, 0)});
     EXPECT_EQ(held.status, FrictionStatus::kHeld);
     EXPECT_LT(held.margin, margin);
     EXPECT_GE(held.slipping_share, slipping);
@@ -129,7 +130,7 @@ TEST(Friction, HeavierIsNeverSafer) {
 
 TEST(Friction, TooHeavySlipsAndReportsHowMuchIsHeld) {
   const FrictionResult slips =
-      pinch().hold({.weight = 2.0 * pinch().limit(), .gravity = {1, 0, 0}});
+      pinch().hold({.weight = 2.0 * pinch().limit(), .gravity = Vec3(1, 0, 0)});
   EXPECT_EQ(slips.status, FrictionStatus::kSlips);
   EXPECT_NEAR(slips.load_factor.value(), 0.5, 1e-5);
   EXPECT_EQ(slips.margin, 0.0);
@@ -231,7 +232,8 @@ TEST(Friction, HandAndProductMovedTogetherChangeNothing) {
 TEST(Friction, SameBytesForOneThreadAndTwo) {
   const auto solve = [&](int threads) {
     set_thread_count(threads);
-    FrictionResult result = pinch().hold({.weight = 0.5 * pinch().limit(), .gravity = {1, 0, 0}});
+    FrictionResult result =
+        pinch().hold({.weight = 0.5 * pinch().limit(), .gravity = Vec3(1, 0, 0)});
     set_thread_count(0);
     return result;
   };
@@ -255,7 +257,7 @@ TEST(Friction, OffAndWithoutContact) {
 
 TEST(Friction, WrenchOfALoad) {
   const Wrench wrench = wrench_of({.weight = 3.0,
-                                   .gravity = {0, 0, -2},
+                                   .gravity = Vec3(0, 0, -2),
                                    .mass_centre = Vec3(1, 0, 0),
                                    .force = {0, 1, 0},
                                    .torque = {0, 0, 7},

@@ -86,6 +86,12 @@ std::array<bool, hand::kFingerCount> idle_digits(const VolarVector& takes_part) 
   return is_idle;
 }
 
+Eigen::Matrix3d cross_matrix(const Vec3& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
 /// Of steps: 1 for what moves skin by kStep.
 GripVector step_weight() {
   GripVector w = GripVector::Constant(kArm * kArm);
@@ -257,6 +263,13 @@ void LeastEffort::measure(const ContactForces& forces, Look& at) const {
   at.measured = at.grip.force;
   at.measured_rate = forces.squeeze_rate();
   if (task_->measure == EffortMeasure::kSqueeze) return;
+  if (task_->measure == EffortMeasure::kHang) {
+    const Vec3 carried = forces.force().segment<3>(kGripJoints);
+    at.measured = carried.norm();
+    at.measured_rate =
+        -forces.stiffness().middleRows<3>(kGripJoints).transpose() * carried.stableNormalized();
+    return;
+  }
   // Along a direction that goes with the product.
   const int first = task_->measure == EffortMeasure::kPush ? kGripJoints : kGripJoints + 3;
   const Vec3 along = at.state.product_from_hand.rotation.conjugate() * task_->along;
@@ -282,6 +295,11 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   at.outside.segment<3>(kGripJoints) += force;
   at.outside.tail<3>() += moment + (hand_from_product.translation - at.centre).cross(force);
   at.wrist_load = hand::wrist_moment(*hand_, force, hand_from_product.translation, moment);
+  if (task_->measure == EffortMeasure::kHang) {
+    const Vec3 up = at.contact.segment<3>(kGripJoints).stableNormalized();
+    at.wrist_load = hand::wrist_moment(*hand_, -*task_->force * up,
+                                       hand_from_product * task_->hangs_at, Vec3::Zero());
+  }
   if (task_->measure == EffortMeasure::kTurn) {
     const Vec3 axis = hand_from_product.rotation * task_->along;
     at.wrist_per_torque = -hand::wrist_moment(*hand_, Vec3::Zero(), Vec3::Zero(), axis);
@@ -351,6 +369,12 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
     left.bottomRightCorner<3, 3>() -= axis * axis.transpose();
     program.price[kForceRow] = task_->model.moment_price * price_ * lightness();
   }
+  const Vec3 hangs = at.state.product_from_hand.inverse() * task_->hangs_at - at.centre;
+  if (task_->measure == EffortMeasure::kHang) {  // moments about the centre of mass
+    left.topLeftCorner<3, 3>().setZero();
+    left.bottomLeftCorner<3, 3>() = -cross_matrix(hangs);
+    program.price[kForceRow] = task_->model.force_price * price_ * lightness();
+  }
   program.required.segment<6>(kGripJoints) = left * program.required.segment<6>(kGripJoints);
   for (int j = 0; j < kGripJoints; ++j) {
     if (is_idle_[index_of(grip_finger(j))]) program.required[j] = 0.0;
@@ -363,6 +387,11 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.motion.topRows<kGripCoordinates>() += muscle_rate(at);
   program.motion.middleRows<6>(kGripJoints) =
       (left * program.motion.middleRows<6>(kGripJoints)).eval();
+  if (task_->measure == EffortMeasure::kHang) {  // which goes with the product
+    const Eigen::Matrix3d carried = cross_matrix(at.contact.segment<3>(kGripJoints));
+    program.motion.block<3, 3>(kGripJoints + 3, kGripJoints) += carried;
+    program.motion.block<3, 3>(kGripJoints + 3, kGripJoints + 3) -= carried * cross_matrix(hangs);
+  }
   program.motion.row(kForceRow) = (at.measured_rate + more_rate_).transpose();
   program.motion.row(kWristRow) = at.wrist_per_torque * program.motion.row(kForceRow);
   for (int j = 0; j < kGripJoints; ++j) {
@@ -440,6 +469,10 @@ void LeastEffort::finish(const Look& at, EffortRest& rest) const {
   rest.force = task_->measure == EffortMeasure::kNone ? at.grip.force : at.measured;
   rest.activation = at.effort.activation;
   rest.missing = at.effort.missing.head<kGripCoordinates>();
+  if (task_->measure == EffortMeasure::kHang) {
+    rest.missing.segment<3>(kGripJoints) =
+        at.effort.missing[kForceRow] * at.contact.segment<3>(kGripJoints).stableNormalized();
+  }
   rest.strongest_moment = (at.moments * at.effort.activation).lpNorm<Eigen::Infinity>();
   rest.arm = skin_.arm();
   rest.load.wrist = at.wrist_load;
@@ -606,6 +639,7 @@ bool LeastEffort::begin(Look& now, EffortRest& rest) {
       case EffortMeasure::kTurn:
         asked_ = closed.measured;
         break;
+      case EffortMeasure::kHang:
       case EffortMeasure::kNone:
         asked_ = load;
     }

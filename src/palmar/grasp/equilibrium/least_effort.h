@@ -37,13 +37,15 @@ enum class EffortMeasure {
   kSqueeze,  ///< grip_force()
   kPush,     ///< that on the product along a direction; what it stands on carries all else
   kTurn,     ///< the torque on the product about an axis, N mm; what it turns resists that
+  kHang,     ///< that on the product, which turns until its centre of mass hangs below the fingers
   kNone      ///< nothing: hooked fingers carry what pulls at them
 };
 
 /// What a hand is asked to do with what it holds.
 struct EffortTask {
   EffortMeasure measure = EffortMeasure::kSqueeze;
-  Vec3 along = Vec3::UnitZ();  ///< of a push or turn: unit, product frame
+  Vec3 along = Vec3::UnitZ();    ///< of a push or turn: unit, product frame
+  Vec3 hangs_at = Vec3::Zero();  ///< of what hangs by `force`: centre of mass, product frame, mm
   /// What is measured, N or N mm; unset: as firm as it was closed, under a load half of it over mu
   /// more. A turn needs it or `is_hardest`.
   std::optional<double> force;
@@ -101,7 +103,8 @@ struct SearchStart {
 ///     min  sum a_i^3 + E(q, T)   so that   every angle, the product and the wrist are in
 ///                                equilibrium,   the force is the one asked for,   0 <= a <= 1
 ///
-/// A product that is pushed stands fast: only the force along the push is asked for.
+/// A product that is pushed stands fast: only the force along the push is asked for. What hangs is
+/// turned by its weight: the force has any direction, and no moment about the centre of mass.
 ///
 /// E keeps the hold what it is: half the sum of squares of what angles and product have moved, each
 /// over how far people vary in it, and sqrt(1 + g^2) - 1 for each gap g that a phalanx or pad

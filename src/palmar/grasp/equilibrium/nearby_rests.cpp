@@ -80,10 +80,14 @@ std::optional<EffortRest> other_rest(const contact::PreparedHand& hand,
   });
   std::optional<EffortRest> least;
   for (std::optional<EffortRest>& one : found) {
-    if (!one || one->merit.back() > kNoDoubt * rest.merit.back()) continue;
+    if (!one || !is_doubt(rest, *one)) continue;
     if (!least || one->merit.back() < least->merit.back()) least = std::move(one);
   }
   return least;
+}
+
+bool is_doubt(const EffortRest& rest, const EffortRest& other) {
+  return other.merit.back() <= kNoDoubt * rest.merit.back();
 }
 
 NearbyRests nearby_rests(const contact::PreparedHand& hand, const product::Product& product,

@@ -41,6 +41,9 @@ std::optional<EffortRest> other_rest(const contact::PreparedHand& hand,
                                      const EffortTask& task, const contact::ContactOptions& contact,
                                      const Progress& progress = {});
 
+/// Whether a hand may as well rest in another state: its merit is at most 5 % above that of `rest`.
+bool is_doubt(const EffortRest& rest, const EffortRest& other);
+
 /// What a small change makes of a rest, by its derivatives: the motion that the problem with linear
 /// forces asks for after the change less that before. `other` stays unset. Deterministic.
 NearbyRests nearby_rests(const contact::PreparedHand& hand, const product::Product& product,

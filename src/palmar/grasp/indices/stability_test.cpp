@@ -223,7 +223,7 @@ TEST(AssessStability, TurnedWorldChangesNothing) {
   options.reduction.max_contacts = 8;
   options.load = contact::ProductLoad{.weight = 5.0, .gravity = Vec3(0, 1, -1)};
   const StabilityResult a = assess_stability(here.hand, here.contact, Vec3(1, 2, 3), options);
-  options.load->gravity = turn * options.load->gravity;
+  options.load->gravity = turn * *options.load->gravity;
   const StabilityResult b =
       assess_stability(there.hand, there.contact, turn * Vec3(1, 2, 3) + shift, options);
   const GraspIndices rows_a = to_indices(a), rows_b = to_indices(b);

@@ -83,8 +83,13 @@ EffortTask task_of(const hand::Hand& hand, const product::Product& product, cons
     HeaviestLoad own;
     own.add(product, {});
     load.weight = own.force;
-    // As it comes to hang: its centre below what the fingers are hooked round.
-    load.gravity = (geometry::centre_of_volume(product.mesh) - grasp.grip_point).normalized();
+  }
+  const bool is_weight_alone = load.force.isZero(0.0) && load.torque.isZero(0.0);
+  if (carries && load.weight > 0.0 && !load.gravity && is_weight_alone) {
+    task.measure = EffortMeasure::kHang;
+    task.hangs_at = load.mass_centre.value_or(geometry::centre_of_volume(product.mesh));
+    task.force = load.weight;
+    return task;
   }
   if (is_loaded || load.weight > 0.0) {
     task.load = contact::wrench_of(load, geometry::centre_of_volume(product.mesh));
@@ -112,7 +117,10 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   const bool looks_beside = options.looks_beside || options.looks_nearby;
   if (looks_beside && rest.status == EffortRest::Status::kSolved) {
     other = other_rest(hand, product, rest, task, contact, progress);
-    if (other && other->merit.back() < rest.merit.back()) std::swap(*other, rest);
+    if (other && other->merit.back() < rest.merit.back()) {
+      std::swap(*other, rest);
+      if (!is_doubt(rest, *other)) other.reset();
+    }
   }
   Balance balance;
   balance.iterations = rest.iterations;

@@ -45,7 +45,7 @@ void FrictionSettings::check() const {
         "setting \"acceleration\" needs what is accelerated: setting \"mass\", setting \"weight\" "
         "or setting \"density\"");
   }
-  if (gravity.isZero(0.0)) {
+  if (gravity && gravity->isZero(0.0)) {
     throw UsageError("setting \"gravity\" is 0,0,0; a direction is required");
   }
 }

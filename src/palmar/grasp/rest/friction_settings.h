@@ -24,7 +24,7 @@ struct FrictionSettings {
   /// Of the hand, upwards, in standard gravities, 0 to 100: the product weighs 1 + that many times
   /// as much. Needs one of the three.
   std::optional<double> acceleration = std::nullopt;
-  Vec3 gravity = -Vec3::UnitZ();                   ///< direction; any length but 0
+  std::optional<Vec3> gravity = std::nullopt;      ///< direction, not 0; unset: not known, or -z
   std::optional<Vec3> mass_centre = std::nullopt;  ///< mm; unset: as if solid throughout
   std::optional<Vec3> force = std::nullopt;        ///< further force on the product, N
   std::optional<Vec3> torque = std::nullopt;       ///< further torque on the product, N mm

@@ -261,7 +261,7 @@ Json friction_object(const contact::FrictionResult& friction,
                        {"slipping_share_of_area", region.slipping_share}});
   }
   Json given = {{"weight_n", load.weight},
-                {"gravity", vector3(load.gravity)},
+                {"gravity", vector3(load.down())},
                 {"force_n", vector3(load.force)},
                 {"torque_n_mm", vector3(load.torque)},
                 {"force_at_mm", vector3(load.force_at.value_or(friction.mass_centre))},
