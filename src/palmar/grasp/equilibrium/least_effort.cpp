@@ -27,7 +27,8 @@ struct Descent {
 constexpr Descent kOnCoarseSkin[] = {{0.6, 30.0, 30, 2e-2, 10.0, 1.0 / 3.0},
                                      {1.0, 0.0, 30, 1e-2, 1.0, 1.0}};
 constexpr Descent kOnSkin{1.0, 0.0, 60, 5e-3, 1.0, 1.0};
-// What is missing may cost less than what E asks for to have it: once more, for that much more.
+// What is missing may cost less than what E asks for to have it, or than the last of a grip force
+// that the hand doesn't reach: once more, equilibrium for that much more.
 constexpr Descent kInNeed{1.0, 0.0, 40, 5e-3, 100.0, 8.0};
 // Fingertips lose a small thing by less of a way than a whole hand.
 constexpr Descent kWithFingertips[] = {{1.0, 0.0, 40, 1e-2, 100.0, 0.1},
@@ -358,16 +359,16 @@ EffortProgram LeastEffort::program(const Look& at, double damping) const {
   program.required[kWristRow] = -at.wrist_load;
   program.price = Eigen::VectorXd::Constant(kRows, task_->model.moment_price);
   program.price.segment<3>(kGripJoints).setConstant(task_->model.force_price);
-  program.price[kForceRow] = task_->model.squeeze_price;
   // Soft skin that is lightly pressed gives way a lot for little force.
   program.price *= price_ * lightness();
+  program.price[kForceRow] = task_->model.squeeze_price * std::min(price_, 1.0) * lightness();
   // What the product stands on or turns carries what isn't asked of the hand.
   Eigen::Matrix<double, 6, 6> left = Eigen::Matrix<double, 6, 6>::Identity();
   if (task_->measure == EffortMeasure::kPush) left.setZero();
   if (task_->measure == EffortMeasure::kTurn) {
     const Vec3 axis = at.state.product_from_hand.rotation.conjugate() * task_->along;
     left.bottomRightCorner<3, 3>() -= axis * axis.transpose();
-    program.price[kForceRow] = task_->model.moment_price * price_ * lightness();
+    program.price[kForceRow] = task_->model.moment_price * std::min(price_, 1.0) * lightness();
   }
   const Vec3 hangs = at.state.product_from_hand.inverse() * task_->hangs_at - at.centre;
   if (task_->measure == EffortMeasure::kHang) {  // moments about the centre of mass
