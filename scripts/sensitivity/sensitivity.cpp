@@ -242,8 +242,10 @@ grasp::EffortRest Holds::search(const contact::PreparedHand& prepared, const Hel
   task.friction = usual.friction;
   task.strength = usual.strength;
   task.model = {};
-  return grasp::rest_with_least_effort(
-      prepared, held.task.product, {closed.posture, closed.product_from_hand}, task, {}, {}, &from);
+  const grasp::SearchStart start{.on_skin = from};
+  return grasp::rest_with_least_effort(prepared, held.task.product,
+                                       {closed.posture, closed.product_from_hand}, task, {}, {},
+                                       &start);
 }
 
 bool is_held(const grasp::Grasp& grasp) {

@@ -47,7 +47,7 @@ struct EffortTask {
   Vec3 along = Vec3::UnitZ();    ///< of a push or turn: unit, product frame
   Vec3 hangs_at = Vec3::Zero();  ///< of what hangs by `force`: centre of mass, product frame, mm
   /// What is measured, N or N mm; unset: as firm as it was closed, under a load half of it over mu
-  /// more. A turn needs it or `is_hardest`.
+  /// more. A turn needs it or `is_hardest`; of what hangs it is the weight, and has to be set.
   std::optional<double> force;
   bool is_hardest = false;  ///< as hard as `strength` can, whatever `force` says
   /// Share with which the gap of each part of the hand counts: 0 where it takes no part in the

@@ -89,6 +89,7 @@ EffortTask task_of(const hand::Hand& hand, const product::Product& product, cons
     task.measure = EffortMeasure::kHang;
     task.hangs_at = load.mass_centre.value_or(geometry::centre_of_volume(product.mesh));
     task.force = load.weight;
+    task.is_hardest = false;
     return task;
   }
   if (is_loaded || load.weight > 0.0) {
