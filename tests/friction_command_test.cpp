@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "run_program.h"
 
@@ -54,6 +56,23 @@ TEST(FrictionCommand, SaysHeldOrSlipsAndEndsWellBothTimes) {
   EXPECT_THAT(read_text(folder() + "/report/report.html"),
               AllOf(HasSubstr("It slips."), HasSubstr("Friction per region")));
   EXPECT_THAT(read_text(folder() + "/report/bar/hand.vtp"), HasSubstr("mobilised_friction"));
+}
+
+// A bar that lies in hooked fingers hangs across its axis; friction is asked for the same load.
+TEST(FrictionCommand, WhatHangsHasOneLoadInTheWholeReport) {
+  const auto load = [](const std::string& gravity) {
+    const ProgramRun run = assess("--grip fixed_hook --weight-n 20 --json" + gravity);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return Json::parse(run.out).at("assessments").at(0).at("friction");
+  };
+  const Json hangs = load("");
+  const auto down = hangs.at("given").at("gravity").get<std::vector<double>>();
+  EXPECT_LT(std::abs(down[2]), 0.5);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(hangs.at("load").at("force_n").at(c).get<double>(), 20.0 * down[c], 1e-9);
+  }
+  const Json given = load(" --gravity 1,0,0");
+  EXPECT_NEAR(given.at("load").at("force_n").at(0).get<double>(), 20.0, 1e-9);
 }
 
 TEST(FrictionCommand, IsLeftOutUnlessAskedFor) {

@@ -125,6 +125,7 @@ TEST_F(LeastEffort, WhatHooksCarryTurnsUntilItHangs) {
       EXPECT_NEAR(carried.force.norm(), weight, 0.02 * weight) << aside;
       const Vec3 moment = carried.moment - task.hangs_at.cross(carried.force);
       EXPECT_LT(moment.norm(), weight * 1.0) << weight << " N, " << aside << " mm";
+      EXPECT_LT((found.force_on_product - carried.force).norm(), 0.02 * weight) << aside;
     }
   }
 }

@@ -486,6 +486,7 @@ void LeastEffort::finish(const Look& at, EffortRest& rest) const {
   rest.is_by_wrist = rest.share > kByWrist * least_share(at, false);
   rest.friction_use = skin_.friction_use();
   rest.friction_force = skin_.friction_force();
+  rest.force_on_product = at.state.product_from_hand.rotation * at.contact.segment<3>(kGripJoints);
   rest.fallbacks = skin_.fallbacks();
   const GripVector off = departure(at.state);
   rest.way = off.segment<3>(kGripJoints);

@@ -81,11 +81,12 @@ struct EffortRest {
   double share = 0.0;        ///< least share of `strength` that holds it so
   bool is_by_wrist = false;  ///< the muscles of the digits alone would need less
   double friction_use = 0.0;
-  std::vector<Vec3> friction_force;  ///< of the skin on the product, per skin vertex, N
-  double moved = 0.0;                ///< of the product in the hand, mm
-  Vec3 way = Vec3::Zero();           ///< the same, hand frame, mm
-  double turned = 0.0;               ///< rad
-  std::vector<double> merit;         ///< of every state that the last search took; falls
+  std::vector<Vec3> friction_force;      ///< of the skin on the product, per skin vertex, N
+  Vec3 force_on_product = Vec3::Zero();  ///< of all contact and friction, product frame, N
+  double moved = 0.0;                    ///< of the product in the hand, mm
+  Vec3 way = Vec3::Zero();               ///< the same, hand frame, mm
+  double turned = 0.0;                   ///< rad
+  std::vector<double> merit;             ///< of every state that the last search took; falls
   int iterations = 0;
   contact::ContactFallbacks fallbacks;
 };

@@ -50,8 +50,28 @@ VolarVector parts_that_hold(const hand::Hand& hand, const Grasp& grasp) {
   return parts;
 }
 
+bool pulls(const contact::ProductLoad& load) {
+  return load.weight > 0.0 || !load.force.isZero(0.0) || !load.torque.isZero(0.0);
+}
+
+bool carries(const Grasp& grasp, const BalanceOptions& options) {
+  return grasp.grip == Grip::kFixedHook && !options.turn;
+}
+
+/// What pulls at the product; nothing but what it carries closes a hook.
+contact::ProductLoad load_of(const product::Product& product, const Grasp& grasp,
+                             const BalanceOptions& options) {
+  contact::ProductLoad load = options.load;
+  if (carries(grasp, options) && !pulls(load)) {
+    HeaviestLoad own;
+    own.add(product, {});
+    load.weight = own.force;
+  }
+  return load;
+}
+
 EffortTask task_of(const hand::Hand& hand, const product::Product& product, const Grasp& grasp,
-                   const BalanceOptions& options) {
+                   const contact::ProductLoad& load, const BalanceOptions& options) {
   EffortTask task;
   task.force = options.asked_grip_force(grasp.grip);
   task.is_hardest = options.activation.has_value();
@@ -76,25 +96,17 @@ EffortTask task_of(const hand::Hand& hand, const product::Product& product, cons
     // As people leave it before a slip.
     task.friction = options.friction / kGripMargin;
   }
-  contact::ProductLoad load = options.load;
-  const bool is_loaded = load.weight > 0.0 || !load.force.isZero(0.0) || !load.torque.isZero(0.0);
-  const bool carries = grasp.grip == Grip::kFixedHook && !options.turn;
-  if (carries && !is_loaded) {  // nothing but what it carries closes a hook
-    HeaviestLoad own;
-    own.add(product, {});
-    load.weight = own.force;
-  }
   const bool is_weight_alone = load.force.isZero(0.0) && load.torque.isZero(0.0);
-  if (carries && load.weight > 0.0 && !load.gravity && is_weight_alone) {
+  if (carries(grasp, options) && load.weight > 0.0 && !load.gravity && is_weight_alone) {
     task.measure = EffortMeasure::kHang;
     task.hangs_at = load.mass_centre.value_or(geometry::centre_of_volume(product.mesh));
     task.force = load.weight;
     task.is_hardest = false;
     return task;
   }
-  if (is_loaded || load.weight > 0.0) {
+  if (pulls(load)) {
     task.load = contact::wrench_of(load, geometry::centre_of_volume(product.mesh));
-    if (carries) task.measure = EffortMeasure::kNone;
+    if (carries(grasp, options)) task.measure = EffortMeasure::kNone;
   }
   return task;
 }
@@ -103,7 +115,9 @@ EffortTask task_of(const hand::Hand& hand, const product::Product& product, cons
 Balance settle(const contact::PreparedHand& hand, const product::Product& product, Grasp& grasp,
                const BalanceOptions& options, const contact::ContactOptions& contact,
                const Progress& progress) {
-  const EffortTask task = task_of(hand.hand(), product, grasp, options);
+  Balance balance;
+  balance.load = load_of(product, grasp, options);
+  const EffortTask task = task_of(hand.hand(), product, grasp, balance.load, options);
   GripState closed{grasp.posture, grasp.product_from_hand};
   std::optional<SearchStart> from;
   if (options.like != nullptr) {
@@ -123,7 +137,6 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
       if (!is_doubt(rest, *other)) other.reset();
     }
   }
-  Balance balance;
   balance.iterations = rest.iterations;
   balance.on_coarse_skin = rest.on_coarse_skin;
   balance.fallbacks = rest.fallbacks;
@@ -143,6 +156,7 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   const bool turns = task.measure == EffortMeasure::kTurn;
   balance.grip_force = turns ? rest.grip.force : rest.force;
   if (turns) balance.turn = std::copysign(rest.force, *options.turn);
+  if (task.measure == EffortMeasure::kHang) balance.load.gravity = -rest.force_on_product;
   balance.sum_of_normals = rest.grip.sum_of_normals;
   balance.residual_force = rest.missing.segment<3>(kGripJoints).norm();
   balance.residual_moment = rest.missing.tail<3>().norm();

@@ -92,6 +92,7 @@ struct Balance {
   BalanceStatus status = BalanceStatus::kOff;
   std::string message;          ///< one sentence for people
   double friction = 0.0;        ///< coefficient that was used
+  contact::ProductLoad load;    ///< that was used; what hangs has the gravity that it came to
   double grip_force = 0.0;      ///< N, across the plane of largest squeeze
   double sum_of_normals = 0.0;  ///< N
   std::optional<double> turn;   ///< torque that the hand turns it with, N mm; where it was asked to

@@ -65,6 +65,11 @@ Assessment evaluate(const contact::PreparedHand& hand, const product::Product& p
   result.options = options;
   result.grasp = grasp;
   result.balance = std::move(balance);
+  // One load in one run: what hangs from hooked fingers has turned to it.
+  if (result.balance.status != grasp::BalanceStatus::kOff) {
+    result.options.friction.load = result.options.balance.load = result.balance.load;
+  }
+  const contact::FrictionOptions& friction = result.options.friction;
 
   progress.update(0.6, "solving the contact");
   const Stopwatch contact_watch;
@@ -84,12 +89,11 @@ Assessment evaluate(const contact::PreparedHand& hand, const product::Product& p
                      *result.balance.nearby, options.contact);
   }
 
-  if (options.friction.is_on()) {
+  if (friction.is_on()) {
     progress.update(0.8, "balancing the load by friction");
     const Stopwatch friction_watch;
-    result.friction =
-        contact::solve_friction(hand, result.contact, *product.distance,
-                                geometry::centre_of_volume(product.mesh), options.friction);
+    result.friction = contact::solve_friction(hand, result.contact, *product.distance,
+                                              geometry::centre_of_volume(product.mesh), friction);
     result.times.friction = friction_watch.seconds();
   }
 
@@ -100,9 +104,8 @@ Assessment evaluate(const contact::PreparedHand& hand, const product::Product& p
   indices.effort.wrist = options.balance.wrist;
   // One coefficient in one run.
   indices.stability.reduction.friction =
-      options.friction.is_on() ? options.friction.coefficient : options.balance.friction;
-  const contact::ProductLoad& load =
-      options.friction.is_on() ? options.friction.load : options.balance.load;
+      friction.is_on() ? friction.coefficient : options.balance.friction;
+  const contact::ProductLoad& load = friction.is_on() ? friction.load : result.options.balance.load;
   if (load.weight > 0.0 || !load.force.isZero(0.0) || !load.torque.isZero(0.0)) {
     indices.stability.load = load;
   }
