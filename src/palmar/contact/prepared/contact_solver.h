@@ -20,7 +20,8 @@
 namespace palmar::contact {
 
 constexpr double kPressedNear = 2.0;  ///< mm; skin that far off the product says nothing of it
-constexpr double kBulgeRange = 4.0;   ///< mm; gaps beyond this don't close by bulging
+constexpr double kBulgeRange = 2.0;   ///< mm; gaps beyond this don't close by bulging: twice what a
+                                      ///< flank pressed at the limit depth bulges. Ours
 
 /// Appends a sentence to a result's message.
 void append_note(std::string& message, const std::string& text);

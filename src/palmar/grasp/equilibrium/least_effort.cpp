@@ -14,19 +14,22 @@
 namespace palmar::grasp {
 namespace {
 
+constexpr double kNoMissing = 0.01;  // of the merit, as it is priced; so little is none
+
 /// When a search ends, and how it begins.
 struct Descent {
   double level;  // of the grip force asked for
   double least;  // N; what is held more lightly than that settles at it first
   int most_tries;
-  double least_gain;     // of the merit: steps that promise less end it
-  double first_damping;  // as hard as skin that has moved by kStep
-  double price;          // of what is missing, of the model's
+  double least_gain;            // of the merit: steps that promise less end it
+  double first_damping;         // as hard as skin that has moved by kStep
+  double price;                 // of what is missing, of the model's
+  double nothing = kNoMissing;  // of the merit; so little that is missing isn't searched for
 };
 // On the way prices are low, so that digits find their places before forces are exact.
 constexpr Descent kOnCoarseSkin[] = {{0.6, 30.0, 30, 2e-2, 10.0, 1.0 / 3.0},
                                      {1.0, 0.0, 30, 1e-2, 1.0, 1.0}};
-constexpr Descent kOnSkin{1.0, 0.0, 60, 5e-3, 1.0, 1.0};
+constexpr Descent kOnSkin{1.0, 0.0, 60, 5e-3, 1.0, 1.0, 0.05};
 // What is missing may cost less than what E asks for to have it, or than the last of a grip force
 // that the hand doesn't reach: once more, equilibrium for that much more.
 constexpr Descent kInNeed{1.0, 0.0, 40, 5e-3, 100.0, 8.0};
@@ -49,12 +52,12 @@ constexpr double kUsualSteps = 50.0;  // of all searches; of what progress is a 
 constexpr double kPoor = 0.5, kWorthwhile = 0.2, kLeastShare = 0.02;
 // A way that much more damped is shorter; if it promises that share, it is better.
 constexpr double kShorter = 8.0, kAsGood = 0.9;
-constexpr double kGrowth = 4.0;      // of damping, where a step is refused
-constexpr double kKept = 0.9;        // less, and derivatives are taken anew
-constexpr double kByWrist = 1.02;    // of the strength that the digits alone need
-constexpr double kNoMissing = 0.01;  // priced; so little is none
-constexpr double kTurnArm = 30.0;    // mm, at which a torque counts as a force
-constexpr double kTooMuch = 2000.0;  // N; no hand grips that hard
+constexpr double kFree = 0.02, kNoGain = 3e-4;  // damping of a long way; of the merit
+constexpr double kGrowth = 4.0;                 // of damping, where a step is refused
+constexpr double kKept = 0.9;                   // less, and derivatives are taken anew
+constexpr double kByWrist = 1.02;               // of the strength that the digits alone need
+constexpr double kTurnArm = 30.0;               // mm, at which a torque counts as a force
+constexpr double kTooMuch = 2000.0;             // N; no hand grips that hard
 constexpr int kForceRow = kGripCoordinates, kWristRow = kGripCoordinates + 1,
               kRows = kGripCoordinates + 2;
 
@@ -171,7 +174,7 @@ class LeastEffort {
   EffortProgram program(const Look& at, double damping) const;
   void judge(Look& at) const;
   GripVector departure(const GripState& state) const;
-  static bool is_in_need(const Look& at);
+  static double missing(const Look& at);
   bool differentiate(const Look& at);
   bool go(const Look& from, const GripVector& way, Look& to);
   bool pass_a_jump(Look& now, const Descent& how);
@@ -327,10 +330,9 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   return true;
 }
 
-/// Something is missing.
-bool LeastEffort::is_in_need(const Look& at) {
-  const double missing = at.effort.value - at.effort.activation.array().cube().sum();
-  return missing > kNoMissing * at.merit();
+/// What is missing, as it is priced.
+double LeastEffort::missing(const Look& at) {
+  return at.effort.value - at.effort.activation.array().cube().sum();
 }
 
 /// How far a state is from the start, coordinate by coordinate.
@@ -532,8 +534,16 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
   bool is_new = true;       // the state, since its derivatives were taken
   double last_share = 0.0;  // of what was promised
   int refused = 0;
+  const auto is_in_need = [&] { return missing(now) > how.nothing * now.merit(); };
+  // Nothing is missing, and what else there is to gain, by however long a way, is next to nothing:
+  // the last of the missing forces would cost as many contacts as all before.
+  const auto is_at_rest = [&] {
+    if (is_in_need()) return false;
+    const EffortSolution free = solve_effort(program(now, kFree));
+    return now.effort.value - missing(now) - free.value < kNoGain * now.merit();
+  };
   const auto passes_a_jump = [&] {
-    if (!is_in_need(now) || !pass_a_jump(now, how)) return false;
+    if (!is_in_need() || !pass_a_jump(now, how)) return false;
     refused = 0;
     damping = how.first_damping;
     growth = kGrowth;
@@ -546,7 +556,7 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
     progress.throw_if_cancelled();
     ++rest.iterations;
     progress.update(std::min(1.0, rest.iterations / kUsualSteps), "letting the grasp come to rest");
-    if (refused >= (is_in_need(now) ? kMostInNeed : kMostRefused) && !passes_a_jump()) break;
+    if (refused >= (is_in_need() ? kMostInNeed : kMostRefused) && !passes_a_jump()) break;
     // Derivatives serve as long as steps keep what they promise; where to end is never theirs.
     if (is_new && last_share < kKept) {
       if (!differentiate(now)) return;
@@ -562,7 +572,7 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
       promised = left;
       step = std::move(shorter);
     }
-    if (promised < how.least_gain * now.merit()) {
+    if (promised < how.least_gain * now.merit() || is_at_rest()) {
       if (!is_new && !passes_a_jump()) break;
       last_share = 0.0;
       continue;
@@ -672,7 +682,8 @@ EffortRest LeastEffort::run(const SearchStart* from, const Progress& progress) {
   if (from == nullptr && is_whole_hand() && rest_on_coarse_skin(nullptr, progress, now, rest)) {
     state = now.state;
   } else if (from != nullptr && from->on_coarse_skin &&
-             rest_on_coarse_skin(&*from->on_coarse_skin, progress, now, rest) && !is_in_need(now)) {
+             rest_on_coarse_skin(&*from->on_coarse_skin, progress, now, rest) &&
+             missing(now) < kOnCoarseSkin[1].nothing * now.merit()) {
     state = moved_alike(from->on_skin, *from->on_coarse_skin, now.state);
   }
   is_coarse_ = false;
@@ -686,7 +697,8 @@ EffortRest LeastEffort::run(const SearchStart* from, const Progress& progress) {
   } else {
     for (const Descent& how : kWithFingertips) descend(now, how, progress, rest);
   }
-  if (is_in_need(now)) descend(now, kInNeed, progress, rest);
+  const double nothing = (is_whole_hand() ? kOnSkin : kWithFingertips[1]).nothing;
+  if (missing(now) > nothing * now.merit()) descend(now, kInNeed, progress, rest);
   if (!skin_.is_at(now.state) && !skin_.look(now.state, kAccuracy)) return rest;
   rest.status = EffortRest::Status::kSolved;
   finish(now, rest);

@@ -18,9 +18,17 @@ namespace {
 constexpr double kSoftness = 3.0;   // mm; t of the soft mean
 constexpr double kSpeaks = 0.25;    // skin that speaks less for the volar side isn't asked
 constexpr double kGapRange = 40.0;  // mm; skin farther off counts as that far
+constexpr double kCounts = 1e-4;    // of a part's weight; less doesn't shape how its gap changes
 constexpr int kThumbParts = 2;
 constexpr std::array kPads{hand::Region::kRadialPalm, hand::Region::kUlnarPalm,
                            hand::Region::kHypothenar};
+
+/// Whether a point is farther than that from a cone: from the ball that holds it.
+bool is_surely_beyond(const RoundCone& cone, const Vec3& point, double distance) {
+  const double radius = 0.5 * (cone.b - cone.a).norm() + std::max(cone.radius_a, cone.radius_b);
+  const double reach = radius + distance;
+  return reach > 0.0 && (point - 0.5 * (cone.a + cone.b)).squaredNorm() >= reach * reach;
+}
 
 }  // namespace
 
@@ -107,6 +115,7 @@ VolarVector VolarGaps::look(const GripState& state, const std::vector<Vec3>& pos
       const Vec3& point = posed[skin.vertex];
       for (const RoundCone& cone : cones) {
         if (cone.finger == hand::Finger::kThumb || cone.level == 0) continue;
+        if (is_surely_beyond(cone, point, distance)) continue;
         const ConeDistance to_finger = distance_from(cone, point);
         if (to_finger.distance >= distance) continue;
         distance = to_finger.distance;
@@ -131,6 +140,7 @@ VolarRates VolarGaps::rates(const GripState& state, const std::vector<Vec3>& pos
   }
   VolarRates rates = VolarRates::Zero();
   for (const Skin& skin : skin_) {
+    if (skin.weight < kCounts) continue;
     const Vec3 away = skin.weight * skin.normal;
     if (skin.body > 0) {
       const auto f = index_of(skin.finger);
@@ -144,10 +154,17 @@ VolarRates VolarGaps::rates(const GripState& state, const std::vector<Vec3>& pos
     rates.block<1, 3>(skin.part, kGripJoints + 3) -=
         (posed[skin.vertex] - centre).cross(away).transpose();
   }
+  std::vector<int> vertex;
+  std::vector<const Skin*> counts;
+  for (const Skin& skin : skin_) {
+    if (skin.weight < kCounts) continue;
+    vertex.push_back(skin.vertex);
+    counts.push_back(&skin);
+  }
   for (int j = 0; j < kGripJoints; ++j) {
-    const SkinMotion::Column one = motion_.column(state.posture, posed, j, vertex_);
+    const SkinMotion::Column one = motion_.column(state.posture, posed, j, vertex);
     for (std::size_t i = 0; i < one.row.size(); ++i) {
-      const Skin& skin = skin_[one.row[i]];
+      const Skin& skin = *counts[static_cast<std::size_t>(one.row[i])];
       rates(skin.part, j) += skin.weight * skin.normal.dot(one.speed[i]);
     }
   }
