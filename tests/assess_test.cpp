@@ -69,7 +69,10 @@ TEST(Assess, AHeldProductIsGrippedAsItsWeightAsks) {
   }
   EXPECT_THAT(run("--grip-force-n 40").err, HasSubstr("says how firmly to grip"));
   EXPECT_THAT(run("--turn-n-m 2").err, HasSubstr("--task is required with it"));
-  EXPECT_THAT(run("--population ansur2_women").err, HasSubstr("--task is of one hand"));
+  const ProgramRun many = run("--population ansur2_women --hands 2 --mass-kg 1.5");
+  EXPECT_EQ(many.exit_code, 0) << many.err;
+  run_palmar("study export held/hands.palmar --out tables", cylinder().folder);
+  EXPECT_THAT(read_text(cylinder().folder + "/tables/settings.csv"), HasSubstr(",hold,"));
 }
 
 TEST(Assess, TotalsAreTheSumsOfTheRegions) {

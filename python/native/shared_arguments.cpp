@@ -161,7 +161,7 @@ grasp::RestSettings rest_of(Arguments& arguments, const std::string& person) {
   arguments.take("turn_n_m", settings.turn);
   std::string task = "usual";
   arguments.take("task", task);
-  settings.take_task(task);
+  settings.task = grasp::hand_task_named(task);
   settings = workflow::held_by(person, settings);
   settings.check();
   return settings;

@@ -46,6 +46,10 @@ records::StudyRequest study_request(Arguments& arguments) {
     quick.holding = holding_of(arguments);
     arguments.take("hand", quick.hand);
     arguments.take("mass_kg", quick.mass);
+    std::string task = "usual";
+    arguments.take("task", task);
+    quick.task = grasp::hand_task_named(task);
+    arguments.take("turn_n_m", quick.turn);
     arguments.take("grip_force_n", quick.grip_force);
     arguments.take("strength_share", quick.strength_share);
     arguments.take("limit_depths", quick.limit_depths);

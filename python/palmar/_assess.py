@@ -163,8 +163,8 @@ def assess(
         palm_limit_depth_mm, finger_limit_depth_mm: Deepest penetration, mm (7 and 4; Xie 2014).
         grip_force_n: Grip force as a dynamometer reads it, N; strength_share: of the strength of
             `person` or `strength_n` (N); limit_depths: as closing to the depths made it.
-        task: "usual" for the products, "squeeze", "hold" or "turn" (turn_n_m, about the grip axis,
-            N m).
+        task: "usual" for the products, "squeeze", "hold", "carry" (hold, in walking) or "turn"
+            (turn_n_m, about the grip axis, N m).
         balance: False leaves forces out of balance (Xie 2014).
         friction: Coefficient; 0.5 while it settles and under a load (Derler & Gerhardt 2012).
         mass_kg, weight_n, density_g_cm3: One of them, of the product, kg, N or g/cm3; acceleration_g: upwards, in

@@ -59,6 +59,8 @@ def run(
     purpose: Optional[str] = None,
     hand: Optional[Path] = None,
     mass_kg: Optional[float] = None,
+    task: Optional[str] = None,
+    turn_n_m: Optional[float] = None,
     grip_force_n: Optional[float] = None,
     strength_share: Optional[float] = None,
     limit_depths: Optional[bool] = None,
@@ -81,6 +83,7 @@ def run(
         hold, part, along, toward, up, purpose: As in palmar.assess().
         hand: Hand that is scaled: "template" or a .hand.glb file.
         mass_kg: Of every product, kg.
+        task, turn_n_m: As in palmar.assess(); N m.
         grip_force_n: N; strength_share: of each person's own strength; limit_depths: as closing to
             the limit depths made it. None: the usual grip force, the same for all.
         shard: (k, n): only every n-th hand, from the k-th; merge() joins the shards.

@@ -93,10 +93,10 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
   }
   constexpr int kFewHands = 12;  // enough for a sign: 6 pairs are the fewest that show anything
   static const std::set<std::string> kTaken = {
-      "PRODUCT", "help",  "unit",        "population",   "hands",        "out",    "language",
-      "pdf",     "paper", "hold",        "part",         "along",        "toward", "up",
-      "purpose", "hand",  "no-pictures", "grip-force-n", "limit-depths", "units",  "project",
-      "slides",  "excel", "rounded-csv", "mass-kg"};
+      "PRODUCT", "help",  "unit",        "population",   "hands",        "out",     "language",
+      "pdf",     "paper", "hold",        "part",         "along",        "toward",  "up",
+      "purpose", "hand",  "no-pictures", "grip-force-n", "limit-depths", "units",   "project",
+      "slides",  "excel", "rounded-csv", "mass-kg",      "task",         "turn-n-m"};
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_single_name();
     if (option->count() > 0 && !kTaken.contains(name)) {
@@ -117,6 +117,8 @@ int run_as_study(const AssessArguments& arguments, const CLI::App& verb, const C
   quick.holding = arguments.grasp.settings().holding;
   quick.mass = arguments.friction.settings().mass.value_or(0.0);
   const grasp::RestSettings rest = arguments.balance.settings();
+  quick.task = rest.task;
+  quick.turn = rest.turn;
   quick.grip_force = rest.grip_force;
   quick.limit_depths = rest.limit_depths;
   const std::string folder = arguments.out.empty() ? workflow::free_report_folder() : arguments.out;

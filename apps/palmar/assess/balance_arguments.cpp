@@ -17,6 +17,12 @@ std::string usual_words() {
                      usual.words(grasp::Grip::kMediumWrap));
 }
 
+std::vector<std::string> task_names() {
+  std::vector<std::string> names;
+  for (const grasp::HandTask task : grasp::kHandTasks) names.emplace_back(name_of(task));
+  return names;
+}
+
 void BalanceArguments::add_to(CLI::App& verb) {
   verb.add_flag("--no-balance", no_balance_,
                 "Leave the hand as it was closed to the limit depths, forces out of balance "
@@ -32,8 +38,9 @@ void BalanceArguments::add_to(CLI::App& verb) {
               "fingers don't meet round; squeeze, with a grip force as the options below say; "
               "hold, with what each product's weight and load ask for: 1.4 times what "
               "friction needs (Westling & Johansson 1984), without a mass the weight of a "
-              "solid of 1 g/cm3; turn, with what --turn-n-m takes")
-          ->check(CLI::IsMember({"usual", "squeeze", "hold", "turn"}))
+              "solid of 1 g/cm3; carry, the same while walking, a fifth heavier unless "
+              "--acceleration-g is given; turn, with what --turn-n-m takes")
+          ->check(CLI::IsMember(task_names()))
           ->default_str("usual");
   verb.add_option("--turn-n-m", settings_.turn,
                   "With --task turn: the torque about the grip axis that the product is turned "
@@ -61,7 +68,7 @@ void BalanceArguments::add_to(CLI::App& verb) {
 grasp::RestSettings BalanceArguments::settings() const {
   grasp::RestSettings result = settings_;
   result.is_balanced = !no_balance_;
-  result.take_task(task_);
+  result.task = grasp::hand_task_named(task_);
   result = workflow::held_by(person_, result);
   result.check();
   return result;

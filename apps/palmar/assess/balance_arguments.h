@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli.h"
 #include "palmar/grasp/rest/rest_settings.h"
@@ -27,6 +28,8 @@ class BalanceArguments {
   std::string task_ = "usual";
   std::string person_;
 };
+
+std::vector<std::string> task_names();  ///< of --task
 
 /// "107 N, 25 % of ... (15 to 23 N in a pinch)": the usual grip force, for help texts.
 std::string usual_words();

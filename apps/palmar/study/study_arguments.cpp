@@ -43,6 +43,12 @@ void StudyArguments::add_to(CLI::App& verb) {
   }
   add("--hand", quick_.hand, "Hand that is scaled: template or a *.hand.glb file");
   add("--mass-kg", quick_.mass, "Mass of every product, kg; without it nothing is carried");
+  add("--task", task_,
+      "What the hands do: usual, squeeze, hold, carry or turn, as in palmar assess")
+      ->check(CLI::IsMember(task_names()))
+      ->default_str("usual");
+  add("--turn-n-m", quick_.turn,
+      "With --task turn: the torque about the grip axis that the products are turned with, N m");
   add("--grip-force-n", quick_.grip_force,
       fmt::format("Grip force, N; if not given for all hands and products {}, or what holds the "
                   "heaviest",
@@ -67,6 +73,7 @@ records::StudyRequest StudyArguments::request(const Context& context) const {
       throw UsageError("what is to be studied is not said: FILE.toml or --product is required");
     }
     quick.unit = parse_unit(unit_);
+    quick.task = grasp::hand_task_named(task_);
     quick.holding = holds_.request();
     if (!populations_.empty()) quick.populations = populations_;
     request = workflow::study_of(quick);

@@ -27,7 +27,7 @@ class StudyArguments {
   records::StudyRequest request(const Context& context) const;
 
  private:
-  std::string file_, unit_;
+  std::string file_, unit_, task_ = "usual";
   std::vector<std::string> populations_;
   HoldArguments holds_;
   workflow::QuickStudy quick_;

@@ -23,6 +23,35 @@ std::optional<double> estimated_weight(const product::Product& product) {
 
 }  // namespace
 
+std::string_view name_of(HandTask task) {
+  switch (task) {
+    case HandTask::kUsual:
+      return "usual";
+    case HandTask::kSqueeze:
+      return "squeeze";
+    case HandTask::kHold:
+      return "hold";
+    case HandTask::kCarry:
+      return "carry";
+    case HandTask::kTurn:
+      return "turn";
+  }
+  return "unknown";
+}
+
+HandTask hand_task_named(std::string_view name) {
+  std::string names;
+  for (const HandTask task : kHandTasks) {
+    if (name == name_of(task)) return task;
+    names += fmt::format("{}{}",
+                         task == kHandTasks.front()  ? ""
+                         : task == kHandTasks.back() ? " or "
+                                                     : ", ",
+                         name_of(task));
+  }
+  throw UsageError(fmt::format("setting \"task\" is \"{}\"; {} is required", name, names));
+}
+
 double usual_grip_strength() {
   return 0.5 * (*grip_strength(Sex::kFemale, kUsualAge) + *grip_strength(Sex::kMale, kUsualAge));
 }

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "palmar/contact/friction/friction.h"
 #include "palmar/grasp/grip.h"
@@ -14,6 +16,30 @@ namespace palmar::grasp {
 // The force of the task: how firmly all designs and hands of one comparison are held when nothing
 // is said about it. Were each held as firmly as closing to the limit depths makes it, the more
 // loosely held design would look the more comfortable one.
+
+/// What a hand is asked to do with a product.
+enum class HandTask {
+  kUsual,    ///< what UsualTask says of the products
+  kSqueeze,  ///< grips it firmly, whatever it is
+  kHold,     ///< holds what its load asks for (holding_grip_force())
+  kCarry,    ///< that while its person walks (kWalking)
+  kTurn      ///< turns it with a torque about the grip axis
+};
+inline constexpr std::array kHandTasks = {HandTask::kUsual, HandTask::kSqueeze, HandTask::kHold,
+                                          HandTask::kCarry, HandTask::kTurn};
+std::string_view name_of(HandTask task);  ///< "usual", "squeeze", "hold", "carry", "turn"
+/// Throws UsageError listing the names.
+HandTask hand_task_named(std::string_view name);
+/// Only as much force as a load takes.
+inline bool holds_load(HandTask task) {
+  return task == HandTask::kHold || task == HandTask::kCarry;
+}
+inline bool says_how_firmly(HandTask task) { return holds_load(task) || task == HandTask::kTurn; }
+
+/// Upward acceleration of what is carried in walking, standard gravities: the ground's reaction
+/// then peaks at 1.1 to 1.2 times a body's weight (textbooks of gait, not read for this), and what
+/// hangs from the body follows it. The more of it.
+inline constexpr double kWalking = 0.2;
 
 /// Share of the grip strength. 0.25 lies between what a hand can keep up for ten minutes (18.9 %,
 /// SD 2.5; Kwak et al. 2023, Eur J Appl Physiol 123) and the mean at work with a hand tool (28.3 %,

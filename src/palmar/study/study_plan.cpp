@@ -51,6 +51,25 @@ void check_setting(const StudySetting& setting) {
   check_between(what, "palm limit depth", setting.palm_limit_depth, 0.1, kDeepest, "mm");
   check_between(what, "finger limit depth", setting.finger_limit_depth, 0.1, kDeepest, "mm");
   check_between(what, "friction", setting.friction, 0.0, 3.0);
+  if ((setting.task == grasp::HandTask::kTurn) != setting.turn.has_value()) {
+    throw UsageError(what + (setting.turn ? ": a torque is given; its task has to be turn"
+                                          : ": its task is turn; a torque is required with it"));
+  }
+  if (setting.turn) {
+    const double most = 1e-3 * grasp::kMostTurn;
+    if (*setting.turn == 0.0) throw UsageError(what + ": its torque is 0 N m; another is required");
+    check_between(what, "torque", *setting.turn, -most, most, "N m");
+  }
+  if (grasp::says_how_firmly(setting.task) && (setting.grip_force || setting.strength_share ||
+                                               setting.limit_depths || !setting.is_balanced)) {
+    throw UsageError(what + ": its task, " + std::string(name_of(setting.task)) +
+                     ", says how firmly to grip; " +
+                     (setting.grip_force       ? "grip force"
+                      : setting.strength_share ? "strength share"
+                      : setting.limit_depths   ? "limit depths"
+                                               : "no balance") +
+                     " isn't allowed with it");
+  }
   if (setting.grip_force && setting.strength_share) {
     throw UsageError(what + ": grip force and strength share are both given; one is allowed");
   }

@@ -53,8 +53,11 @@ struct StudySetting {
   std::string name = "default";
   double palm_limit_depth = 7.0;    ///< mm
   double finger_limit_depth = 4.0;  ///< mm
-  // How firmly; at most one of the three. Of a plan in which none is said limit depths decide;
-  // load_study() fills in the usual grip force before.
+  grasp::HandTask task = grasp::HandTask::kUsual;
+  /// kTurn: torque about the grip axis, N m; right-handed about the axis towards the thumb's side.
+  std::optional<double> turn;
+  // How firmly; at most one of the three, for a task that doesn't say it. Of a plan in which none
+  // is said limit depths decide; load_study() fills in the usual grip force before.
   std::optional<double> grip_force;      ///< N
   std::optional<double> strength_share;  ///< of `strength`
   bool limit_depths = false;             ///< as firm as closing to the limit depths made it

@@ -188,9 +188,20 @@ struct StudyBench::Impl {
     return options;
   }
 
+  /// Of the product, N; to be held without a mass, that of a solid of kAssumedDensity.
+  double weight_of(const StudyTask& task) const {
+    const grasp::HandTask what = plan.settings[task.setting].task;
+    double weight = plan.products[task.product].mass * kGravity;
+    if (grasp::holds_load(what) && weight == 0.0) {
+      grasp::HeaviestLoad own;
+      own.add(inputs.products[task.product], {});
+      weight = own.force;
+    }
+    return what == grasp::HandTask::kCarry ? (1.0 + grasp::kWalking) * weight : weight;
+  }
+
   /// How a person does a task.
   AssessOptions options_of(const StudyTask& task, const population::HandSample& person) const {
-    const StudyProduct& product = plan.products[task.product];
     const StudySetting& setting = plan.settings[task.setting];
     const population::HandProfile& profile = plan.profiles[task.profile];
     AssessOptions options;
@@ -210,8 +221,10 @@ struct StudyBench::Impl {
     }
     options.balance.is_on = setting.is_balanced;
     options.balance.friction = setting.friction;
-    options.balance.load.weight = product.mass * kGravity;
+    options.balance.load.weight = weight_of(task);
     options.balance.grip_force = setting.grip_force;
+    options.balance.holds_load = grasp::holds_load(setting.task);
+    if (setting.turn) options.balance.turn = 1e3 * *setting.turn;
     // The person's own muscles, before a profile weakens them: whose share a grasp takes is judged
     // afterwards, alike for all profiles (exclusion.h).
     if (person.grip_strength > 0.0) {
@@ -523,7 +536,7 @@ void StudyBench::Impl::rest_mean_hands(const Progress& progress) {
     if (found.place == nullptr || found.at_rest != nullptr) continue;
     const grasp::Grasp& grasp = found.place->reference_grasp();
     const grasp::BalanceOptions options = options_of(task, mean).balance;
-    const bool is_asked = options.is_on && options.asked_grip_force(grasp.grip);
+    const bool is_asked = options.is_on && (options.asked_grip_force(grasp.grip) || options.turn);
     if (!is_asked || !grasp::is_by_whole_hand(grasp.grip)) continue;
     open.push_back(&entry);
     auto& hand = prepared[{task.profile, task.setting}];

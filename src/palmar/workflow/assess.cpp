@@ -139,7 +139,7 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
   if (!request.measured.empty())
     measured = records::read_measured_pressure(request.measured, *sensors);
   std::vector<ProductTask> tasks = read_products(request, progress);
-  if (request.rest.holds_load && !request.friction.has_load()) {
+  if (grasp::holds_load(request.rest.task) && !request.friction.has_load()) {
     note_to(request.note,
             fmt::format("no mass is given: each product weighs as much as a solid of {:g} g/cm3",
                         grasp::kAssumedDensity));

@@ -20,22 +20,13 @@ std::string person_words(const PersonOfAge& person) {
 
 }  // namespace
 
-void RestSettings::take_task(const std::string& name) {
-  if (name != "usual" && name != "squeeze" && name != "hold" && name != "turn") {
-    throw UsageError("setting \"task\" is \"" + name +
-                     "\"; usual, squeeze, hold or turn is required");
-  }
-  if ((name == "turn") != turn.has_value()) {
+void RestSettings::check() const {
+  if ((task == HandTask::kTurn) != turn.has_value()) {
     throw UsageError(
         turn ? "setting \"turn n m\" is given; setting \"task\" is required with it, as turn"
              : "setting \"task\" is \"turn\"; setting \"turn n m\", a torque, is "
                "required with it");
   }
-  squeezes = name == "squeeze";
-  holds_load = name == "hold";
-}
-
-void RestSettings::check() const {
   if (strength && person) {
     throw UsageError(
         "setting \"strength\" and setting \"person\" both say how strong the user is; one is "
@@ -54,33 +45,22 @@ void RestSettings::check() const {
         "setting \"grip force\" and setting \"strength share\" both say how firmly to grip; one is "
         "allowed");
   }
-  if (holds_load && (limit_depths || grip_force || strength_share)) {
-    throw UsageError(
-        fmt::format("setting \"task\" is \"hold\", which asks for no more than the load takes, and "
-                    "setting \"{}\" says how firmly to grip; one is allowed",
-                    limit_depths ? "limit depths"
-                    : grip_force ? "grip force"
-                                 : "strength share"));
-  }
-  if (turn && (holds_load || limit_depths || grip_force || strength_share || !is_balanced)) {
-    throw UsageError(
-        fmt::format("setting \"turn\" asks for what the torque takes, and setting \"{}\" says how "
-                    "firmly to grip; one is allowed",
-                    holds_load     ? "task"
-                    : limit_depths ? "limit depths"
-                    : grip_force   ? "grip force"
-                    : !is_balanced ? "no balance"
-                                   : "strength share"));
+  const bool is_firm = limit_depths || grip_force || strength_share || !is_balanced;
+  if (says_how_firmly(task) && is_firm) {
+    throw UsageError(fmt::format(
+        "setting \"task\" is \"{}\", which asks for no more than {} takes, and setting \"{}\" says "
+        "how firmly to grip; one is allowed",
+        name_of(task), turn ? "the torque" : "the load",
+        limit_depths   ? "limit depths"
+        : grip_force   ? "grip force"
+        : !is_balanced ? "no balance"
+                       : "strength share"));
   }
   if (turn && !(std::abs(*turn) > 0.0 && std::abs(*turn) <= 1e-3 * kMostTurn)) {
     throw UsageError(
         fmt::format("setting \"turn\" is {:g} N m; not 0, and at most {:g} N m either "
                     "way, is allowed",
                     *turn, 1e-3 * kMostTurn));
-  }
-  if (holds_load && !is_balanced) {
-    throw UsageError(
-        "setting \"no balance\" keeps the hand at its limit depths; it can't hold a load with it");
   }
   if (limit_depths && (grip_force || strength_share)) {
     throw UsageError(
@@ -116,7 +96,7 @@ BalanceOptions RestSettings::options(std::optional<double> friction,
   check();
   BalanceOptions result;
   result.is_on = is_balanced;
-  result.holds_load = holds_load;
+  result.holds_load = holds_load(task);
   if (turn) result.turn = 1e3 * *turn;
   result.friction = friction.value_or(kUsualFriction);
   result.grip_force = grip_force;
@@ -135,7 +115,10 @@ BalanceOptions RestSettings::options(std::optional<double> friction,
 }
 
 FrictionSettings RestSettings::load(FrictionSettings given) const {
-  if (holds_load && !given.has_load()) given.density = kAssumedDensity;
+  if (holds_load(task) && !given.has_load()) given.density = kAssumedDensity;
+  if (task == HandTask::kCarry && given.has_weight() && !given.acceleration) {
+    given.acceleration = kWalking;
+  }
   return given;
 }
 

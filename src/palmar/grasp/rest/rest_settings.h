@@ -23,14 +23,12 @@ struct PersonOfAge {
 struct RestSettings {
   /// Off: the hand stays as it was closed to the limit depths, forces out of balance (Xie 2014).
   bool is_balanced = true;
-  // How firmly; at most one of the five. None: what UsualTask says of the products, with
-  // usual_share(), the same for all designs and hands of a comparison.
-  bool squeezes = false;  ///< firmly, whatever is held
-  /// With what each product's own load asks for (holding_grip_force()).
-  bool holds_load = false;
-  /// Torque about the grip axis that the product is turned with, N m; right-handed about the axis
-  /// towards the thumb's side.
+  HandTask task = HandTask::kUsual;
+  /// kTurn: torque about the grip axis that the product is turned with, N m; right-handed about the
+  /// axis towards the thumb's side.
   std::optional<double> turn;
+  // How firmly; at most one of the three, for a task that doesn't say it. None: what UsualTask says
+  // of the products, with usual_share(), the same for all designs and hands of a comparison.
   /// As firm as closing to the limit depths made it, under a load a little more.
   bool limit_depths = false;
   std::optional<double> grip_force;      ///< N, as a dynamometer reads it
@@ -42,20 +40,20 @@ struct RestSettings {
   bool is_share_usual = false;  ///< nobody asked for `strength_share`
 
   /// Whether UsualTask decides.
-  bool follows_product() const { return !squeezes && (is_usual() || is_share_usual); }
+  bool follows_product() const {
+    return task == HandTask::kUsual && (is_usual() || is_share_usual);
+  }
   /// Nothing is said about how firmly.
   bool is_usual() const {
-    return is_balanced && !holds_load && !turn && !limit_depths && !grip_force && !strength_share;
+    return is_balanced && !says_how_firmly(task) && !limit_depths && !grip_force && !strength_share;
   }
-  /// "usual", "squeeze", "hold" or "turn" (needs `turn`). Throws UsageError.
-  void take_task(const std::string& name);
   /// Throws UsageError: setting, value, what is allowed.
   void check() const;
   /// `friction`: coefficient while it settles; unset: kUsualFriction. `heaviest` of all products of
   /// the comparison raises the usual grip force. Throws UsageError.
   BalanceOptions options(std::optional<double> friction, const HeaviestLoad& heaviest = {}) const;
   /// The load of a product: as given; to be held without one, the weight of a solid of
-  /// kAssumedDensity.
+  /// kAssumedDensity; carried, with the acceleration of walking if none is given.
   FrictionSettings load(FrictionSettings given) const;
 };
 

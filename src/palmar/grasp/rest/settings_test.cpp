@@ -135,7 +135,7 @@ TEST(RestSettings, LimitDepthsExcludeWhatElseSaysHowFirmly) {
 
 TEST(RestSettings, AHeldLoadAsksForWhatFrictionNeedsAndTheMarginOfPeople) {
   RestSettings settings;
-  settings.holds_load = true;
+  settings.task = HandTask::kHold;
   EXPECT_FALSE(settings.is_usual());
   BalanceOptions options = settings.options(0.4);
   EXPECT_FALSE(options.asked_grip_force(Grip::kMediumWrap));  // nothing is to be held
@@ -153,25 +153,50 @@ TEST(RestSettings, AHeldLoadAsksForWhatFrictionNeedsAndTheMarginOfPeople) {
 TEST(RestSettings, AHeldLoadWithoutAMassIsThatOfASolidAsDenseAsWater) {
   RestSettings settings;
   EXPECT_FALSE(settings.load({}).has_load());
-  settings.holds_load = true;
+  settings.task = HandTask::kHold;
   EXPECT_EQ(settings.load({}).density, 1.0);
   EXPECT_EQ(settings.load({.mass = 2.0}).mass, 2.0);
   EXPECT_FALSE(settings.load({.mass = 2.0}).density);
+  EXPECT_FALSE(settings.load({.mass = 2.0}).acceleration);
+}
+
+TEST(RestSettings, WhatIsCarriedIsHeavierByTheAccelerationOfWalking) {
+  const RestSettings settings{.task = HandTask::kCarry};
+  EXPECT_EQ(settings.load({.mass = 2.0}).acceleration, 0.2);
+  EXPECT_EQ(settings.load({}).acceleration, 0.2);
+  EXPECT_EQ(settings.load({.mass = 2.0, .acceleration = 0.5}).acceleration, 0.5);
+  // A force that pulls at it is none of its mass.
+  EXPECT_FALSE(settings.load({.force = Vec3(0.0, 8.0, 0.0)}).acceleration);
+  EXPECT_TRUE(settings.options({}).holds_load);
+}
+
+TEST(HandTask, NamesAreReadAsTheyAreWritten) {
+  for (const HandTask task : kHandTasks) EXPECT_EQ(hand_task_named(name_of(task)), task);
+  try {
+    hand_task_named("strike");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(),
+                 "setting \"task\" is \"strike\"; usual, squeeze, hold, carry or turn is required");
+  }
 }
 
 TEST(RestSettings, AHeldLoadExcludesWhatElseSaysHowFirmly) {
-  EXPECT_THAT(refusal(RestSettings{.holds_load = true, .limit_depths = true}),
+  EXPECT_THAT(refusal(RestSettings{.task = HandTask::kHold, .limit_depths = true}),
               HasSubstr("\"limit depths\" says how firmly to grip"));
-  EXPECT_THAT(refusal(RestSettings{.holds_load = true, .grip_force = 40.0}),
+  EXPECT_THAT(refusal(RestSettings{.task = HandTask::kCarry, .grip_force = 40.0}),
               HasSubstr("\"grip force\" says how firmly to grip"));
-  EXPECT_THAT(refusal(RestSettings{.holds_load = true, .turn = 2.0}),
-              HasSubstr("setting \"turn\" asks for what the torque takes, and setting \"task\""));
-  EXPECT_THAT(refusal(RestSettings{.turn = 2.0, .grip_force = 40.0}),
+  EXPECT_THAT(refusal(RestSettings{.task = HandTask::kHold, .turn = 2.0}),
+              HasSubstr("setting \"task\" is required with it, as turn"));
+  EXPECT_THAT(refusal(RestSettings{.task = HandTask::kTurn}),
+              HasSubstr("setting \"turn n m\", a torque, is required with it"));
+  EXPECT_THAT(refusal(RestSettings{.task = HandTask::kTurn, .turn = 2.0, .grip_force = 40.0}),
               HasSubstr("setting \"grip force\" says how firmly to grip"));
-  EXPECT_THAT(refusal(RestSettings{.turn = 60.0}),
+  EXPECT_THAT(refusal(RestSettings{.task = HandTask::kTurn, .turn = 60.0}),
               HasSubstr("setting \"turn\" is 60 N m; not 0, and at most 50 N m either way"));
-  EXPECT_NEAR(*RestSettings{.turn = -2.0}.options({}).turn, -2000.0, 1e-9);
-  EXPECT_THAT(refusal(RestSettings{.is_balanced = false, .holds_load = true}),
+  const RestSettings turn{.task = HandTask::kTurn, .turn = -2.0};
+  EXPECT_NEAR(*turn.options({}).turn, -2000.0, 1e-9);
+  EXPECT_THAT(refusal(RestSettings{.is_balanced = false, .task = HandTask::kHold}),
               HasSubstr("\"no balance\""));
 }
 

@@ -135,15 +135,16 @@ fs::path write_profiles(const study::StudyPlan& plan, const fs::path& folder) {
 }
 
 fs::path write_settings(const study::StudyPlan& plan, const fs::path& folder) {
-  CsvWriter file(
-      folder / "settings.csv",
-      {"setting", "name", "grip_force_n", "strength_share", "strength_n", "least_grip_force_n",
-       "limit_depths", "palm_limit_depth_mm", "finger_limit_depth_mm", "friction", "is_balanced",
-       "equations", "indices", "wrench_volume", "torque", "refine", "place"});
+  CsvWriter file(folder / "settings.csv",
+                 {"setting", "name", "task", "turn_n_m", "grip_force_n", "strength_share",
+                  "strength_n", "least_grip_force_n", "limit_depths", "palm_limit_depth_mm",
+                  "finger_limit_depth_mm", "friction", "is_balanced", "equations", "indices",
+                  "wrench_volume", "torque", "refine", "place"});
   for (std::size_t i = 0; i < plan.settings.size(); ++i) {
     const study::StudySetting& one = plan.settings[i];
-    file.add({std::to_string(i), one.name, optional_cell(one.grip_force),
-              optional_cell(one.strength_share), optional_cell(one.strength),
+    file.add({std::to_string(i), one.name, std::string(name_of(one.task)), optional_cell(one.turn),
+              optional_cell(one.grip_force), optional_cell(one.strength_share),
+              optional_cell(one.strength),
               one.least_grip_force > 0.0 ? formats::shortest(one.least_grip_force) : "",
               one.limit_depths ? "1" : "0", formats::shortest(one.palm_limit_depth),
               formats::shortest(one.finger_limit_depth), formats::shortest(one.friction),

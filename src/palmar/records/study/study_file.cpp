@@ -331,10 +331,26 @@ void read_word(const formats::TomlSection& section, const char* key,
 
 study::StudySetting read_setting(const formats::TomlSection& section,
                                  const std::string& default_name) {
-  section.allow({"name", "palm_limit_depth_mm", "finger_limit_depth_mm", "grip_force_n",
-                 "strength_share", "strength_n", "limit_depths", "friction", "balance", "preset",
-                 "kernel", "tissue_model", "regions", "indices", "wrench_volume", "torque",
-                 "refine", "place"});
+  section.allow({"name",
+                 "palm_limit_depth_mm",
+                 "finger_limit_depth_mm",
+                 "grip_force_n",
+                 "strength_share",
+                 "strength_n",
+                 "limit_depths",
+                 "task",
+                 "turn_n_m",
+                 "friction",
+                 "balance",
+                 "preset",
+                 "kernel",
+                 "tissue_model",
+                 "regions",
+                 "indices",
+                 "wrench_volume",
+                 "torque",
+                 "refine",
+                 "place"});
   study::StudySetting setting;
   setting.name = section.text("name").value_or(default_name);
   const auto set = [&](const char* key, const char* unit, double lowest, double highest,
@@ -358,6 +374,20 @@ study::StudySetting read_setting(const formats::TomlSection& section,
     section.fail("limit_depths", std::string("and ") +
                                      (setting.grip_force ? "grip_force_n" : "strength_share") +
                                      " exclude each other; one is allowed");
+  }
+  read_word(section, "task", grasp::kHandTasks, setting.task);
+  setting.turn =
+      section.number("turn_n_m", "N m", -1e-3 * grasp::kMostTurn, 1e-3 * grasp::kMostTurn);
+  if ((setting.task == grasp::HandTask::kTurn) != setting.turn.has_value()) {
+    setting.turn ? section.fail("turn_n_m", "needs task = \"turn\"")
+                 : section.fail("task", "is \"turn\"; turn_n_m, a torque, is required with it");
+  }
+  if (grasp::says_how_firmly(setting.task)) {
+    for (const char* key : {"grip_force_n", "strength_share", "limit_depths"}) {
+      if (!section.has(key)) continue;
+      section.fail(key, "doesn't go with task = \"" + std::string(name_of(setting.task)) +
+                            "\", which says how firmly to grip");
+    }
   }
   if (const auto preset = section.text("preset")) {
     const auto model = contact::contact_model_named(*preset);

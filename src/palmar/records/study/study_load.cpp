@@ -186,23 +186,27 @@ void fill_in_grip_force(LoadedStudy& study) {
   std::set<std::string> words;
   for (study::StudySetting& setting : study.plan.settings) {
     if (!setting.is_balanced || setting.limit_depths) continue;
+    if (grasp::says_how_firmly(setting.task)) continue;
     if (setting.grip_force || setting.strength_share) continue;
     const grasp::ShareOfStrength usual = grasp::usual_share(setting.friction, heaviest);
     setting.strength_share = usual.share;
     setting.strength = usual.strength;
     setting.least_grip_force = usual.least;
-    setting.follows_product = true;
+    setting.follows_product = setting.task == grasp::HandTask::kUsual;
     grasp::ShareOfStrength held = usual;
     held.holds_only = true;
     for (const std::optional<grasp::Grip>& grip : study.plan.grips) {
       const grasp::Grip told = grip.value_or(grasp::Grip::kMediumWrap);
-      words.insert(fmt::format(
-          "{}{}grip force {:.0f} N for all hands and products: {}; {:.1f} N, {}, if thumb and "
-          "fingers "
-          "meet round none of them",
+      std::string text = fmt::format(
+          "{}{}grip force {:.0f} N for all hands and products: {}",
           study.plan.settings.size() > 1 ? "setting " + setting.name + ": " : std::string(),
           grip ? "grip " + std::string(name_of(*grip)) + ": " : std::string(), usual.force(told),
-          usual.words(told), held.force(told), held.words(told)));
+          usual.words(told));
+      if (setting.follows_product) {
+        text += fmt::format("; {:.1f} N, {}, if thumb and fingers meet round none of them",
+                            held.force(told), held.words(told));
+      }
+      words.insert(std::move(text));
     }
   }
   study.notes.insert(study.notes.end(), words.begin(), words.end());

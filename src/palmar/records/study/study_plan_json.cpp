@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "palmar/core/error.h"
 #include "palmar/formats/json_reason.h"
@@ -266,6 +267,8 @@ Json setting_json(const study::StudySetting& setting) {
   if (setting.refine) json["refine"] = true;
   if (setting.torque) json["torque"] = true;
   if (setting.follows_product) json["follows_product"] = true;
+  if (setting.task != grasp::HandTask::kUsual) json["task"] = name_of(setting.task);
+  if (setting.turn) json["turn_n_m"] = *setting.turn;
   return json;
 }
 
@@ -295,6 +298,8 @@ study::StudySetting setting_from(const Json& json) {
   setting.refine = json.value("refine", false);
   setting.torque = json.value("torque", false);
   setting.follows_product = json.value("follows_product", false);
+  if (json.contains("task")) setting.task = word_from(json.at("task"), grasp::kHandTasks);
+  if (json.contains("turn_n_m")) setting.turn = json.at("turn_n_m");
   return setting;
 }
 
@@ -352,9 +357,13 @@ void compare(const std::string& where, const Json& before, const Json& now,
   if (before.value("holding", Json()) != now.value("holding", Json())) {
     found.push_back(where + "how it is held has changed");
   }
-  for (const auto& [key, value] : now.items()) {
-    if (key == "holding" || !before.contains(key) || before.at(key) == value) continue;
-    const Json& old = before.at(key);
+  std::set<std::string> keys;
+  for (const Json* json : {&before, &now}) {
+    for (const auto& [key, value] : json->items()) keys.insert(key);
+  }
+  for (const std::string& key : keys) {
+    const Json old = before.value(key, Json()), value = now.value(key, Json());
+    if (key == "holding" || old == value) continue;
     if (key == "file" && !is_made(old) && !is_made(value)) continue;  // its content counts
     if (key == "content_sha256") {
       found.push_back(where + "its shape has changed (" + now.at("file").get<std::string>() + ")");

@@ -60,6 +60,18 @@ TEST(StudyPlanJson, ReadsBackAndReportsWhatDiffers) {
   now.settings[0].limit_depths = true;
   EXPECT_THAT(plan_differences(study.plan, now),
               testing::ElementsAre("setting \"default\": limit_depths was false, now true"));
+  now.settings[0].limit_depths = false;
+  now.settings[0].task = grasp::HandTask::kTurn;
+  now.settings[0].turn = -2.5;
+  const study::StudySetting turned = parse_plan(format_plan(now), "plan").settings.at(0);
+  EXPECT_EQ(turned.task, grasp::HandTask::kTurn);
+  EXPECT_EQ(turned.turn, -2.5);
+  EXPECT_THAT(plan_differences(study.plan, now),
+              testing::ElementsAre("setting \"default\": task was not set, now \"turn\"",
+                                   "setting \"default\": turn_n_m was not set, now -2.5"));
+  EXPECT_THAT(plan_differences(now, study.plan),
+              testing::ElementsAre("setting \"default\": task was \"turn\", now not set",
+                                   "setting \"default\": turn_n_m was -2.5, now not set"));
   now = study.plan;
   now.products[1].content_hash = std::string(64, '0');
   now.hands[3].sample.dimensions[0].value += 1e-9;

@@ -94,6 +94,13 @@ std::string grip_force_words(const study::StudyResults& results,
 
 std::string grip_force_words(const study::StudySetting& setting) {
   if (!setting.is_balanced) return "";
+  if (setting.turn) {
+    return "what turning it with " + short_number(*setting.turn) + " N m takes of a grip force";
+  }
+  if (grasp::holds_load(setting.task)) {
+    return std::string("what each product’s weight asks for of a grip force") +
+           (setting.task == grasp::HandTask::kCarry ? ", while walking" : "");
+  }
   if (setting.grip_force) return "grip force " + short_number(*setting.grip_force) + " N";
   if (!setting.strength_share) return "as firm as closing to the limit depths";
   if (!setting.strength) {

@@ -190,8 +190,11 @@ records::StudyRequest study_of(const QuickStudy& quick) {
   for (const std::string& name : quick.grips)
     request.grips.push_back(records::asked_grip_named(name));
   if (!quick.hand.empty()) request.hand = quick.hand;
-  if (quick.grip_force || quick.strength_share || quick.limit_depths) {
+  const bool is_usual = quick.task == grasp::HandTask::kUsual && !quick.turn;
+  if (quick.grip_force || quick.strength_share || quick.limit_depths || !is_usual) {
     study::StudySetting setting;
+    setting.task = quick.task;
+    setting.turn = quick.turn;
     setting.grip_force = quick.grip_force;
     setting.strength_share = quick.strength_share;
     setting.limit_depths = quick.limit_depths;

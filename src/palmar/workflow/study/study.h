@@ -32,6 +32,8 @@ struct QuickStudy {
   grasp::HoldRequest holding;         ///< by which part and how all products are held
   std::string hand;                   ///< that is scaled; "": the template
   double mass = 0.0;                  ///< of every product, kg, up to 100; 0: no load
+  grasp::HandTask task = grasp::HandTask::kUsual;
+  std::optional<double> turn;  ///< kTurn: with that torque about the grip axis, N m
   // How firmly; at most one. None: the usual grip force, the same for all hands and products.
   std::optional<double> grip_force;      ///< N
   std::optional<double> strength_share;  ///< of each person's own grip strength

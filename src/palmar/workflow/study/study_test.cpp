@@ -106,6 +106,44 @@ TEST_F(StudyWorkflow, GripForceIsRaisedForAllByTheHeaviestProduct) {
   EXPECT_FALSE(load_study(study, NoteSink()).plan.settings.front().strength_share);
 }
 
+TEST_F(StudyWorkflow, WhatIsCarriedAsksForTheForceOfItsWeight) {
+  QuickStudy quick;
+  quick.products = {"made: cylinder diameter_mm=42"};
+  quick.hands = 2;
+  quick.hand = hand_;
+  quick.mass = 1.5;
+  quick.task = grasp::HandTask::kCarry;
+  StudyRunRequest request;
+  request.study = study_of(quick);
+  request.out = *folder_ / "carried.palmar";
+  run_study(request);
+  const StudyCompareOutcome outcome =
+      compare_study({.store = request.out, .quantities = {"grip_force_n"}, .comparison = {}});
+  EXPECT_EQ(outcome.results.plan.settings.front().task, grasp::HandTask::kCarry);
+  ASSERT_EQ(outcome.results.records.size(), 2U);
+  // 1.4 times what two sides with mu 0.5 hold of a load that is a fifth heavier in walking.
+  const double asked = 1.4 * 1.2 * 1.5 * 9.80665;
+  for (const study::StudyRecord& record : outcome.results.records) {
+    ASSERT_TRUE(record.is_balanced) << record.reason;
+    EXPECT_NEAR(record.grip_force, asked, 0.02 * asked);
+  }
+}
+
+TEST_F(StudyWorkflow, ATaskThatSaysHowFirmlyExcludesAForce) {
+  QuickStudy quick;
+  quick.products = {"made: cylinder diameter_mm=42"};
+  quick.hand = hand_;
+  quick.task = grasp::HandTask::kHold;
+  quick.grip_force = 60.0;
+  EXPECT_THAT([&] { load_study(study_of(quick), NoteSink()); },
+              testing::ThrowsMessage<UsageError>(HasSubstr(
+                  "its task, hold, says how firmly to grip; grip force isn't allowed with it")));
+  quick.grip_force = std::nullopt;
+  quick.task = grasp::HandTask::kTurn;
+  EXPECT_THAT([&] { load_study(study_of(quick), NoteSink()); },
+              testing::ThrowsMessage<UsageError>(HasSubstr("its task is turn; a torque is")));
+}
+
 TEST_F(StudyWorkflow, RunAgainNothingIsLeftToDo) {
   const StudyRunOutcome again = run_study(run_into("whole.palmar"));
   EXPECT_EQ(again.run_now, 0);

@@ -63,7 +63,7 @@ std::optional<PersonOfSize> parse_person_size(const std::string& text) {
 grasp::RestSettings held_by(const std::string& text, grasp::RestSettings settings) {
   if (text.empty()) return settings;
   const PersonWords person = person_words(text);
-  const bool is_force_said = settings.grip_force || settings.holds_load || settings.turn ||
+  const bool is_force_said = settings.grip_force || grasp::says_how_firmly(settings.task) ||
                              settings.limit_depths || !settings.is_balanced;
   if (is_force_said && person.percentile) return settings;
   settings.person = person.strength;
