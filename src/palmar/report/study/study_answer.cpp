@@ -285,7 +285,8 @@ class StudySpeaker {
         area_words(area.mean_first > 0.0 ? area.mean_second / area.mean_first - 1.0 : 0.0, texts_);
     const auto forces = study::grip_forces(results_, condition_, worse, better);
     if (forces) {
-      values["force"] = texts_.number(forces->second, 2);
+      values["grip"] = grip_words(forces->are_of_task ? std::optional(forces->first) : std::nullopt,
+                                  forces->second, name(worse), name(better), texts_);
       values["better_force"] = texts_.number(forces->second, 2);
       values["worse_force"] = texts_.number(forces->first, 2);
     }

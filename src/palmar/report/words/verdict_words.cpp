@@ -151,9 +151,9 @@ std::vector<std::string> words_of_line(const std::string& line) {
 
 /// What a command said of the task, so that another one asks for the same: " --grip-force-n 60".
 std::string task_options(const std::string& command_line) {
-  static const std::vector<std::string> options = {"--grip",          "--grip-force-n", "--hold",
-                                                   "--limit-depths",  "--mass-kg",      "--part",
-                                                   "--strength-share"};
+  static const std::vector<std::string> options = {
+      "--grip", "--grip-force-n",   "--hold", "--limit-depths", "--mass-kg",
+      "--part", "--strength-share", "--task", "--turn-n-m"};
   const std::vector<std::string> words = words_of_line(command_line);
   std::string line;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -191,6 +191,15 @@ class SetSpeaker {
 
  private:
   const std::string& name(int i) const { return set_.assessments[i].product.name; }
+  /// In which grip two products are compared.
+  std::string grip(const study::ProductComparison& pair) const {
+    return grip_words(
+        pair.are_of_task ? std::optional(verdict_.products[pair.worse].grip_force) : std::nullopt,
+        verdict_.products[pair.better].grip_force, name(pair.worse), name(pair.better), texts_);
+  }
+  std::string grip_of_all(const study::ProductComparison& pair) const {
+    return pair.are_of_task ? texts_("grip.all_of_task") : grip(pair);
+  }
   std::string force(int i) const { return texts_.number(verdict_.products[i].grip_force, 2); }
 
   void next(const std::string& key, const std::string& command) {
@@ -281,7 +290,7 @@ class SetSpeaker {
   std::string pair_sentence(const study::ProductComparison& pair) const {
     const TextValues names = {{"better", name(pair.better)}, {"worse", name(pair.worse)}};
     TextValues values = names;
-    values["force"] = force(pair.better);
+    values["grip"] = grip(pair);
     values["percent"] = texts_.percent(pair.peak_change);
     switch (pair.verdict) {
       case study::PairVerdict::kLower:
@@ -338,7 +347,7 @@ class SetSpeaker {
           texts_("verdict.best_of", {{"count", std::to_string(set_.assessments.size())},
                                      {"best", name(*verdict_.best)},
                                      {"list", texts_.listed(list)},
-                                     {"force", force(*verdict_.best)}});
+                                     {"grip", grip_of_all(pair)}});
     } else {
       words_.sentence = texts_("verdict.no_best", {{"first", pair_sentence(pair)}});
     }
@@ -412,7 +421,7 @@ class SetSpeaker {
     if (line.empty()) return;
     next("equal_force", changed_command(line,
                                         {"--grip-force-n", "--strength-share", "--strength-n",
-                                         "--person", "--limit-depths"},
+                                         "--person", "--limit-depths", "--task", "--turn-n-m"},
                                         added));
   }
 
@@ -423,6 +432,18 @@ class SetSpeaker {
 };
 
 }  // namespace
+
+std::string grip_words(std::optional<double> worse_of_task, double better, const std::string& worse,
+                       const std::string& better_name, const Texts& texts) {
+  const std::string force = texts.number(better, 2);
+  if (!worse_of_task || study::are_equally_firm(*worse_of_task, better)) {
+    return texts("grip.same", {{"force", force}});
+  }
+  return texts("grip.of_task", {{"worse", worse},
+                                {"better", better_name},
+                                {"worse_force", texts.number(*worse_of_task, 2)},
+                                {"better_force", force}});
+}
 
 std::string area_words(double change, const Texts& texts) {
   if (std::abs(change) < grasp::kToldApart) return texts("verdict.area.same");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,11 @@ std::string changed_command(const std::string& command_line,
 /// `option` stands before each ("--product ").
 std::string product_arguments(const std::vector<const product::Product*>& products,
                               const std::string& option = "");
+
+/// "in the same grip of 60 N"; of products each gripped as one task asks, whose forces [N] differ:
+/// "each gripped as its task asks (B with 12 N, A with 20 N)".
+std::string grip_words(std::optional<double> worse_of_task, double better, const std::string& worse,
+                       const std::string& better_name, const Texts& texts);
 
 /// "27 % larger", "about the same": how an area differs.
 std::string area_words(double change, const Texts& texts);

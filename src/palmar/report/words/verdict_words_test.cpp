@@ -90,6 +90,33 @@ TEST(VerdictWords, TheNextCommandAsksForTheSameTask) {
             "--mass-kg=0.4 --hands 12 --out hands.palmar");
 }
 
+TEST(VerdictWords, TheNextCommandKeepsTheTask) {
+  EXPECT_EQ(words_of({held("A", 60, 0.40), held("B", 60, 0.292)},
+                     "palmar assess A.stl B.stl --unit mm --task carry --mass-kg 2")
+                .command,
+            "palmar study run --product A.stl --product B.stl --unit mm --task carry --mass-kg 2 "
+            "--hands 12 --out hands.palmar");
+}
+
+TEST(VerdictWords, WhatHoldsItsOwnLoadIsComparedAtThatTask) {
+  std::vector<study::AssessedProduct> products = {held("A", 28, 0.40), held("B", 14, 0.292)};
+  const auto carries = [](study::Assessment& one, double weight) {
+    one.options.balance.grip_force.reset();
+    one.options.balance.share_of_strength.reset();
+    one.options.balance.holds_load = true;
+    one.options.balance.friction = 0.5;
+    one.options.balance.load.weight = weight;
+  };
+  carries(products[0].assessment, 20.0);
+  carries(products[1].assessment, 10.0);
+  EXPECT_EQ(words_of(products).sentence,
+            "B presses 27 % less than A at its hardest place, each gripped as its task asks (B "
+            "with 14 N, A with 28 N); its contact area is about the same.");
+  // A hand that doesn't give what the load asks for does another task.
+  carries(products[0].assessment, 40.0);
+  EXPECT_THAT(words_of(products).sentence, HasSubstr("No verdict yet"));
+}
+
 TEST(VerdictWords, AHardestPlaceOnAnUnresolvedEdgeIsTold) {
   std::vector<study::AssessedProduct> products = {held("A", 60, 0.40), held("B", 60, 0.292)};
   for (contact::RegionContact& region : products[0].assessment.contact.regions) {

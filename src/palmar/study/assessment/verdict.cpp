@@ -76,6 +76,17 @@ ProductVerdict judge(const AssessedProduct& one, const hand::Hand* hand) {
   return verdict;
 }
 
+/// Gripped with what its task asks for, and that is reached.
+bool does_task(const AssessedProduct& one) {
+  const grasp::Balance& balance = one.assessment.balance;
+  const grasp::BalanceOptions& options = one.assessment.options.balance;
+  if (options.turn) {
+    return balance.turn && are_equally_firm(std::abs(*balance.turn), std::abs(*options.turn));
+  }
+  const auto asked = options.asked_grip_force(one.assessment.grasp.grip);
+  return options.holds_load && asked && are_equally_firm(balance.grip_force, *asked);
+}
+
 double change(double worse, double better) { return worse > 0.0 ? better / worse - 1.0 : 0.0; }
 
 ProductComparison compare(const AssessmentSet& set, const std::vector<ProductVerdict>& verdicts,
@@ -93,7 +104,9 @@ ProductComparison compare(const AssessmentSet& set, const std::vector<ProductVer
   }
   pair.peak_change = change(peak_of(a), peak_of(b));
   pair.area_change = change(a.assessment.contact.total.area, b.assessment.contact.total.area);
-  if (!are_equally_firm(verdicts[worse].grip_force, verdicts[better].grip_force)) {
+  pair.are_of_task = does_task(a) && does_task(b);
+  if (!pair.are_of_task &&
+      !are_equally_firm(verdicts[worse].grip_force, verdicts[better].grip_force)) {
     pair.verdict = PairVerdict::kUnequalForce;
     return pair;
   }

@@ -70,6 +70,7 @@ std::string_view name_of(PairVerdict verdict);  ///< "lower", "same", ...
 struct ProductComparison {
   int worse = 0, better = 0;  ///< indices into the set; by the peak on sensor cells
   PairVerdict verdict = PairVerdict::kNoneHeld;
+  bool are_of_task = false;  ///< each gripped with what its load or the torque asks for
   double peak_change = 0.0;  ///< peak on sensor cells, better over worse, less 1
   double area_change = 0.0;  ///< contact area, likewise
   /// The peak's change with soft and with stiff tissue; nothing without an error band.

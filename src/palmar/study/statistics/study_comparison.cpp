@@ -139,13 +139,14 @@ QuantityComparison compare_products(const StudyResults& results, const StudyCond
   return comparison;
 }
 
-bool GripForces::are_unequal() const {
+bool GripForces::are_apart() const {
   return std::abs(first - second) > 0.1 * std::max(first, second);
 }
 
 std::optional<GripForces> grip_forces(const StudyResults& results, const StudyCondition& condition,
                                       int first, int second) {
   GripForces sum;
+  sum.are_of_task = grasp::says_how_firmly(results.plan.settings[condition.setting].task);
   int hands = 0;
   for (const int hand : hands_of(results.plan, condition)) {
     const StudyRecord* a = record_of(results, condition, first, hand);

@@ -62,8 +62,11 @@ QuantityComparison compare_products(const StudyResults& results, const StudyCond
 /// Mean grip forces with which the same hands hold two products, N.
 struct GripForces {
   double first = 0.0, second = 0.0;
+  bool are_of_task = false;  ///< each what the same task asks for (grasp::says_how_firmly())
   /// Apart by more than a tenth of the larger: pressures then differ by the force, too.
-  bool are_unequal() const;
+  bool are_apart() const;
+  /// Apart, and not because the task asks for it: pressures can't be compared.
+  bool are_unequal() const { return are_apart() && !are_of_task; }
 };
 /// Over the hands whose grip force is known with both; nothing if there is none.
 std::optional<GripForces> grip_forces(const StudyResults& results, const StudyCondition& condition,
