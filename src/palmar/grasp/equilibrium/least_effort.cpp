@@ -21,15 +21,15 @@ struct Descent {
   double level;  // of the grip force asked for
   double least;  // N; what is held more lightly than that settles at it first
   int most_tries;
-  double least_gain;            // of the merit: steps that promise less end it
-  double first_damping;         // as hard as skin that has moved by kStep
-  double price;                 // of what is missing, of the model's
-  double nothing = kNoMissing;  // of the merit; so little that is missing isn't searched for
+  double least_gain;     // of the merit: steps that promise less end it
+  double first_damping;  // as hard as skin that has moved by kStep
+  double price;          // of what is missing, of the model's
+  double nothing = 0.0;  // of the force; so little that is missing isn't searched for
 };
 // On the way prices are low, so that digits find their places before forces are exact.
 constexpr Descent kOnCoarseSkin[] = {{0.6, 30.0, 30, 2e-2, 10.0, 1.0 / 3.0},
                                      {1.0, 0.0, 30, 1e-2, 1.0, 1.0}};
-constexpr Descent kOnSkin{1.0, 0.0, 60, 5e-3, 1.0, 1.0, 0.05};
+constexpr Descent kOnSkin{1.0, 0.0, 60, 5e-3, 1.0, 1.0, 1e-3};
 // What is missing may cost less than what E asks for to have it, or than the last of a grip force
 // that the hand doesn't reach: once more, equilibrium for that much more.
 constexpr Descent kInNeed{1.0, 0.0, 40, 5e-3, 100.0, 8.0};
@@ -175,6 +175,7 @@ class LeastEffort {
   void judge(Look& at) const;
   GripVector departure(const GripState& state) const;
   static double missing(const Look& at);
+  bool is_in_need(const Look& at, const Descent& how) const;
   bool differentiate(const Look& at);
   bool go(const Look& from, const GripVector& way, Look& to);
   bool pass_a_jump(Look& now, const Descent& how);
@@ -333,6 +334,12 @@ bool LeastEffort::look(const GripState& state, Look& at) {
 /// What is missing, as it is priced.
 double LeastEffort::missing(const Look& at) {
   return at.effort.value - at.effort.activation.array().cube().sum();
+}
+
+/// More is missing than what is nothing to a search.
+bool LeastEffort::is_in_need(const Look& at, const Descent& how) const {
+  const double nothing = how.nothing * task_->model.force_price * lightness() * target_ / unit();
+  return missing(at) > std::max(kNoMissing * at.merit(), nothing);
 }
 
 /// How far a state is from the start, coordinate by coordinate.
@@ -534,16 +541,15 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
   bool is_new = true;       // the state, since its derivatives were taken
   double last_share = 0.0;  // of what was promised
   int refused = 0;
-  const auto is_in_need = [&] { return missing(now) > how.nothing * now.merit(); };
   // Nothing is missing, and what else there is to gain, by however long a way, is next to nothing:
   // the last of the missing forces would cost as many contacts as all before.
   const auto is_at_rest = [&] {
-    if (is_in_need()) return false;
+    if (is_in_need(now, how)) return false;
     const EffortSolution free = solve_effort(program(now, kFree));
     return now.effort.value - missing(now) - free.value < kNoGain * now.merit();
   };
   const auto passes_a_jump = [&] {
-    if (!is_in_need() || !pass_a_jump(now, how)) return false;
+    if (!is_in_need(now, how) || !pass_a_jump(now, how)) return false;
     refused = 0;
     damping = how.first_damping;
     growth = kGrowth;
@@ -556,7 +562,7 @@ void LeastEffort::descend(Look& now, const Descent& how, const Progress& progres
     progress.throw_if_cancelled();
     ++rest.iterations;
     progress.update(std::min(1.0, rest.iterations / kUsualSteps), "letting the grasp come to rest");
-    if (refused >= (is_in_need() ? kMostInNeed : kMostRefused) && !passes_a_jump()) break;
+    if (refused >= (is_in_need(now, how) ? kMostInNeed : kMostRefused) && !passes_a_jump()) break;
     // Derivatives serve as long as steps keep what they promise; where to end is never theirs.
     if (is_new && last_share < kKept) {
       if (!differentiate(now)) return;
@@ -683,7 +689,7 @@ EffortRest LeastEffort::run(const SearchStart* from, const Progress& progress) {
     state = now.state;
   } else if (from != nullptr && from->on_coarse_skin &&
              rest_on_coarse_skin(&*from->on_coarse_skin, progress, now, rest) &&
-             missing(now) < kOnCoarseSkin[1].nothing * now.merit()) {
+             !is_in_need(now, kOnCoarseSkin[1])) {
     state = moved_alike(from->on_skin, *from->on_coarse_skin, now.state);
   }
   is_coarse_ = false;
@@ -697,8 +703,9 @@ EffortRest LeastEffort::run(const SearchStart* from, const Progress& progress) {
   } else {
     for (const Descent& how : kWithFingertips) descend(now, how, progress, rest);
   }
-  const double nothing = (is_whole_hand() ? kOnSkin : kWithFingertips[1]).nothing;
-  if (missing(now) > nothing * now.merit()) descend(now, kInNeed, progress, rest);
+  if (is_in_need(now, is_whole_hand() ? kOnSkin : kWithFingertips[1])) {
+    descend(now, kInNeed, progress, rest);
+  }
   if (!skin_.is_at(now.state) && !skin_.look(now.state, kAccuracy)) return rest;
   rest.status = EffortRest::Status::kSolved;
   finish(now, rest);
