@@ -23,17 +23,18 @@
 #include "palmar/grasp/find/grasp_place.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/hold_at_rest.h"
+#include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/grasp/rest/usual_task.h"
 #include "palmar/grasp/task_force.h"
 #include "palmar/hand/instance/hand_instance.h"
 #include "palmar/product/gloved.h"
+#include "palmar/product/mass.h"
 #include "palmar/study/assessment/assessment.h"
 #include "palmar/study/grasp_demand.h"
 
 namespace palmar::study {
 namespace {
 
-constexpr double kGravity = 9.80665;        // m/s^2; standard gravity
 constexpr double kWholeTriangles = 1000.0;  // mm; longer than any edge of a map: none is split
 
 using Clock = std::chrono::steady_clock;
@@ -188,16 +189,14 @@ struct StudyBench::Impl {
     return options;
   }
 
-  /// Of the product, N; to be held without a mass, that of a solid of kAssumedDensity.
+  /// Of the product, N. Throws InputError where one is held that encloses no volume.
   double weight_of(const StudyTask& task) const {
-    const grasp::HandTask what = plan.settings[task.setting].task;
-    double weight = plan.products[task.product].mass * kGravity;
-    if (grasp::holds_load(what) && weight == 0.0) {
-      grasp::HeaviestLoad own;
-      own.add(inputs.products[task.product], {});
-      weight = own.force;
-    }
-    return what == grasp::HandTask::kCarry ? (1.0 + grasp::kWalking) * weight : weight;
+    const grasp::RestSettings what{.task = plan.settings[task.setting].task};
+    const double mass = plan.products[task.product].mass;
+    if (!grasp::holds_load(what.task)) return mass * product::kStandardGravity;
+    grasp::FrictionSettings given;
+    if (mass > 0.0) given.mass = mass;
+    return what.load(given).options_for(inputs.products[task.product]).load.weight;
   }
 
   /// How a person does a task.

@@ -95,10 +95,10 @@ std::string grip_force_words(const study::StudyResults& results,
 std::string grip_force_words(const study::StudySetting& setting) {
   if (!setting.is_balanced) return "";
   if (setting.turn) {
-    return "what turning it with " + short_number(*setting.turn) + " N m takes of a grip force";
+    return "the grip force that turning with " + short_number(*setting.turn) + " N m takes";
   }
   if (grasp::holds_load(setting.task)) {
-    return std::string("what each product’s weight asks for of a grip force") +
+    return std::string("the grip force that each product’s weight asks for") +
            (setting.task == grasp::HandTask::kCarry ? ", while walking" : "");
   }
   if (setting.grip_force) return "grip force " + short_number(*setting.grip_force) + " N";
