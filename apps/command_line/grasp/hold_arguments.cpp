@@ -22,6 +22,9 @@ void HoldArguments::add_to(CLI::App& verb) {
                   "product's frame; not known if not given, and +z for --toward up");
   verb.add_option("--purpose", words_.purpose, "What it is held for: use or hand-over")
       ->capture_default_str();
+  verb.add_option("--hold-weights", words_.weights,
+                  "TOML file of palmar grasp fit-holds: weights by which a hold to hand over is "
+                  "chosen, in place of the built-in ones");
 }
 
 }  // namespace palmar::cli

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli.h"
 #include "grasp/grasp_evaluate_command.h"
+#include "grasp/grasp_fit_holds_command.h"
 #include "grasp/grasp_holds_command.h"
 #include "grasp/grasp_options.h"
 #include "grasp/grasp_reach_command.h"
@@ -70,6 +71,7 @@ void add_grasp_commands(CLI::App& app, Context& context) {
                   .json = records::placements_json,
                   .text = placements_text});
   add_grasp_holds(*grasp, context);
+  add_grasp_fit_holds(*grasp, context);
   add_grasp_evaluate(*grasp, context);
   add_grasp_reach(*grasp, context);
 }

@@ -31,6 +31,8 @@ constexpr std::array<GripDescription, kGripCount> kGrips = {{
      "writing pen"},
     {Grip::kDistalType, "distal_type", "Distal Type", 19, GripFamily::kPower,
      "scissors ring ring_grip rings"},
+    {Grip::kPrismatic, "prismatic", "Prismatic 4 Finger", 6, GripFamily::kPrecision,
+     "prismatic_four_finger four_finger_pinch box"},
     {Grip::kRestingHand, "resting_hand", "Resting Hand", 0, GripFamily::kNonPrehensile,
      "rest relaxed mouse"},
     {Grip::kFlatHand, "flat_hand", "Flat Hand", 0, GripFamily::kNonPrehensile, "flat platform"},

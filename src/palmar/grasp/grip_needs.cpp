@@ -54,6 +54,7 @@ GripNeeds needs_of(Grip grip) {
     case Grip::kPowerSphere:
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:
+    case Grip::kPrismatic:
       return {{hand::Finger::kThumb}, kFingersOfSphere};
     case Grip::kSmallDiameter:  // the thumb lies on the fingers
     case Grip::kFixedHook:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct Hold {
   /// says where the thumb's side points, and `toward` nothing.
   bool is_over_end = false;
   std::vector<HoldFingertip> fingertips;  ///< of a precision grip; empty of a power grip
+  /// Of a precision grip: from the middle between the fingertips to the wrist, unit, product frame;
+  /// unset: where the hand is least bent.
+  std::optional<Vec3> wrist;
 };
 
 /// One reason for or against a hold. Scores add up; each is the natural logarithm of how much

@@ -65,6 +65,7 @@ double strength_share(Grip grip) {
     case Grip::kTripod:
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:
+    case Grip::kPrismatic:
     case Grip::kWritingTripod:
     case Grip::kDistalType:
       return 109.9 / kGrip;

@@ -184,6 +184,7 @@ Grasp GraspPlace::Impl::take_precisely(const Hold& taken, const hand::Hand& hand
   precision.grip = taken.grip;
   precision.placement = {};
   precision.targets.clear();
+  precision.wrist = taken.wrist;
   for (const HoldFingertip& tip : taken.fingertips) {
     const Vec3 near = product::point_at(part, tip.place);
     precision.targets.push_back({tip.finger, product->distance->at(near).closest});

@@ -129,6 +129,7 @@ void HoldRequest::apply_to(GraspOptions& options) const {
   options.holds.toward = toward;
   options.holds.up = up;
   options.holds.purpose = purpose;
+  options.holds.weights = weights;
 }
 
 void GraspSettings::check() const {

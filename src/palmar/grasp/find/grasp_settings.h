@@ -20,6 +20,7 @@ struct HoldRequest {
   std::optional<Vec3> toward;   ///< where the thumb's side is to point, product frame
   std::optional<Vec3> up;       ///< the product's up in use, product frame; unset: unknown
   HoldPurpose purpose = HoldPurpose::kUse;
+  std::shared_ptr<const HoldWeights> weights;  ///< as HoldOptions has them
 
   bool is_empty() const;                       ///< nothing is said
   void apply_to(GraspOptions& options) const;  ///< what is said, into the options of a grasp

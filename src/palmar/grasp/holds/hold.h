@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "palmar/grasp/grasp.h"
 #include "palmar/grasp/grip.h"
 #include "palmar/grasp/hold_value.h"
+#include "palmar/grasp/holds/hold_weights.h"
 #include "palmar/product/parts/product_parts.h"
 #include "palmar/product/product.h"
 
@@ -39,6 +41,8 @@ struct HoldOptions {
   std::optional<double> mass;   ///< kg; unset: from the volume at 1 g/cm^3
   std::optional<double> along;  ///< fraction of the part's length, 0 to 1
   HoldPurpose purpose = HoldPurpose::kUse;
+  /// Of holds to hand over; null: hand_over_weights().
+  std::shared_ptr<const HoldWeights> weights;
   double palm_limit_depth = 7.0;    ///< mm; as PowerGraspOptions
   double finger_limit_depth = 4.0;  ///< mm; as PowerGraspOptions
   int most = 8;                     ///< holds to return

@@ -15,6 +15,7 @@
 #include "palmar/grasp/holds/hold_limits.h"
 #include "palmar/grasp/holds/hold_place.h"
 #include "palmar/grasp/holds/laid_holds.h"
+#include "palmar/grasp/holds/offered_holds.h"
 #include "palmar/grasp/holds/precision_holds.h"
 #include "palmar/grasp/holds/twin_handles.h"
 
@@ -192,7 +193,8 @@ RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
   const HoldScene scene = hold_scene(hand, product, result.parts, options);
   std::vector<ClosedHold> closed;
 
-  if (!options.grip || is_power(*options.grip)) {
+  const bool is_offered = are_offered(options);
+  if (!is_offered && (!options.grip || is_power(*options.grip))) {
     progress.update(0.1, "finding ways to hold " + product.name);
     const std::vector<HoldCandidate> candidates = power_candidates(scene, options);
     result.considered += static_cast<int>(candidates.size());
@@ -226,12 +228,17 @@ RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
       closed.push_back(std::move(done));
     }
   }
-  std::vector<RankedHold> others = precision_holds(scene, options, progress);
-  for (RankedHold& ranked : laid_holds(scene, options, progress)) {
-    others.push_back(std::move(ranked));
+  std::vector<RankedHold> others;
+  if (is_offered) {
+    others = offered_holds(scene, options, result.considered, progress);
+  } else {
+    others = precision_holds(scene, options, progress);
+    for (RankedHold& ranked : laid_holds(scene, options, progress)) {
+      others.push_back(std::move(ranked));
+    }
+    result.considered += static_cast<int>(others.size());
   }
   for (RankedHold& ranked : others) {
-    ++result.considered;
     ++result.closed;
     closed.push_back({std::move(ranked), kPrecisionOrder + closed.size()});
   }

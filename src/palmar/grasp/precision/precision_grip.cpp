@@ -15,6 +15,7 @@
 #include "palmar/grasp/precision/fingertip_press.h"
 #include "palmar/grasp/precision/opposing_points.h"
 #include "palmar/grasp/precision/precision_search.h"
+#include "palmar/grasp/precision/precision_shape.h"
 #include "palmar/grasp/precision/ring_targets.h"
 
 namespace palmar::grasp {
@@ -263,7 +264,7 @@ void PrecisionGripOptions::check() const {
   if (is_power(grip)) {
     throw UsageError(
         fmt::format("grip {} is no precision grip; tip_pinch, palmar_pinch, tripod, "
-                    "writing_tripod, lateral, precision_sphere, precision_disk or distal_type is "
+                    "writing_tripod, lateral, precision_sphere, precision_disk, prismatic or distal_type is "
                     "allowed",
                     name_of(grip)));
   }
@@ -303,7 +304,15 @@ void PrecisionGripOptions::check() const {
 
 Grasp close_precision_grip(const hand::Hand& hand, const product::Product& product,
                            const PrecisionGripOptions& options, const Progress& progress) {
+  OpenedHand opened(hand);
+  return close_precision_grip(opened, product, options, progress);
+}
+
+Grasp close_precision_grip(OpenedHand& opened, const product::Product& product,
+                           const PrecisionGripOptions& options, const Progress& progress) {
   options.check();
+  const hand::Hand& hand = opened.hand();
+  const FingertipIk& ik = opened.ik();
   Grasp grasp;
   grasp.grip = options.grip;
   for (std::size_t s = 0; s < grasp.stops.size(); ++s) {
@@ -312,8 +321,7 @@ Grasp close_precision_grip(const hand::Hand& hand, const product::Product& produ
   const std::vector<FingertipPoint> tips = fingertips_of(hand, options.grip);
   std::vector<FingertipGoal> goals =
       options.targets.empty() ? std::vector<FingertipGoal>{} : goals_for(tips, product, options);
-  const FingertipIk ik(hand);
-  const GripOpenings openings(ik, options.grip);
+  const GripOpenings& openings = opened.openings(options.grip);
   grasp.posture = natural_posture(hand.skeleton, options.grip);
   if (openings.all().empty()) {
     grasp.message = fmt::format("this hand's fingers can't meet in grip {}", name_of(options.grip));
@@ -332,9 +340,16 @@ Grasp close_precision_grip(const hand::Hand& hand, const product::Product& produ
     put_beside(hand, product, grasp);
     return grasp;
   }
-  const PrecisionSearch search =
-      goals.empty() ? search_precision_grip(ik, openings, product, options, progress)
-                    : solve_precision_targets(ik, openings, product, goals, progress);
+  PrecisionSearch search;
+  if (!goals.empty()) {
+    search = solve_precision_targets(ik, openings, product, goals, options.wrist, progress);
+  } else if (options.from) {
+    search.candidates = search.pairs = 1;
+    search.widest = openings.widest();
+    search.holds = {set_down(ik, openings, product, *options.from)};
+  } else {
+    search = search_precision_grip(ik, openings, product, options, progress);
+  }
   grasp.candidates = search.candidates;
   if (search.holds.empty()) {
     grasp.status = GraspStatus::kNotGraspable;

@@ -13,7 +13,7 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr int kTurns = 12;
+constexpr int kTurns = kOpposedTurns;
 constexpr std::size_t kFinalists = 40;
 constexpr std::size_t kPerPair = 3;  // finalists
 constexpr std::size_t kStarts = 8;   // for given points
@@ -32,6 +32,7 @@ constexpr double kDiscLong = 15.0;       // mm from its centre; a shorter one is
 constexpr double kPenPlace = 32.0;       // mm behind the tip are fingertips that write ...
 constexpr double kPenPlaceShare = 0.28;  // ... or this share of the length if that is less
 constexpr double kWebUnit = 4.0;         // mm; cost of a pen that doesn't lean over the web
+constexpr double kWristWeight = 4.0;     // of the side on which the wrist is to be
 constexpr double kLikeShift = 12.0;      // mm; holds nearer than that ...
 constexpr double kLikeTurn = 25.0 * geometry::kDegree;  // ... and turned less are the same
 constexpr std::size_t kMostHolds = 8;
@@ -105,6 +106,27 @@ Vec3 zero_for(const PinchShape& shape, const Vec3& direction) {
   return shape.axes.col(best);
 }
 
+// What a hold costs by its fingertips, wherever on the product it is.
+double fingertip_cost(const FingertipSolution& solution, std::size_t count) {
+  double cost = solution.strain / kStrainUnit;
+  cost += std::pow(solution.clash / kClashUnit, 2);
+  Vec3 others = Vec3::Zero(), push = Vec3::Zero();
+  for (std::size_t k = 0; k < count; ++k) {
+    cost += 0.5 * std::pow(solution.tilt[k] / kTiltUnit, 2);
+    cost += std::pow(solution.miss[k] / kMissUnit, 2);
+    if (k == 0) continue;
+    others += solution.reached[k] / static_cast<double>(count - 1);
+    push -= solution.normal[k];
+  }
+  if (solution.miss.size() > count) cost += std::pow(solution.miss[count] / kWebUnit, 2);
+  const Vec3 thumb = -solution.normal[0];
+  const double balance = std::atan2(thumb.cross(-push).norm(), thumb.dot(-push));
+  cost += std::pow(balance / kBalanceUnit, 2);
+  const Vec3 arm = others - solution.reached[0];
+  cost += std::pow((arm - thumb * thumb.dot(arm)).norm() / kOffsetUnit, 2);
+  return cost;
+}
+
 struct Candidate {
   std::size_t pair = 0;
   int way = 0;  ///< which side the thumb is on, and the turn
@@ -132,7 +154,7 @@ class Search {
                                  const Progress& progress) const;
   PrecisionSearch write(const Progress& progress) const;
   double placing_cost(const geometry::Rigid3& product_from_hand) const;
-  PrecisionHold set_down(const Candidate& candidate, const OpposingPair& pair) const;
+  PrecisionHold set_down_on(const Candidate& candidate, const OpposingPair& pair) const;
   double hold_cost(const PrecisionHold& hold) const;
 
   const FingertipIk* ik_;
@@ -199,57 +221,18 @@ double Search::placing_cost(const geometry::Rigid3& product_from_hand) const {
   return cost;
 }
 
-PrecisionHold Search::set_down(const Candidate& candidate, const OpposingPair& pair) const {
-  const GripOpening& opening = openings_->at(pair.width());
-  PrecisionHold hold;
-  FingertipProblem& problem = hold.problem;
-  problem.product = product_->distance.get();
-  problem.natural = opening.posture;
-  problem.start = opening.posture;
-  problem.product_from_hand = candidate.product_from_hand;
-  const hand::PosedSkeleton posed = hand::pose_skeleton(ik_->hand().skeleton, opening.posture);
-  for (const FingertipPoint& tip : openings_->fingertips()) {
-    FingertipGoal goal;
-    goal.fingertip = tip;
-    goal.is_sliding = true;
-    if (openings_->fingertips().size() == 5) {
-      goal.slide = kBallSlide;
-      goal.square = kBallSquare;
-    }
-    const Vec3 there =
-        candidate.product_from_hand * (posed.segment[index_of(tip.segment)] * tip.point);
-    const bool is_pinch = openings_->fingertips().size() == 2;
-    goal.point = tip.finger == hand::Finger::kThumb ? candidate.thumb
-                 : is_pinch                         ? candidate.other
-                                                    : product_->distance->at(there).closest;
-    problem.goals.push_back(goal);
-  }
-  hold.solution = ik_->solve(problem);
-  hold.cost = pair.cost + opening.strain / kStrainUnit + hold_cost(hold);
+PrecisionHold Search::set_down_on(const Candidate& candidate, const OpposingPair& pair) const {
+  PrecisionHold hold = set_down(
+      *ik_, *openings_, *product_,
+      {candidate.thumb, candidate.other, candidate.product_from_hand});
+  hold.cost += pair.cost + openings_->at(pair.width()).strain / kStrainUnit +
+               placing_cost(hold.solution.product_from_hand);
   return hold;
 }
 
 double Search::hold_cost(const PrecisionHold& hold) const {
-  const FingertipSolution& solution = hold.solution;
-  double cost = placing_cost(solution.product_from_hand);
-  cost += solution.strain / kStrainUnit;
-  cost += std::pow(solution.clash / kClashUnit, 2);
-  Vec3 others = Vec3::Zero(), push = Vec3::Zero();
-  const std::size_t count = openings_->fingertips().size();
-  for (std::size_t k = 0; k < count; ++k) {
-    cost += 0.5 * std::pow(solution.tilt[k] / kTiltUnit, 2);
-    cost += std::pow(solution.miss[k] / kMissUnit, 2);
-    if (k == 0) continue;
-    others += solution.reached[k] / static_cast<double>(count - 1);
-    push -= solution.normal[k];
-  }
-  if (solution.miss.size() > count) cost += std::pow(solution.miss[count] / kWebUnit, 2);
-  const Vec3 thumb = -solution.normal[0];
-  const double balance = std::atan2(thumb.cross(-push).norm(), thumb.dot(-push));
-  cost += std::pow(balance / kBalanceUnit, 2);
-  const Vec3 arm = others - solution.reached[0];
-  cost += std::pow((arm - thumb * thumb.dot(arm)).norm() / kOffsetUnit, 2);
-  return cost;
+  return placing_cost(hold.solution.product_from_hand) +
+         fingertip_cost(hold.solution, openings_->fingertips().size());
 }
 
 bool is_like(const PrecisionHold& a, const PrecisionHold& b) {
@@ -384,7 +367,7 @@ PrecisionSearch Search::run(const Progress& progress) const {
     ways.push_back(candidate.way);
     progress.throw_if_cancelled();
     ++taken;
-    result.holds.push_back(set_down(candidate, all[candidate.pair]));
+    result.holds.push_back(set_down_on(candidate, all[candidate.pair]));
     result.holds.back().width =
         width_of(result.holds.back().solution, openings_->fingertips().size());
   }
@@ -392,7 +375,55 @@ PrecisionSearch Search::run(const Progress& progress) const {
   return result;
 }
 
+// The wrist off where it is to be.
+double wrist_cost(const geometry::Rigid3& product_from_hand, const Vec3& middle,
+                  const Vec3& wanted) {
+  const Vec3 wrist = product_from_hand.translation - middle;  // the hand's origin is its wrist
+  return kWristWeight * (1.0 - wanted.dot(wrist) / std::max(wrist.norm(), 1e-9));
+}
+
 }  // namespace
+
+OpposedPlace opposed_place(const hand::Hand& hand, const GripOpening& opening,
+                           const PinchShape& shape, const Vec3& thumb, const Vec3& others,
+                           int turn) {
+  const Vec3 zero = zero_for(shape, (others - thumb).normalized());
+  const double angle = turn_sign(hand) * 2.0 * std::numbers::pi * turn / kTurns;
+  return {thumb, others,
+          placed_opening(opening, hand_axes(hand.skeleton).radial, thumb, others, zero, angle)};
+}
+
+PrecisionHold set_down(const FingertipIk& ik, const GripOpenings& openings,
+                       const product::Product& product, const OpposedPlace& place) {
+  const double width = (place.others - place.thumb).norm();
+  const GripOpening& opening = openings.at(width);
+  const std::vector<FingertipPoint>& tips = openings.fingertips();
+  PrecisionHold hold;
+  hold.width = width;
+  FingertipProblem& problem = hold.problem;
+  problem.product = product.distance.get();
+  problem.natural = opening.posture;
+  problem.start = opening.posture;
+  problem.product_from_hand = place.product_from_hand;
+  const hand::PosedSkeleton posed = hand::pose_skeleton(ik.hand().skeleton, opening.posture);
+  for (const FingertipPoint& tip : tips) {
+    FingertipGoal goal;
+    goal.fingertip = tip;
+    goal.is_sliding = true;
+    if (tips.size() == 5) {
+      goal.slide = kBallSlide;
+      goal.square = kBallSquare;
+    }
+    const Vec3 there = place.product_from_hand * (posed.segment[index_of(tip.segment)] * tip.point);
+    goal.point = tip.finger == hand::Finger::kThumb ? place.thumb
+                 : tips.size() == 2                 ? place.others
+                                                    : product.distance->at(there).closest;
+    problem.goals.push_back(goal);
+  }
+  hold.solution = ik.solve(problem);
+  hold.cost = fingertip_cost(hold.solution, tips.size());
+  return hold;
+}
 
 PrecisionSearch search_precision_grip(const FingertipIk& ik, const GripOpenings& openings,
                                       const product::Product& product,
@@ -404,6 +435,7 @@ PrecisionSearch search_precision_grip(const FingertipIk& ik, const GripOpenings&
 PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpenings& openings,
                                         const product::Product& product,
                                         const std::vector<FingertipGoal>& goals,
+                                        const std::optional<Vec3>& wrist,
                                         const Progress& progress) {
   PrecisionSearch result;
   result.pairs = 1;
@@ -444,6 +476,7 @@ PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpening
                          (posed.segment[index_of(goal.fingertip.segment)] * goal.fingertip.point);
       one.cost += (there - goal.point).squaredNorm() / 400.0;
     }
+    if (wrist) one.cost += wrist_cost(one.product_from_hand, 0.5 * (thumb + other), *wrist);
     candidates.push_back(one);
   }
   result.candidates = static_cast<int>(candidates.size());
@@ -470,6 +503,9 @@ PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpening
                    0.5 * std::pow(hold.solution.tilt[k] / kTiltUnit, 2);
     }
     hold.cost += std::pow(hold.solution.clash / kClashUnit, 2) + hold.solution.strain / kStrainUnit;
+    if (wrist) {
+      hold.cost += wrist_cost(hold.solution.product_from_hand, 0.5 * (thumb + other), *wrist);
+    }
     result.holds.push_back(hold);
   }
   sort_and_thin(result.holds);

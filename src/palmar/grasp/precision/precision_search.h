@@ -42,9 +42,24 @@ PrecisionSearch search_precision_grip(const FingertipIk& ik, const GripOpenings&
                                       const Progress& progress);
 
 /// Fingertips on given goals, in the openings' order of fingers; started from several turns.
+/// `wrist`: as PrecisionGripOptions has it.
 PrecisionSearch solve_precision_targets(const FingertipIk& ik, const GripOpenings& openings,
                                         const product::Product& product,
                                         const std::vector<FingertipGoal>& goals,
-                                        const Progress& progress);
+                                        const std::optional<Vec3>& wrist, const Progress& progress);
+
+/// Turns of the hand about the line between two points that a search looks at.
+inline constexpr int kOpposedTurns = 12;
+
+/// The hand opened to two points and turned about their line by `turn` of kOpposedTurns, which are
+/// counted from that of the product's axes which is most nearly across the line.
+OpposedPlace opposed_place(const hand::Hand& hand, const GripOpening& opening,
+                           const PinchShape& shape, const Vec3& thumb, const Vec3& others,
+                           int turn);
+
+/// Fingertips come down on the surface from where an opened hand has them: `cost` is that of the
+/// posture, the skin's tilt, what is missed and run into, and of how well thumb and fingers oppose.
+PrecisionHold set_down(const FingertipIk& ik, const GripOpenings& openings,
+                       const product::Product& product, const OpposedPlace& place);
 
 }  // namespace palmar::grasp

@@ -58,6 +58,7 @@ std::vector<FingertipPoint> fingertips_of(const hand::Hand& hand, Grip grip) {
     case Grip::kLateral:
       return {at(hand::Finger::kThumb, kPad), at(hand::Finger::kIndex, kRadialSide)};
     case Grip::kPrecisionSphere:
+    case Grip::kPrismatic:
       return {at(hand::Finger::kThumb, kPad), at(hand::Finger::kIndex, kPad),
               at(hand::Finger::kMiddle, kPad), at(hand::Finger::kRing, kPad),
               at(hand::Finger::kLittle, kPad)};
@@ -101,6 +102,14 @@ hand::Posture natural_posture(const hand::Skeleton& skeleton, Grip grip) {
       set(posture, hand::Finger::kMiddle, {52, 48, 25});
       set(posture, hand::Finger::kRing, {56, 54, 28});
       set(posture, hand::Finger::kLittle, {58, 56, 28});
+      break;
+    case Grip::kPrismatic:
+      posture = named(skeleton, "cylinder_grip");
+      for (const hand::Finger finger : {hand::Finger::kIndex, hand::Finger::kMiddle,
+                                        hand::Finger::kRing, hand::Finger::kLittle}) {
+        set(posture, finger, {45, 32, 18});
+      }
+      set(posture, hand::Finger::kThumb, {10, 15, 0});
       break;
     case Grip::kPrecisionSphere:
     case Grip::kPrecisionDisk:
@@ -285,6 +294,12 @@ const GripOpening& GripOpenings::at(double width) const {
                              // Half way between two, rounding doesn't decide.
                              return std::abs(a.width - width) < std::abs(b.width - width) - 1e-6;
                            });
+}
+
+const GripOpenings& OpenedHand::openings(Grip grip) {
+  const auto known = openings_.find(grip);
+  return known != openings_.end() ? known->second
+                                  : openings_.emplace(grip, GripOpenings(ik_, grip)).first->second;
 }
 
 }  // namespace palmar::grasp

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -68,6 +69,23 @@ class GripOpenings {
   Start start_for(const hand::Skeleton& skeleton, const hand::Posture& natural,
                   const hand::Posture& start, double width) const;
   std::optional<GripOpening> solved(const FingertipIk& ik, const Start& start, double width) const;
+};
+
+/// A hand with its openings in each grip, which are found when they are first asked for. For one
+/// thread; the hand must outlive it.
+class OpenedHand {
+ public:
+  explicit OpenedHand(const hand::Hand& hand) : ik_(hand) {}
+  OpenedHand(const OpenedHand&) = delete;
+  OpenedHand& operator=(const OpenedHand&) = delete;
+
+  const hand::Hand& hand() const { return ik_.hand(); }
+  const FingertipIk& ik() const { return ik_; }
+  const GripOpenings& openings(Grip grip);
+
+ private:
+  FingertipIk ik_;
+  std::map<Grip, GripOpenings> openings_;
 };
 
 }  // namespace palmar::grasp

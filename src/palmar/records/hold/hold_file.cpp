@@ -86,6 +86,25 @@ void check_fingertips(const formats::TomlSection& file, const grasp::Hold& hold)
   }
 }
 
+std::optional<Vec3> read_wrist(const formats::TomlSection& file, const grasp::Hold& hold) {
+  if (!file.has("wrist")) return std::nullopt;
+  const std::vector<double> numbers = file.numbers("wrist", "", -kMostHeight, kMostHeight);
+  if (hold.fingertips.empty()) {
+    file.fail("wrist", "goes with grips of fingertips only; turn_deg says where the palm lies");
+  }
+  if (numbers.size() != 3) {
+    file.fail("wrist", fmt::format("has {} numbers; three, of a direction in the product's frame, "
+                                   "are required",
+                                   numbers.size()));
+  }
+  const Vec3 direction(numbers[0], numbers[1], numbers[2]);
+  if (direction.norm() < 1e-9) {
+    file.fail("wrist", "has no direction; three numbers, not all 0, are required");
+  }
+  // What is a unit vector already stays as it is, to the last digit.
+  return std::abs(direction.norm() - 1.0) < 1e-12 ? direction : Vec3(direction.normalized());
+}
+
 /// Degrees that read back to an angle, with as few digits as say so; 45.0 for pi / 4.
 std::string degrees_text(double angle) {
   const double about = angle * geometry::kDegreesPerRadian;
@@ -108,7 +127,7 @@ HoldFile read_hold(const std::string& path) {
   const toml::table table = formats::parse_toml(formats::read_file(path, kMostHoldBytes), path);
   const formats::TomlSection file(path, "", table);
   file.allow({"version", "product", "part", "part_name", "grip", "along", "edge", "toward",
-              "turn_deg", "over_end", "fingertip"});
+              "turn_deg", "over_end", "wrist", "fingertip"});
   // A newer file may hold more than this program knows, so its version is looked at first.
   const auto version = file.integer("version", 1, std::numeric_limits<std::int64_t>::max());
   if (version.value_or(1) > kHoldFileVersion) {
@@ -137,6 +156,7 @@ HoldFile read_hold(const std::string& path) {
     hold.fingertips.push_back(read_fingertip(tip));
   }
   check_fingertips(file, hold);
+  hold.wrist = read_wrist(file, hold);
   return result;
 }
 
@@ -166,6 +186,12 @@ std::string hold_toml(const HoldFile& file) {
                       degrees_text(hold.turn));
   text += fmt::format("over_end = {}  # the palm lies over the end of the part\n",
                       hold.is_over_end ? "true" : "false");
+  if (hold.wrist) {
+    text += fmt::format(
+        "wrist = [{}, {}, {}]  # from the fingertips' middle to the wrist, the product's frame\n",
+        formats::toml_number(hold.wrist->x()), formats::toml_number(hold.wrist->y()),
+        formats::toml_number(hold.wrist->z()));
+  }
   for (const grasp::HoldFingertip& tip : hold.fingertips) {
     text += fmt::format("\n[[fingertip]]\nfinger = {}\nalong = {}\nturn_deg = {}\nheight_mm = {}\n",
                         formats::toml_string(std::string(name_of(tip.finger))),

@@ -23,6 +23,8 @@ inline constexpr int kHoldFileVersion = 1;
 ///     toward = 1                # thumb's side: 1 where along grows, -1 where it starts
 ///     turn_deg = 90.0           # about the part's axis
 ///     over_end = false          # the palm lies over the end of the part
+///     wrist = [0.0, -0.6, 0.8]  # of a precision grip: from the fingertips' middle to the wrist,
+///                               # the product's frame; not needed
 ///     [[fingertip]]             # of a precision grip, once per finger
 ///     finger = "thumb"
 ///     along = 0.5

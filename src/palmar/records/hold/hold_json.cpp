@@ -54,6 +54,7 @@ HoldJson plain_hold(const grasp::Hold& hold, const std::optional<product::PartKi
                     {"height_mm", tip.place.height}});
   }
   json["fingertips"] = std::move(tips);
+  if (hold.wrist) json["wrist"] = vector3(*hold.wrist);
   return json;
 }
 

@@ -152,15 +152,17 @@ Json fingertips_json(const grasp::Hold& hold) {
 
 Json hold_json(const std::optional<grasp::Hold>& hold) {
   if (!hold) return nullptr;
-  return {{"part", hold->part},
-          {"part_name", hold->part_name},
-          {"grip", name_of(hold->grip)},
-          {"along", hold->along},
-          {"edge", hold->edge},
-          {"toward", hold->toward},
-          {"turn_rad", hold->turn},
-          {"over_end", hold->is_over_end},
-          {"fingertips", fingertips_json(*hold)}};
+  Json json = {{"part", hold->part},
+               {"part_name", hold->part_name},
+               {"grip", name_of(hold->grip)},
+               {"along", hold->along},
+               {"edge", hold->edge},
+               {"toward", hold->toward},
+               {"turn_rad", hold->turn},
+               {"over_end", hold->is_over_end},
+               {"fingertips", fingertips_json(*hold)}};
+  if (hold->wrist) json["wrist"] = {hold->wrist->x(), hold->wrist->y(), hold->wrist->z()};
+  return json;
 }
 
 std::optional<grasp::Hold> hold_from(const Json& json) {
@@ -176,6 +178,10 @@ std::optional<grasp::Hold> hold_from(const Json& json) {
   hold.toward = json.at("toward");
   hold.turn = json.at("turn_rad");
   hold.is_over_end = json.at("over_end");
+  if (json.contains("wrist")) {
+    const Json& wrist = json.at("wrist");
+    hold.wrist = Vec3(wrist.at(0), wrist.at(1), wrist.at(2));
+  }
   for (const Json& tip : json.at("fingertips")) {
     const auto finger = hand::finger_named(tip.at("finger").get<std::string>());
     if (!finger) throw InputError("its plan has an unknown finger: " + tip.at("finger").dump());
@@ -187,16 +193,39 @@ std::optional<grasp::Hold> hold_from(const Json& json) {
   return hold;
 }
 
+/// By feature: weight, mean, spread.
+Json weights_json(const grasp::HoldWeights& weights) {
+  Json json;
+  for (int k = 0; k < grasp::kHoldFeatureCount; ++k) {
+    json[std::string(name_of(static_cast<grasp::HoldFeature>(k)))] = {
+        weights.weight[k], weights.mean[k], weights.spread[k]};
+  }
+  return json;
+}
+
+std::shared_ptr<const grasp::HoldWeights> weights_from(const Json& json) {
+  grasp::HoldWeights weights;
+  for (int k = 0; k < grasp::kHoldFeatureCount; ++k) {
+    const Json& three = json.at(std::string(name_of(static_cast<grasp::HoldFeature>(k))));
+    weights.weight[k] = three.at(0);
+    weights.mean[k] = three.at(1);
+    weights.spread[k] = three.at(2);
+  }
+  return std::make_shared<const grasp::HoldWeights>(weights);
+}
+
 /// How a product is to be held without coordinates; only written where something is said.
 Json holding_json(const grasp::HoldRequest& holding) {
-  return {{"hold", hold_json(holding.hold)},
-          {"number", holding.number ? Json(*holding.number) : Json()},
-          {"part", holding.part ? Json(*holding.part) : Json()},
-          {"part_name", holding.part_name},
-          {"along", optional_json(holding.along)},
-          {"toward", vector_json(holding.toward)},
-          {"up", vector_json(holding.up)},
-          {"is_hand_over", holding.purpose == grasp::HoldPurpose::kHandOver}};
+  Json json = {{"hold", hold_json(holding.hold)},
+               {"number", holding.number ? Json(*holding.number) : Json()},
+               {"part", holding.part ? Json(*holding.part) : Json()},
+               {"part_name", holding.part_name},
+               {"along", optional_json(holding.along)},
+               {"toward", vector_json(holding.toward)},
+               {"up", vector_json(holding.up)},
+               {"is_hand_over", holding.purpose == grasp::HoldPurpose::kHandOver}};
+  if (holding.weights) json["hold_weights"] = weights_json(*holding.weights);
+  return json;
 }
 
 grasp::HoldRequest holding_from(const Json& json) {
@@ -209,6 +238,7 @@ grasp::HoldRequest holding_from(const Json& json) {
   holding.toward = optional_vector_from(json.at("toward"));
   holding.up = optional_vector_from(json.at("up"));
   if (json.at("is_hand_over").get<bool>()) holding.purpose = grasp::HoldPurpose::kHandOver;
+  if (json.contains("hold_weights")) holding.weights = weights_from(json.at("hold_weights"));
   return holding;
 }
 

@@ -10,6 +10,7 @@
 #include "palmar/core/nearest_name.h"
 #include "palmar/formats/text_scan.h"
 #include "palmar/records/hold/hold_file.h"
+#include "palmar/records/hold/people_holds_file.h"
 #include "palmar/workflow/words/number_words.h"
 
 namespace palmar::workflow {
@@ -55,6 +56,13 @@ grasp::HoldRequest hold_request(const HoldWords& words) {
     result.toward = parse_direction("setting \"toward\"", words.toward);
   }
   result.purpose = parse_purpose(words.purpose);
+  if (!words.weights.empty()) {
+    if (result.purpose == grasp::HoldPurpose::kUse) {
+      throw UsageError("setting \"hold weights\" goes with setting \"purpose\" hand-over");
+    }
+    result.weights =
+        std::make_shared<const grasp::HoldWeights>(records::read_hold_weights(words.weights));
+  }
   return result;
 }
 

@@ -1,0 +1,77 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/holds/hold_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace palmar::grasp {
+namespace {
+
+constexpr double kDensity = 20.0;          // mm; people's own spread is 15 to 50
+constexpr double kElsewhere = 35.0;        // mm from the modes before; choice
+constexpr std::size_t kLikeliest = 600;    // holds that are looked at; the others count nothing
+
+}  // namespace
+
+// palmar grasp fit-holds, of 192 holds of ten objects by ten people who picked each up and handed it
+// over (object_sim, of DexYCB: Chao et al. 2021, CVPR); in the order of HoldFeature.
+const HoldWeights& hand_over_weights() {
+  static const HoldWeights weights = [] {
+    HoldWeights table;
+    table.weight << 0.791723, 0.959478, -0.324249, -0.75516, -1.13879, -0.991915, 0.785397, 0.727212, 0.889552;
+    table.mean << 2.40817, 0.164736, 2.08687, 0.207449, 0.0329717, 0.0868774, 0.187378, 0.211629, 0.0709774;
+    table.spread << 1.03582, 0.404051, 1.48071, 0.346988, 0.052643, 0.100218, 0.194547, 0.206121, 0.13474;
+    return table;
+  }();
+  return weights;
+}
+
+Eigen::VectorXd chances(const HoldWeights& weights, const std::vector<OpposedHold>& holds) {
+  Eigen::VectorXd chance(static_cast<Eigen::Index>(holds.size()));
+  const HoldFeatures slope = weights.weight.cwiseQuotient(weights.spread);
+  for (std::size_t c = 0; c < holds.size(); ++c) {
+    chance[static_cast<Eigen::Index>(c)] = slope.dot(holds[c].features - weights.mean);
+  }
+  if (holds.empty()) return chance;
+  chance = (chance.array() - chance.maxCoeff()).exp();
+  return chance / chance.sum();
+}
+
+std::vector<HoldMode> modes_of(const std::vector<OpposedHold>& holds,
+                               const Eigen::VectorXd& chance, std::size_t most) {
+  std::vector<std::size_t> order(holds.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return chance[static_cast<Eigen::Index>(a)] > chance[static_cast<Eigen::Index>(b)];
+  });
+  order.resize(std::min(order.size(), kLikeliest));
+  std::vector<double> density(order.size(), 0.0);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      const double d = holds[order[i]].points.distance_to(holds[order[j]].points);
+      const double near = std::exp(-0.5 * d * d / (kDensity * kDensity));
+      density[i] += near * chance[static_cast<Eigen::Index>(order[j])];
+      if (j < i) density[j] += near * chance[static_cast<Eigen::Index>(order[i])];
+    }
+  }
+  std::vector<HoldMode> modes;
+  std::vector<char> is_free(order.size(), 1);
+  while (modes.size() < most) {
+    std::size_t best = order.size();
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (is_free[i] != 0 && (best == order.size() || density[i] > density[best])) best = i;
+    }
+    if (best == order.size()) break;
+    modes.push_back({order[best], std::log(density[best])});
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const double away = holds[order[i]].points.distance_to(holds[order[best]].points);
+      if (away < kElsewhere) is_free[i] = 0;
+    }
+  }
+  for (std::size_t k = modes.size(); k-- > 0;) modes[k].score -= modes.front().score;
+  return modes;
+}
+
+}  // namespace palmar::grasp

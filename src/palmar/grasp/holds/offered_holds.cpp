@@ -1,0 +1,111 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/holds/offered_holds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "palmar/geometry/degrees.h"
+#include "palmar/grasp/holds/hold_candidates.h"
+#include "palmar/grasp/holds/hold_weights.h"
+#include "palmar/grasp/precision/precision_shape.h"
+
+namespace palmar::grasp {
+namespace {
+
+// Of the density's modes so many more than holds are wanted are closed: fingertips may not reach.
+constexpr std::size_t kSpareModes = 4;
+const double kTowardLimit = std::cos(60.0 * geometry::kDegree);  // as power holds have it
+
+bool is_offered_grip(Grip grip) {
+  return grip == Grip::kPrismatic || grip == Grip::kPrecisionSphere || grip == Grip::kTripod ||
+         grip == Grip::kPalmarPinch;
+}
+
+bool is_asked(const OpposedHold& hold, const HoldScene& scene, const HoldOptions& options) {
+  if (options.grip && hold.grip != *options.grip) return false;
+  if (options.toward) {
+    const Vec3 row = (hold.points.tip(1) - hold.points.tip(4)).normalized();
+    if (row.dot(options.toward->normalized()) < kTowardLimit) return false;
+  }
+  if (!options.part && options.part_name.empty()) return true;
+  const Vec3 middle = 0.5 * (hold.place.thumb + hold.place.others);
+  const int part = scene.parts->nearest(*scene.product, middle);
+  return is_part_asked(scene.parts->parts[static_cast<std::size_t>(part)], options);
+}
+
+RankedHold closed_hold(const HoldScene& scene, const Grasp& grasp) {
+  RankedHold ranked;
+  ranked.grasp = grasp;
+  Hold& hold = ranked.hold;
+  hold.grip = grasp.grip;
+  Vec3 others = Vec3::Zero();
+  for (std::size_t k = 1; k < grasp.fingertips.size(); ++k) others += grasp.fingertips[k].reached;
+  others /= static_cast<double>(grasp.fingertips.size() - 1);
+  const Vec3 middle = 0.5 * (grasp.fingertips[0].reached + others);
+  hold.part = scene.parts->nearest(*scene.product, middle) + 1;
+  const product::ProductPart& part = scene.parts->parts[static_cast<std::size_t>(hold.part) - 1];
+  hold.part_name = part.name;
+  hold.along = std::clamp(product::place_of(part, middle).along, 0.0, 1.0);
+  for (const FingertipContact& tip : grasp.fingertips) {
+    hold.fingertips.push_back({tip.finger, product::place_of(part, tip.reached)});
+  }
+  hold.wrist = (grasp.product_from_hand.translation - middle).normalized();
+  return ranked;
+}
+
+}  // namespace
+
+bool are_offered(const HoldOptions& options) {
+  return options.purpose == HoldPurpose::kHandOver && !options.is_power_only && !options.along &&
+         (!options.grip || is_offered_grip(*options.grip));
+}
+
+std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions& options,
+                                      int& considered, const Progress& progress) {
+  progress.update(0.1, "finding ways to hand over " + scene.product->name);
+  OpenedHand hand(*scene.hand);
+  std::vector<OpposedHold> all = opposed_holds(hand, *scene.product, progress);
+  considered += static_cast<int>(all.size());
+  std::erase_if(all, [&](const OpposedHold& hold) { return !is_asked(hold, scene, options); });
+  if (all.empty()) return {};
+  const HoldWeights& weights = options.weights ? *options.weights : hand_over_weights();
+  const std::vector<HoldMode> modes =
+      modes_of(all, chances(weights, all), static_cast<std::size_t>(options.most) + kSpareModes);
+  // What speaks against a hold: what the best of these has in a feature, less what it has.
+  const HoldFeatures slope = weights.weight.cwiseQuotient(weights.spread);
+  HoldFeatures best = HoldFeatures::Constant(-1e300);
+  for (const HoldMode& mode : modes) {
+    best = best.cwiseMax(slope.cwiseProduct(all[mode.hold].features));
+  }
+  std::vector<RankedHold> found;
+  for (const HoldMode& mode : modes) {
+    progress.throw_if_cancelled();
+    const OpposedHold& hold = all[mode.hold];
+    PrecisionGripOptions precision;
+    precision.grip = hold.grip;
+    precision.from = hold.place;
+    const Grasp grasp = close_precision_grip(hand, *scene.product, precision, progress);
+    if (grasp.fingertips.empty()) continue;
+    RankedHold ranked = closed_hold(scene, grasp);
+    const HoldFeatures share = slope.cwiseProduct(hold.features) - best;
+    for (int k = 0; k < kHoldFeatureCount; ++k) {
+      const auto feature = static_cast<HoldFeature>(k);
+      ranked.terms.push_back({std::string(name_of(feature)), hold.features[k], "", share[k],
+                              std::string(words_of(feature))});
+    }
+    // The modes' order is by the density of like holds; what is left of it is the neighbours' part.
+    ranked.terms.push_back({"like_holds", mode.score, "", mode.score - share.sum(),
+                            "how many holds are much like it"});
+    const double held = grasp.status == GraspStatus::kHeld         ? 0.0
+                        : grasp.status == GraspStatus::kPartlyHeld ? -3.0
+                                                                   : -8.0;
+    ranked.terms.push_back({"closing", 0.0, "", held, grasp.message});
+    found.push_back(std::move(ranked));
+  }
+  return found;
+}
+
+}  // namespace palmar::grasp

@@ -1,0 +1,61 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "palmar/core/progress.h"
+#include "palmar/grasp/precision/precision_grip.h"
+
+namespace palmar::grasp {
+
+/// What a camera sees of a hand that holds something. Product frame, mm.
+struct HandPoints {
+  static constexpr std::size_t kCount = 1 + hand::kFingerCount;
+  /// The wrist's centre, then the fingertips, thumb first: 0.8 of the last phalanx from its joint.
+  std::array<Vec3, kCount> point{};
+
+  const Vec3& wrist() const { return point[0]; }
+  const Vec3& tip(std::size_t finger) const { return point[1 + finger]; }
+  /// Root of the mean square distance of like points, mm.
+  double distance_to(const HandPoints& other) const;
+};
+HandPoints hand_points(const hand::Hand& hand, const hand::Posture& posture,
+                       const geometry::Rigid3& product_from_hand);
+
+/// What a hold is judged by before anything is closed: each a smooth function of the posed hand and
+/// of the product's shape, the same whatever the product's triangles and wherever it lies.
+enum class HoldFeature : std::uint8_t {
+  kFingersOnIt,        ///< of four, how many fingertips are at its surface (a bell of 15 mm)
+  kDepth,              ///< how far the deepest fingertip is in it: up to 3 cm
+  kCrossing,           ///< ln(1 + c / 5 mm), c how far fingers, palm and forearm are in it, summed
+  kPalm,               ///< 1 if it touches the palm, nearly 0 if it is 30 mm away
+  kWeightAlong,        ///< (a / L)^2, a its centre of gravity from the grip along the fingers' row
+  kWeightBeside,       ///< |b| / L, b the same along the line from fingers to thumb
+  kBeyondThumbSide,    ///< share of its surface more than 40 mm beyond the grip there
+  kBeyondFingertips,   ///< share of its surface more than 30 mm beyond the grip, off the wrist
+  kRowAcrossFlat,      ///< flatness times the square of cos(fingers' row, shortest axis)
+};
+inline constexpr int kHoldFeatureCount = 9;
+using HoldFeatures = Eigen::Matrix<double, kHoldFeatureCount, 1>;
+std::string_view name_of(HoldFeature feature);   ///< "fingers_on_it", as in a file of weights
+std::string_view words_of(HoldFeature feature);  ///< for people: "fingers on it"
+
+/// A hold between the pads of thumb and fingers: the hand opened to the distance of two opposite
+/// points of a product, before its fingertips come down there.
+struct OpposedHold {
+  Grip grip{};
+  OpposedPlace place;
+  HandPoints points;
+  HoldFeatures features;
+};
+
+/// All of a product's: each of its opposing pairs of points, the thumb at either, in twelve turns
+/// of the hand, in a prismatic grip, precision sphere, tripod and palmar pinch. Some thousands, in
+/// an order that moves along with the product.
+std::vector<OpposedHold> opposed_holds(OpenedHand& hand, const product::Product& product,
+                                       const Progress& progress = {});
+
+}  // namespace palmar::grasp
