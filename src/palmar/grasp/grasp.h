@@ -77,6 +77,9 @@ struct GraspRunnerUp {
   hand::Posture posture;
   geometry::Rigid3 product_from_hand;
   double score = 0.0;  ///< of the search; comparable within one search
+  /// What another of the ranked holds is; nothing of another place of the same one.
+  std::optional<Hold> hold = std::nullopt;
+  std::string hold_words = {};
 };
 
 /// One hand holding one product.

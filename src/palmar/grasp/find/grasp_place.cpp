@@ -162,7 +162,8 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
       grasp.hold_terms = other.terms;
     } else {
       grasp.runners_up.push_back(
-          {other.hold.grip, other.grasp.posture, other.grasp.product_from_hand, other.score});
+          {other.hold.grip, other.grasp.posture, other.grasp.product_from_hand, other.score,
+           other.hold, other.words});
     }
   }
   std::stable_sort(

@@ -20,6 +20,8 @@
 namespace palmar::grasp {
 namespace {
 
+constexpr double kAsGoodAHold = 0.2;  // how often, at least, people take what is taken instead
+
 constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
 constexpr double kJointSaid = 0.05;  // residual moment over the strongest; more is a slip
 constexpr double kNothingAt = 30.0;  // mm; at which too little force is too little moment
@@ -241,15 +243,27 @@ Balance settle_precision(const contact::PreparedHand& hand, const product::Produ
   const Grasp chosen = grasp;
   const Balance first = settle(hand, product, grasp, options, contact, progress);
   if (first.status != BalanceStatus::kSlipsOut || chosen.status != GraspStatus::kHeld) return first;
+  const double least_score = chosen.score + std::log(kAsGoodAHold);
   for (std::size_t i = 0; i < chosen.runners_up.size(); ++i) {
-    // Runners-up of another grip are other holds: never taken unasked.
-    if (chosen.runners_up[i].grip != chosen.grip) continue;
+    const GraspRunnerUp& other = chosen.runners_up[i];
+    // Other holds are never taken unasked.
+    if (other.hold ? !options.takes_other_holds || other.score < least_score ||
+                         other.hold->fingertips.empty()
+                   : other.grip != chosen.grip) {
+      continue;
+    }
     Grasp there = chosen;
     take_runner_up(hand.hand(), product, i, there);
+    if (other.hold) {
+      there.hold = other.hold;
+      there.hold_words = other.hold_words;
+    }
     if (there.status != GraspStatus::kHeld) continue;
     Balance balance = settle(hand, product, there, options, contact, progress);
     if (balance.status != BalanceStatus::kBalanced) continue;
-    there.message += "; the place first chosen: " + first.message;
+    there.message += other.hold ? "; the hold first chosen (" + chosen.hold_words +
+                                      "): " + first.message
+                                : "; the place first chosen: " + first.message;
     grasp = std::move(there);
     return balance;
   }

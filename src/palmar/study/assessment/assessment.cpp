@@ -157,8 +157,11 @@ Assessment assess(const contact::PreparedHand& hand, const product::Product& pro
   Progress stoppable = progress;
   stoppable.report = nullptr;  // its share is not that of the whole
   if (is_held) {
-    balance =
-        grasp::balance_grasp(hand, product, grasp, options.balance, options.contact, stoppable);
+    grasp::BalanceOptions resting = options.balance;
+    const grasp::GraspOptions& asked = options.grasp;
+    resting.takes_other_holds = asked.holds.purpose == grasp::HoldPurpose::kHandOver &&
+                                !asked.hold && asked.hold_rank == 1 && !asked.is_placed();
+    balance = grasp::balance_grasp(hand, product, grasp, resting, options.contact, stoppable);
   }
   const double balance_seconds = balance_watch.seconds();
   if (balance.status == grasp::BalanceStatus::kSlipsOut) {
