@@ -91,6 +91,68 @@ TEST(GraspHolds, AFileTakesTheHoldItWasWrittenFrom) {
   EXPECT_TRUE(b.at("hold").contains("terms"));
 }
 
+TEST(GraspHolds, ToHandItOverItIsTakenBetweenFingertipsAndKeptAsSuch) {
+  const HoldsJson json = ranked("--purpose hand-over --out offered");
+  const HoldsJson& first = json.at("holds").at(0);
+  EXPECT_GE(first.at("fingertips").size(), 2U);
+  ASSERT_EQ(first.at("wrist").size(), 3U);
+  const ProgramRun run =
+      in_bar_folder("grasp close bar.stl --unit mm --json --hold offered/hold-1.toml");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const HoldsJson kept = HoldsJson::parse(run.out);
+  EXPECT_EQ(kept.at("hold").at("grip"), first.at("grip"));
+  EXPECT_EQ(kept.at("hold").at("wrist"), first.at("wrist"));
+  // A grip that isn't between fingertips can be asked for as well.
+  EXPECT_EQ(ranked("--purpose hand-over --grip medium_wrap").at("holds").at(0).at("grip"),
+            "medium_wrap");
+}
+
+TEST(GraspHolds, WeightsAreFittedToPeoplesHoldsAndUsed) {
+  run_palmar("product make cylinder --diameter-mm 60 --length-mm 100 --out can.stl", bar_folder());
+  std::string table = "object";
+  for (const char* point : {"wrist", "thumb", "index", "middle", "ring", "little"}) {
+    for (const char axis : {'x', 'y', 'z'}) table += std::string(",") + point + "_" + axis + "_mm";
+  }
+  // From the side, fingers and thumb round it; from above.
+  table +=
+      "\nbar,-20,-130,0,20,0,10,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30"
+      "\nbar,0,-130,0,20,5,0,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30"
+      "\ncan,0,-20,180,32,0,50,-32,10,50,-34,0,50,-32,-10,50,-20,-25,50\n";
+  write_text(bar_folder() + "/people.csv", table);
+  const ProgramRun fit =
+      in_bar_folder("grasp fit-holds people.csv --products . --out weights.toml --json");
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  const HoldsJson json = HoldsJson::parse(fit.out);
+  EXPECT_EQ(json.at("features").size(), 9U);
+  ASSERT_EQ(json.at("left_out").size(), 2U);
+  EXPECT_EQ(json.at("left_out").at(0).at("object"), "bar");
+  EXPECT_EQ(json.at("left_out").at(0).at("holds"), 2);
+  EXPECT_LT(json.at("left_out").at(0).at("nearest_candidate_mm"), 60.0);
+  EXPECT_THAT(in_bar_folder("grasp fit-holds people.csv --products .").out,
+              AllOf(HasSubstr("object left out"), HasSubstr("even chances")));
+  const auto score = [](const std::string& options) {
+    return ranked("--purpose hand-over" + options).at("holds").at(0).at("terms").dump();
+  };
+  EXPECT_NE(score(" --hold-weights weights.toml"), score(""));
+}
+
+TEST(GraspHolds, ATableThatCantBeFittedIsRefused) {
+  write_text(bar_folder() + "/none.csv", "object,wrist_x_mm\nbar,1\n");
+  const auto refused = [](const std::string& arguments) {
+    const ProgramRun run = in_bar_folder(arguments);
+    return std::to_string(run.exit_code) + " " + run.err;
+  };
+  EXPECT_THAT(refused("grasp fit-holds none.csv --products ."),
+              AllOf(HasSubstr("3 "), HasSubstr("none.csv:1"), HasSubstr("wrist_y_mm")));
+  EXPECT_THAT(refused("grasp fit-holds nowhere.csv --products ."),
+              AllOf(HasSubstr("3 "), HasSubstr("nowhere.csv")));
+  EXPECT_THAT(refused("grasp holds bar.stl --unit mm --hold-weights bar.stl"),
+              AllOf(HasSubstr("2 "), HasSubstr("--hold-weights goes with --purpose hand-over")));
+  EXPECT_THAT(
+      refused("grasp holds bar.stl --unit mm --purpose hand-over --hold-weights none.csv"),
+      AllOf(HasSubstr("3 "), HasSubstr("none.csv")));
+}
+
 TEST(GraspHolds, WhatContradictsIsAUsageError) {
   write_text(bar_folder() + "/bad.toml",
              "part = 1\ngrip = \"medium_wrap\"\nalong = 0.5\nturn_degs = 3\n");

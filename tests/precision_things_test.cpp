@@ -238,6 +238,25 @@ TEST_F(PrecisionThings, APenIsHeldForWriting) {
   }
 }
 
+// Prismatic 4 finger (Feix et al. 2016, grip 6): the thumb on one face, four fingers in line on the
+// other.
+TEST_F(PrecisionThings, ABoxIsHeldBetweenTheThumbAndFourFingersInLine) {
+  const product::Product box = thing_of(geometry::make_box({50.0, 120.0, 150.0}, 20), "box");
+  const Held held = hold(hand_on_bone(), box, grasp::Grip::kPrismatic, 15.0);
+  ASSERT_EQ(held.grasp.status, grasp::GraspStatus::kHeld) << held.grasp.message;
+  EXPECT_EQ(held.balance.status, grasp::BalanceStatus::kBalanced) << held.balance.message;
+  ASSERT_EQ(held.grasp.fingertips.size(), 5u);
+  const Vec3 thumb = held.grasp.fingertips[0].normal;
+  const Vec3 first = held.grasp.fingertips[1].reached, last = held.grasp.fingertips[4].reached;
+  for (std::size_t k = 1; k < 5; ++k) {
+    const grasp::FingertipContact& tip = held.grasp.fingertips[k];
+    EXPECT_LT(tip.normal.dot(thumb), -0.95) << name_of(tip.finger);
+    // In line, within a finger's breadth; the middle finger is longer than the others.
+    const Vec3 along = (last - first).normalized(), off = tip.reached - first;
+    EXPECT_LT((off - along * along.dot(off)).norm(), 17.0) << name_of(tip.finger);
+  }
+}
+
 TEST_F(PrecisionThings, ALidIsHeldByItsRim) {
   for (const double diameter : {55.0, 70.0}) {
     SCOPED_TRACE(diameter);

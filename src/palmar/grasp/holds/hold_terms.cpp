@@ -94,14 +94,10 @@ HoldTerm span_term(const HoldScene& scene, const HoldSite& at) {
 HoldTerm handle_term(const HoldScene& scene, const Hold& hold) {
   const bool is_handle = scene.is_handle[hold.part - 1] != 0;
   const bool is_passed_over = scene.has_handle && !is_handle;
-  const bool is_offered = scene.purpose == HoldPurpose::kHandOver;
-  // Who hands something over leaves its handle to the other (Brahmbhatt et al. 2020).
-  const bool is_wrong = is_offered ? scene.has_handle && is_handle : is_passed_over;
-  return {"handle", is_handle ? 1.0 : 0.0, "", is_wrong ? std::log(kBesideHandle) : 0.0,
-          is_wrong && is_offered ? "the handle is left to the other person"
-          : is_wrong             ? "beside the handle"
-          : is_handle            ? "by the handle"
-                                 : "no handle is passed over"};
+  return {"handle", is_handle ? 1.0 : 0.0, "", is_passed_over ? std::log(kBesideHandle) : 0.0,
+          is_passed_over ? "beside the handle"
+          : is_handle    ? "by the handle"
+                         : "no handle is passed over"};
 }
 
 HoldTerm coverage_term(const HoldScene& scene, const product::ProductPart& part, const Hold& hold) {
@@ -436,7 +432,6 @@ HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
   scene.hand = &hand;
   scene.product = &product;
   scene.parts = &parts;
-  scene.purpose = options.purpose;
   scene.gravity_centre = geometry::centre_of_volume(product.mesh);
   constexpr double kWater = 1.0;  // g/cm^3
   scene.weight = options.mass
@@ -510,7 +505,7 @@ std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, cons
   if (trigger == nullptr || !is_neck(part, *scene.parts)) {
     terms.push_back(coverage_term(scene, part, hold));
   }
-  if (trigger != nullptr && scene.purpose == HoldPurpose::kUse) {
+  if (trigger != nullptr) {
     terms.push_back(trigger_term(scene, *trigger, at));
   }
   if (part.opening) terms.push_back(opening_term(scene, part));

@@ -15,7 +15,6 @@ struct HoldScene {
   const hand::Hand* hand = nullptr;
   const product::Product* product = nullptr;
   const product::ProductParts* parts = nullptr;
-  HoldPurpose purpose = HoldPurpose::kUse;
   Vec3 gravity_centre = Vec3::Zero();  ///< of the product's volume, product frame, mm
   int part_of_gravity = -1;            ///< index of the part that it lies in or is nearest to
   double weight = 0.0;                 ///< N

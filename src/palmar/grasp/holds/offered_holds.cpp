@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "palmar/geometry/degrees.h"
 #include "palmar/grasp/holds/hold_candidates.h"
@@ -17,6 +19,7 @@ namespace {
 
 // Of the density's modes so many more than holds are wanted are closed: fingertips may not reach.
 constexpr std::size_t kSpareModes = 4;
+constexpr double kPartlyHeld = -3.0, kNotHeld = -8.0;  // as precision_holds() has them; choice
 const double kTowardLimit = std::cos(60.0 * geometry::kDegree);  // as power holds have it
 
 bool is_offered_grip(Grip grip) {
@@ -74,12 +77,20 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
   const HoldWeights& weights = options.weights ? *options.weights : hand_over_weights();
   const std::vector<HoldMode> modes =
       modes_of(all, chances(weights, all), static_cast<std::size_t>(options.most) + kSpareModes);
-  // What speaks against a hold: what the best of these has in a feature, less what it has.
+  // What speaks against a hold in a feature: what the best of these has there, less what it has. The
+  // modes' order is by the density of like holds, so its neighbours speak, too.
   const HoldFeatures slope = weights.weight.cwiseQuotient(weights.spread);
-  HoldFeatures best = HoldFeatures::Constant(-1e300);
-  for (const HoldMode& mode : modes) {
-    best = best.cwiseMax(slope.cwiseProduct(all[mode.hold].features));
-  }
+  const auto share_of = [&](const HoldMode& mode) -> HoldFeatures {
+    return slope.cwiseProduct(all[mode.hold].features);
+  };
+  HoldFeatures best = HoldFeatures::Constant(-std::numeric_limits<double>::infinity());
+  for (const HoldMode& mode : modes) best = best.cwiseMax(share_of(mode));
+  double most_like = -std::numeric_limits<double>::infinity();
+  const auto like_of = [&](const HoldMode& mode) {
+    return mode.score - (share_of(mode) - best).sum();
+  };
+  for (const HoldMode& mode : modes) most_like = std::max(most_like, like_of(mode));
+
   std::vector<RankedHold> found;
   for (const HoldMode& mode : modes) {
     progress.throw_if_cancelled();
@@ -90,18 +101,20 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
     const Grasp grasp = close_precision_grip(hand, *scene.product, precision, progress);
     if (grasp.fingertips.empty()) continue;
     RankedHold ranked = closed_hold(scene, grasp);
-    const HoldFeatures share = slope.cwiseProduct(hold.features) - best;
+    const HoldFeatures share = share_of(mode) - best;
     for (int k = 0; k < kHoldFeatureCount; ++k) {
       const auto feature = static_cast<HoldFeature>(k);
-      ranked.terms.push_back({std::string(name_of(feature)), hold.features[k], "", share[k],
-                              std::string(words_of(feature))});
+      std::string name(name_of(feature));
+      std::replace(name.begin(), name.end(), '_', ' ');
+      const bool is_much = hold.features[k] > weights.mean[k];
+      ranked.terms.push_back({std::move(name), hold.features[k], "", share[k],
+                              std::string(words_of(feature, is_much))});
     }
-    // The modes' order is by the density of like holds; what is left of it is the neighbours' part.
-    ranked.terms.push_back({"like_holds", mode.score, "", mode.score - share.sum(),
-                            "how many holds are much like it"});
+    ranked.terms.push_back({"like holds", like_of(mode), "", like_of(mode) - most_like,
+                            "few of people's holds are like it"});
     const double held = grasp.status == GraspStatus::kHeld         ? 0.0
-                        : grasp.status == GraspStatus::kPartlyHeld ? -3.0
-                                                                   : -8.0;
+                        : grasp.status == GraspStatus::kPartlyHeld ? kPartlyHeld
+                                                                   : kNotHeld;
     ranked.terms.push_back({"closing", 0.0, "", held, grasp.message});
     found.push_back(std::move(ranked));
   }

@@ -22,7 +22,7 @@ constexpr double kTipShare = 0.8;     // of the last phalanx, from its joint
 constexpr double kWidest = 0.58;      // hand lengths between the two points
 constexpr double kWiderThanHand = 4;  // mm; pads give way, as search_precision_grip() has it
 constexpr double kFiveFit = 25.0;     // mm; round less, five fingertips don't fit
-constexpr int kSurfacePoints = 600;
+constexpr int kPairPoints = 900, kSurfacePoints = 300;
 constexpr double kGridSpacing = 3.0, kGridBand = 30.0;  // mm
 // Where the features change, mm; all chosen by sense, before any fit.
 constexpr double kOnIt = 15.0;
@@ -130,24 +130,31 @@ HoldFeatures FeatureScene::features_of(const HandPoints& points, const hand::Pos
 }
 
 struct FeatureText {
-  std::string_view name, words;
+  std::string_view name, much, little;
 };
 constexpr std::array<FeatureText, kHoldFeatureCount> kTexts = {{
-    {"fingers_on_it", "fingers on it"},
-    {"depth", "how deep between thumb and fingers"},
-    {"crossing", "room for the hand"},
-    {"palm", "the palm against it"},
-    {"weight_along", "weight beside the grip, along the fingers' row"},
-    {"weight_beside", "weight beside the grip, to the thumb or the fingers"},
-    {"beyond_thumb_side", "what lies beyond the thumb's side"},
-    {"beyond_fingertips", "what lies beyond the fingertips"},
-    {"row_across_flat", "the fingers' row across its flat side"},
+    {"fingers_on_it", "the fingers are on it", "not all fingers are on it"},
+    {"depth", "it lies deep between thumb and fingers", "it lies shallow between thumb and fingers"},
+    {"crossing", "little room for the hand", "room for the hand"},
+    {"palm", "the palm is against it", "the palm is clear of it"},
+    {"weight_along", "its weight is beside the fingers' row", "its weight is within the fingers' row"},
+    {"weight_beside", "its weight is beside the line from thumb to fingers",
+     "its weight is between thumb and fingers"},
+    {"beyond_thumb_side", "much of it is beyond the thumb's side",
+     "little of it is beyond the thumb's side"},
+    {"beyond_fingertips", "much of it is beyond the fingertips",
+     "little of it is beyond the fingertips"},
+    {"row_across_flat", "the fingers' row is across its flat sides",
+     "the fingers' row is along its flat sides"},
 }};
 
 }  // namespace
 
 std::string_view name_of(HoldFeature feature) { return kTexts[index_of(feature)].name; }
-std::string_view words_of(HoldFeature feature) { return kTexts[index_of(feature)].words; }
+std::string_view words_of(HoldFeature feature, bool is_much) {
+  const FeatureText& text = kTexts[index_of(feature)];
+  return is_much ? text.much : text.little;
+}
 
 double HandPoints::distance_to(const HandPoints& other) const {
   double sum = 0.0;
@@ -181,6 +188,7 @@ std::vector<OpposedHold> opposed_holds(OpenedHand& opened, const product::Produc
   OpposingOptions wanted;
   wanted.widest = kWidest * hand.dimensions.hand_length;
   wanted.most = std::numeric_limits<int>::max();
+  wanted.points = kPairPoints;
   const std::vector<OpposingPair> pairs =
       find_opposing_pairs(product, scene.shape(), wanted);
   std::vector<OpposedHold> holds;

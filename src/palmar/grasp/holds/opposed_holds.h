@@ -40,8 +40,9 @@ enum class HoldFeature : std::uint8_t {
 };
 inline constexpr int kHoldFeatureCount = 9;
 using HoldFeatures = Eigen::Matrix<double, kHoldFeatureCount, 1>;
-std::string_view name_of(HoldFeature feature);   ///< "fingers_on_it", as in a file of weights
-std::string_view words_of(HoldFeature feature);  ///< for people: "fingers on it"
+std::string_view name_of(HoldFeature feature);  ///< "fingers_on_it", as in a file of weights
+/// For people, a clause: what it is like if there is much of it, "all fingers are on it", or little.
+std::string_view words_of(HoldFeature feature, bool is_much);
 
 /// A hold between the pads of thumb and fingers: the hand opened to the distance of two opposite
 /// points of a product, before its fingertips come down there.

@@ -108,7 +108,7 @@ RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
   ranked.terms.push_back({"grip", 0.0, "", prior,
                           prior < -0.5 ? "seldom taken by the fingertips" : "taken by fingertips"});
   const bool is_passed_over = scene.has_handle && scene.is_handle[hold.part - 1] == 0;
-  if (is_passed_over && scene.purpose == HoldPurpose::kUse) {
+  if (is_passed_over) {
     ranked.terms.push_back({"handle", 0.0, "", std::log(0.1), "beside the handle"});
   }
   const double lever = (scene.gravity_centre - middle).norm();
@@ -146,9 +146,9 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
   if (options.grip) {
     grips.push_back({*options.grip, 0.0});
   } else {
-    // What has a handle is taken there, unless that is offered to somebody else.
+    // What has a handle is taken there.
     const bool is_passed_over = scene.has_handle && scene.is_handle[0] == 0;
-    if (!is_passed_over || scene.purpose != HoldPurpose::kUse) {
+    if (!is_passed_over) {
       grips = priors(scene, scene.parts->parts.front(), sorted_extents(scene));
     }
     // What two rings are for (Feix et al. 2016, grip 19).

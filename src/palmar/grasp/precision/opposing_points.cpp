@@ -16,7 +16,6 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr int kPoints = 300;
 constexpr double kCone = 35.0 * geometry::kDegree;  // normals against the line through both points
 constexpr double kEdge = 25.0 * geometry::kDegree;  // mean normal against the triangle's
 constexpr double kFingerRoom = 7.0;      // mm off the surface that has to be free for a finger
@@ -242,7 +241,7 @@ std::vector<OpposingPair> find_opposing_pairs(const product::Product& product,
                                               const PinchShape& shape,
                                               const OpposingOptions& options) {
   const std::vector<SurfacePoint> points =
-      spread_points(options.at ? near_part(product.mesh, *options.at) : product.mesh, kPoints);
+      spread_points(options.at ? near_part(product.mesh, *options.at) : product.mesh, options.points);
   const double unit = options.at ? kAwayFromPlace : kAway;
   const geometry::RayQuery rays(product.mesh);
   const std::vector<Vec3> normals = geometry::triangle_normals(product.mesh);

@@ -44,12 +44,13 @@ struct OpposingOptions {
   double comfortable = 60.0;  ///< mm; wider costs
   double central = 1.0;       ///< weight of being near the centre (a pen: near the tip)
   int most = 200;             ///< pairs to return
+  int points = 300;           ///< of the surface, each of which looks for what is opposite
   std::optional<Vec3> at;     ///< stay near this point instead
   std::vector<Vec3> places;   ///< stay near one of these; empty: the centre (a pen: near the tip)
 };
 
-/// Antipodal pairs (both normals within 35 degrees of the line through them), cheapest first. About
-/// 300 points spread evenly over the surface each look straight in for the first and the last
+/// Antipodal pairs (both normals within 35 degrees of the line through them), cheapest first.
+/// Points spread evenly over the surface each look straight in for the first and the last
 /// surface behind. Normals are means over a pad: taken from the distance 3 mm off the surface;
 /// points where that differs from the triangle's by more than 25 degrees lie on an edge and are
 /// left out. The same for a moved, turned or mirrored product.

@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/equilibrium/least_effort.h"
 #include "palmar/grasp/equilibrium/nearby_rests.h"
+#include "palmar/grasp/grip_needs.h"
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/precision/precision_shape.h"
 #include "palmar/grasp/rest/hold_at_rest.h"
@@ -235,6 +237,15 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   return balance;
 }
 
+/// What a grip at rest lacks to be one, in words (lacking_contact()): skin that touches has friction.
+std::string lacking_at_rest(const hand::Hand& hand, Grip grip, const Balance& balance) {
+  std::set<hand::Region> touching;
+  for (std::size_t v = 0; v < balance.friction_force.size(); ++v) {
+    if (!balance.friction_force[v].isZero()) touching.insert(hand.region[v]);
+  }
+  return lacking_contact(grip, {touching.begin(), touching.end()});
+}
+
 /// A precision grip comes to rest; if it doesn't where fingertips were first put, people put them
 /// elsewhere: where the search found the next best places.
 Balance settle_precision(const contact::PreparedHand& hand, const product::Product& product,
@@ -242,7 +253,12 @@ Balance settle_precision(const contact::PreparedHand& hand, const product::Produ
                          const contact::ContactOptions& contact, const Progress& progress) {
   const Grasp chosen = grasp;
   const Balance first = settle(hand, product, grasp, options, contact, progress);
-  if (first.status != BalanceStatus::kSlipsOut || chosen.status != GraspStatus::kHeld) return first;
+  std::string why = first.status == BalanceStatus::kSlipsOut ? first.message : "";
+  const bool is_whole = chosen.status == GraspStatus::kHeld;
+  if (why.empty() && options.takes_other_holds && first.status == BalanceStatus::kBalanced) {
+    why = is_whole ? lacking_at_rest(hand.hand(), grasp.grip, first) : chosen.message;
+  }
+  if (why.empty() || (!is_whole && !options.takes_other_holds)) return first;
   const double least_score = chosen.score + std::log(kAsGoodAHold);
   for (std::size_t i = 0; i < chosen.runners_up.size(); ++i) {
     const GraspRunnerUp& other = chosen.runners_up[i];
@@ -261,9 +277,9 @@ Balance settle_precision(const contact::PreparedHand& hand, const product::Produ
     if (there.status != GraspStatus::kHeld) continue;
     Balance balance = settle(hand, product, there, options, contact, progress);
     if (balance.status != BalanceStatus::kBalanced) continue;
-    there.message += other.hold ? "; the hold first chosen (" + chosen.hold_words +
-                                      "): " + first.message
-                                : "; the place first chosen: " + first.message;
+    if (other.hold && !lacking_at_rest(hand.hand(), there.grip, balance).empty()) continue;
+    there.message += other.hold ? "; the hold first chosen, " + chosen.hold_words + ": " + why
+                                : "; the place first chosen: " + why;
     grasp = std::move(there);
     return balance;
   }

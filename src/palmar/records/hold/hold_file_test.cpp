@@ -106,6 +106,27 @@ TEST(HoldFile, FingertipsAreInThePartsCoordinates) {
   }
 }
 
+TEST(HoldFile, TheWristsSideOfFingertipsReadsBackExactly) {
+  HoldFile file;
+  file.hold.grip = grasp::Grip::kPalmarPinch;
+  file.hold.fingertips = {{hand::Finger::kThumb, {.along = 0.5, .turn = 1.0, .height = 5.0}},
+                          {hand::Finger::kIndex, {.along = 0.5, .turn = -2.0, .height = 5.0}}};
+  EXPECT_FALSE(read_hold_text(hold_toml(file)).hold.wrist.has_value());
+  file.hold.wrist = Vec3(0.3, -0.5, 0.7).normalized();
+  EXPECT_EQ(read_hold_text(hold_toml(file)).hold.wrist, file.hold.wrist);
+  const std::string text = hold_toml(file);
+  const std::size_t at = text.find("wrist = ");
+  const auto with = [&](const std::string& line) {
+    std::string changed = text;
+    return changed.replace(at, text.find('\n', at) - at, line);
+  };
+  EXPECT_EQ(read_hold_text(with("wrist = [0, 0, 2]")).hold.wrist, Vec3(0.0, 0.0, 1.0));
+  EXPECT_THAT(hold_message(with("wrist = [0, 0, 0]")), HasSubstr("wrist has no direction"));
+  EXPECT_THAT(hold_message(with("wrist = [0, 1]")), HasSubstr("wrist has 2 numbers; three"));
+  EXPECT_THAT(hold_message(kShortest + "wrist = [0, 0, 1]\n"),
+              HasSubstr("wrist goes with grips of fingertips only"));
+}
+
 TEST(HoldFile, WhatIsNotSaidHasItsDefault) {
   const HoldFile file = read_hold_text(kShortest);
   EXPECT_EQ(file.product, "");

@@ -1,0 +1,127 @@
+// Copyright the Palmar authors.
+// SPDX-License-Identifier: Apache-2.0
+#include "palmar/grasp/holds/fit_holds.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "palmar/core/error.h"
+
+namespace palmar::grasp {
+namespace {
+
+constexpr double kApart = 1000.0;  // mm between holds: none is mistaken for another
+
+OpposedHold hold_at(double place, HoldFeatures features) {
+  OpposedHold hold;
+  for (Vec3& point : hold.points.point) point = Vec3(place, 0.0, 0.0);
+  hold.features = features;
+  return hold;
+}
+
+HandPoints seen_at(double place) {
+  HandPoints points;
+  for (Vec3& point : points.point) point = Vec3(place, 0.0, 0.0);
+  return points;
+}
+
+/// Two kinds of holds that one feature tells apart, `first` of people's at the one and the others
+/// at the other.
+ObservedObject two_kinds(int first, int others) {
+  ObservedObject object;
+  object.name = "bar";
+  HoldFeatures features = HoldFeatures::Zero();
+  object.candidates.push_back(hold_at(0.0, features));
+  features[0] = 1.0;
+  object.candidates.push_back(hold_at(kApart, features));
+  object.candidates.push_back(hold_at(2.0 * kApart, features));
+  for (int i = 0; i < first; ++i) object.seen.push_back(seen_at(0.0));
+  for (int i = 0; i < others; ++i) object.seen.push_back(seen_at(kApart));
+  return object;
+}
+
+// The likelihood of a logit with one feature of two values is largest at the logarithm of the odds
+// (McFadden 1974): here, of two holds of the second kind one of which alone is seen,
+// p_2 / p_1 = (others / 2) / first if each is as likely.
+TEST(FitHolds, OneFeatureOfTwoValuesGetsTheLogarithmOfTheOdds) {
+  ObservedObject object = two_kinds(1000, 3000);
+  for (int i = 0; i < 3000; ++i) object.seen.push_back(seen_at(2.0 * kApart));
+  const HoldFit fit = fit_holds({object, object});
+  const double slope = fit.weights.weight[0] / fit.weights.spread[0];
+  EXPECT_NEAR(slope, std::log(3.0), 0.01);  // the ridge pulls it down a little
+  for (int k = 1; k < kHoldFeatureCount; ++k) EXPECT_NEAR(fit.weights.weight[k], 0.0, 1e-9);
+  // -sum p ln p with p = 1/7, 3/7, 3/7.
+  EXPECT_NEAR(fit.likelihood, std::log(1.0 / 7.0) / 7.0 + 6.0 / 7.0 * std::log(3.0 / 7.0), 1e-4);
+}
+
+TEST(FitHolds, FindsWeightsThatHoldsWereDrawnWith) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  HoldFeatures truth;
+  truth << 1.0, -0.5, 0.0, 0.3, -1.2, 0.0, 0.8, 0.0, -0.2;
+  std::vector<ObservedObject> objects(8);
+  for (ObservedObject& object : objects) {
+    object.name = "thing";
+    std::vector<double> chance;
+    for (int c = 0; c < 200; ++c) {
+      HoldFeatures features;
+      for (double& x : features) x = normal(random);
+      object.candidates.push_back(hold_at(c * kApart, features));
+      chance.push_back(std::exp(truth.dot(features)));
+    }
+    std::discrete_distribution<int> draw(chance.begin(), chance.end());
+    for (int i = 0; i < 400; ++i) object.seen.push_back(seen_at(draw(random) * kApart));
+  }
+  const HoldFit fit = fit_holds(objects);
+  for (int k = 0; k < kHoldFeatureCount; ++k) {
+    EXPECT_NEAR(fit.weights.weight[k] / fit.weights.spread[k], truth[k], 0.1) << k;
+  }
+  // What is left out is told nearly as well as what is fitted, and better than by even chances.
+  for (const LeftOut& one : fit.left_out) {
+    EXPECT_GT(one.likelihood, one.even + 0.5);
+    EXPECT_NEAR(one.likelihood, fit.likelihood, 0.5);
+    EXPECT_NEAR(one.even, -std::log(200.0), 1e-6);
+    EXPECT_EQ(one.seen, 400);
+  }
+}
+
+TEST(FitHolds, TheFirstModeIsWherePeoplesHoldsAreDensestAndTheNextElsewhere) {
+  // Three alike holds of 0.2 each beside one of 0.4: together they are denser.
+  std::vector<OpposedHold> holds;
+  for (const double place : {0.0, 3.0, 6.0, kApart}) {
+    holds.push_back(hold_at(place, HoldFeatures::Zero()));
+  }
+  Eigen::VectorXd chance(4);
+  chance << 0.2, 0.2, 0.2, 0.4;
+  const std::vector<HoldMode> modes = modes_of(holds, chance, 8);
+  ASSERT_EQ(modes.size(), 2U);  // the two beside the first are the same hold
+  EXPECT_EQ(modes[0].hold, 1U);
+  EXPECT_EQ(modes[0].score, 0.0);
+  EXPECT_EQ(modes[1].hold, 3U);
+  const double near = std::exp(-0.5 * 9.0 / 400.0);  // 3 mm at a density of 20 mm
+  EXPECT_NEAR(modes[1].score, std::log(0.4 / (0.2 + 0.4 * near)), 1e-12);
+}
+
+TEST(FitHolds, RefusesWhatCantBeFitted) {
+  const auto message = [](const std::vector<ObservedObject>& objects) -> std::string {
+    try {
+      fit_holds(objects);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message({two_kinds(1, 1)}), "fitting holds: at least two objects are required");
+  ObservedObject unseen = two_kinds(0, 0);
+  EXPECT_EQ(message({unseen, unseen}), "fitting holds: bar has no holds of people");
+  ObservedObject sheet = two_kinds(1, 1);
+  sheet.candidates.clear();
+  EXPECT_EQ(message({sheet, sheet}),
+            "fitting holds: bar has no two opposite places that a hand spans");
+}
+
+}  // namespace
+}  // namespace palmar::grasp
