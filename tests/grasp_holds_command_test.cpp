@@ -148,9 +148,8 @@ TEST(GraspHolds, ATableThatCantBeFittedIsRefused) {
               AllOf(HasSubstr("3 "), HasSubstr("nowhere.csv")));
   EXPECT_THAT(refused("grasp holds bar.stl --unit mm --hold-weights bar.stl"),
               AllOf(HasSubstr("2 "), HasSubstr("--hold-weights goes with --purpose hand-over")));
-  EXPECT_THAT(
-      refused("grasp holds bar.stl --unit mm --purpose hand-over --hold-weights none.csv"),
-      AllOf(HasSubstr("3 "), HasSubstr("none.csv")));
+  EXPECT_THAT(refused("grasp holds bar.stl --unit mm --purpose hand-over --hold-weights none.csv"),
+              AllOf(HasSubstr("3 "), HasSubstr("none.csv")));
 }
 
 TEST(GraspHolds, WhatContradictsIsAUsageError) {

@@ -20,13 +20,14 @@
 namespace palmar::tests {
 namespace {
 
-constexpr double kSameHold = 35.0;  // mm: holds of the list are farther apart, root mean square of wrist and fingertips
-constexpr double kAsGood = 0.35;    // of a score: three quarters as often
+constexpr double kSameHold =
+    35.0;  // mm: holds of the list are farther apart, root mean square of wrist and fingertips
+constexpr double kAsGood = 0.35;  // of a score: three quarters as often
 
 // Without symmetry by which one hold is as good as another elsewhere.
 const std::vector<std::string>& products() {
-  static const std::vector<std::string> names = {"hammer", "spray_bottle", "kettle", "kitchen_knife",
-                                                 "frying_pan"};
+  static const std::vector<std::string> names = {"hammer", "spray_bottle", "kettle",
+                                                 "kitchen_knife", "frying_pan"};
   return names;
 }
 
@@ -66,9 +67,8 @@ class OfferedHolds : public TemplateTest, public testing::WithParamInterface<std
                : known.emplace(GetParam(), offered(hand(), tried_product(GetParam())))
                      .first->second;
   }
-  static void expect_same(const product::Product& other, const Motion& back = [](const Vec3& p) {
-    return p;
-  }) {
+  static void expect_same(
+      const product::Product& other, const Motion& back = [](const Vec3& p) { return p; }) {
     const double d = away(hand(), as_it_is(), hand(), offered(hand(), other), back);
     EXPECT_LT(d, kSameHold);
   }
@@ -91,8 +91,9 @@ TEST_P(OfferedHolds, StayWhenTrianglesAreShuffled) {
 
 TEST_P(OfferedHolds, AreMirroredWithProductAndHand) {
   const hand::Hand left = mirrored(hand());
-  const double d = away(hand(), as_it_is(), left, offered(left, mirrored(tried_product(GetParam()))),
-                        [](const Vec3& p) { return Vec3(-p.x(), p.y(), p.z()); });
+  const double d =
+      away(hand(), as_it_is(), left, offered(left, mirrored(tried_product(GetParam()))),
+           [](const Vec3& p) { return Vec3(-p.x(), p.y(), p.z()); });
   EXPECT_LT(d, kSameHold);
 }
 

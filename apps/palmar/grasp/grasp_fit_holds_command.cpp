@@ -24,9 +24,9 @@ std::string fit_text(const grasp::HoldFit& fit) {
       "nearest candidate\n";
   double likelihood = 0.0, even = 0.0, holds = 0.0;
   for (const grasp::LeftOut& one : fit.left_out) {
-    text += fmt::format("{:<25} {:5d} {:15.2f} {:13.2f} {:8.0f} mm {:7.0f} mm {:12.0f} mm\n",
-                        one.name, one.seen, one.likelihood, one.even, one.first, one.best_of_eight,
-                        one.nearest);
+    text +=
+        fmt::format("{:<25} {:5d} {:15.2f} {:13.2f} {:8.0f} mm {:7.0f} mm {:12.0f} mm\n", one.name,
+                    one.seen, one.likelihood, one.even, one.first, one.best_of_eight, one.nearest);
     likelihood += one.seen * one.likelihood;
     even += one.seen * one.even;
     holds += one.seen;

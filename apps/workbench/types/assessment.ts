@@ -286,6 +286,8 @@ export interface HoldResult {
   over_end: boolean;
   words: string;
   fingertips?: { finger: string; along: number; turn_deg: number; height_mm: number }[];
+  along_toward?: [number, number, number]; // where along grows, the product's frame
+  turn_from?: [number, number, number];
   wrist?: [number, number, number]; // from the fingertips' middle, the product's frame
   score?: number | null; // where it was ranked
   terms?: HoldTerm[];

@@ -26,10 +26,10 @@ enum class Grip : std::uint8_t {
   kPrecisionDisk,    ///< 12: five fingertips round the rim of a lid or knob, palm over its face
   kWritingTripod,    ///< 20: thumb and index finger press a pen on the side of the middle finger
   kDistalType,       ///< 19: thumb through one ring, fingers through another: scissors
-  kPrismatic,        ///< 6, "prismatic 4 finger": thumb pad against the pads of four fingers in line
-  kRestingHand,      ///< a relaxed hand lies on a thing: on a computer mouse, a palm rest
-  kFlatHand,         ///< a flat hand lies on a thing: on a plate, a table
-  kFingerPush,       ///< the index finger presses: on a button, a key
+  kPrismatic,    ///< 6, "prismatic 4 finger": thumb pad against the pads of four fingers in line
+  kRestingHand,  ///< a relaxed hand lies on a thing: on a computer mouse, a palm rest
+  kFlatHand,     ///< a flat hand lies on a thing: on a plate, a table
+  kFingerPush,   ///< the index finger presses: on a button, a key
 };
 inline constexpr int kGripCount = 17;
 

@@ -18,6 +18,13 @@ struct HoldFingertip {
   product::PartPlace place;
 };
 
+/// Where a hold's part lay in the product's frame, so that it means the same on the product's next
+/// version, whose part may be counted from its other end. Unit vectors.
+struct HoldAnchor {
+  Vec3 along = Vec3::UnitX();  ///< from the part's beginning to its end
+  Vec3 zero = Vec3::UnitZ();   ///< from which turns are counted, where the hand is
+};
+
 /// How people take hold of a product: by which part of it, in which grip, where along it and how
 /// turned about it. It says nothing of a hand: hands of every size and both sides can take the same
 /// hold, so hands differ in size and not in how they hold.
@@ -42,6 +49,7 @@ struct Hold {
   /// Of a precision grip: from the middle between the fingertips to the wrist, unit, product frame;
   /// unset: where the hand is least bent.
   std::optional<Vec3> wrist;
+  std::optional<HoldAnchor> anchor;  ///< where it was found; unset: not said
 };
 
 /// One reason for or against a hold. Scores add up; each is the natural logarithm of how much

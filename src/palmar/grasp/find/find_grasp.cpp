@@ -19,6 +19,10 @@ bool GraspOptions::is_placed() const {
   return says(power.placement);
 }
 
+bool GraspOptions::leaves_hold_open() const {
+  return holds.purpose == HoldPurpose::kHandOver && !hold && hold_rank == 1 && !is_placed();
+}
+
 void GraspOptions::check() const {
   if (grip_force && !(*grip_force > 0.0 && std::isfinite(*grip_force))) {
     throw UsageError("setting \"grip force\" is " + std::to_string(*grip_force) +

@@ -30,6 +30,8 @@ struct GraspOptions {
 
   /// Whether coordinates say where the hand goes.
   bool is_placed() const;
+  /// Whether the first of the holds to hand it over was asked for, and any of them will do.
+  bool leaves_hold_open() const;
   void check() const;  ///< throws UsageError
 };
 

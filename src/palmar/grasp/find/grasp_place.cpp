@@ -11,6 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/holds/firm_hold.h"
+#include "palmar/grasp/holds/hold_anchor.h"
 #include "palmar/grasp/holds/hold_place.h"
 #include "palmar/grasp/holds/laid_holds.h"
 #include "palmar/grasp/holds/power_place.h"
@@ -106,7 +107,7 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
   power = options.power;
   if (options.hold) {
     ranked.parts = options.parts ? *options.parts : product::find_parts(*product);
-    hold = options.hold;
+    hold = as_anchored(*options.hold, ranked.parts);
   } else {
     HoldOptions asked = options.holds;
     asked.grip = options.grip;
@@ -161,9 +162,9 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
       grasp.score = other.score;
       grasp.hold_terms = other.terms;
     } else {
-      grasp.runners_up.push_back(
-          {other.hold.grip, other.grasp.posture, other.grasp.product_from_hand, other.score,
-           other.hold, other.words});
+      grasp.runners_up.push_back({other.hold.grip, other.grasp.posture,
+                                  other.grasp.product_from_hand, other.score, other.hold,
+                                  other.words});
     }
   }
   std::stable_sort(

@@ -11,8 +11,8 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr double kSeen = 20.0;   // mm; s
-constexpr double kRidge = 5.0;   // r
+constexpr double kSeen = 20.0;  // mm; s
+constexpr double kRidge = 5.0;  // r
 constexpr int kMostSteps = 40;
 constexpr double kSettled = 1e-5;
 constexpr double kNever = 1e-300;  // a likelihood that rounds to nothing
@@ -106,8 +106,7 @@ HoldFit fit_holds(const std::vector<ObservedObject>& objects) {
   }
   HoldWeights& weights = fit.weights;
   weights.mean = sum / count;
-  weights.spread =
-      (squares / count - weights.mean.cwiseAbs2()).cwiseMax(1e-12).cwiseSqrt();
+  weights.spread = (squares / count - weights.mean.cwiseAbs2()).cwiseMax(1e-12).cwiseSqrt();
   std::vector<Seen> seen(objects.size());
   for (std::size_t o = 0; o < objects.size(); ++o) {
     const ObservedObject& object = objects[o];
@@ -120,8 +119,7 @@ HoldFit fit_holds(const std::vector<ObservedObject>& objects) {
       seen[o].features.row(c) =
           (hold.features - weights.mean).cwiseQuotient(weights.spread).transpose();
       for (Eigen::Index i = 0; i < people; ++i) {
-        seen[o].distance(i, c) =
-            hold.points.distance_to(object.seen[static_cast<std::size_t>(i)]);
+        seen[o].distance(i, c) = hold.points.distance_to(object.seen[static_cast<std::size_t>(i)]);
       }
     }
     seen[o].near = (-0.5 * seen[o].distance.array().square() / (kSeen * kSeen)).exp();

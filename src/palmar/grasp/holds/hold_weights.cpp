@@ -9,20 +9,23 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr double kDensity = 20.0;          // mm; people's own spread is 15 to 50
-constexpr double kElsewhere = 35.0;        // mm from the modes before; choice
-constexpr std::size_t kLikeliest = 600;    // holds that are looked at; the others count nothing
+constexpr double kDensity = 20.0;        // mm; people's own spread is 15 to 50
+constexpr double kElsewhere = 35.0;      // mm from the modes before; choice
+constexpr std::size_t kLikeliest = 600;  // holds that are looked at; the others count nothing
 
 }  // namespace
 
-// palmar grasp fit-holds, of 192 holds of ten objects by ten people who picked each up and handed it
-// over (object_sim, of DexYCB: Chao et al. 2021, CVPR); in the order of HoldFeature.
+// palmar grasp fit-holds, of 192 holds of ten objects by ten people who picked each up and handed
+// it over (object_sim, of DexYCB: Chao et al. 2021, CVPR); in the order of HoldFeature.
 const HoldWeights& hand_over_weights() {
   static const HoldWeights weights = [] {
     HoldWeights table;
-    table.weight << 0.819939, 1.02029, -0.565677, -0.69922, -1.11431, -1.01223, 0.79928, 0.716545, 0.852323;
-    table.mean << 2.41272, 0.162831, 2.09296, 0.207613, 0.0316248, 0.0853636, 0.188831, 0.213043, 0.0709659;
-    table.spread << 1.03605, 0.401556, 1.47026, 0.346613, 0.0500059, 0.0989646, 0.191478, 0.202962, 0.134806;
+    table.weight << 0.819939, 1.02029, -0.565677, -0.69922, -1.11431, -1.01223, 0.79928, 0.716545,
+        0.852323;
+    table.mean << 2.41272, 0.162831, 2.09296, 0.207613, 0.0316248, 0.0853636, 0.188831, 0.213043,
+        0.0709659;
+    table.spread << 1.03605, 0.401556, 1.47026, 0.346613, 0.0500059, 0.0989646, 0.191478, 0.202962,
+        0.134806;
     return table;
   }();
   return weights;
@@ -39,8 +42,8 @@ Eigen::VectorXd chances(const HoldWeights& weights, const std::vector<OpposedHol
   return chance / chance.sum();
 }
 
-std::vector<HoldMode> modes_of(const std::vector<OpposedHold>& holds,
-                               const Eigen::VectorXd& chance, std::size_t most) {
+std::vector<HoldMode> modes_of(const std::vector<OpposedHold>& holds, const Eigen::VectorXd& chance,
+                               std::size_t most) {
   std::vector<std::size_t> order(holds.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

@@ -34,7 +34,7 @@ struct HoldMode {
 ///     sum_c p_c exp(-d^2 / 2 h^2),   d = HandPoints::distance_to(c), h = 20 mm,
 ///
 /// is largest, then where it is so at least 35 mm from those before; at most `most`.
-std::vector<HoldMode> modes_of(const std::vector<OpposedHold>& holds,
-                               const Eigen::VectorXd& chance, std::size_t most);
+std::vector<HoldMode> modes_of(const std::vector<OpposedHold>& holds, const Eigen::VectorXd& chance,
+                               std::size_t most);
 
 }  // namespace palmar::grasp

@@ -77,8 +77,8 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
   const HoldWeights& weights = options.weights ? *options.weights : hand_over_weights();
   const std::vector<HoldMode> modes =
       modes_of(all, chances(weights, all), static_cast<std::size_t>(options.most) + kSpareModes);
-  // What speaks against a hold in a feature: what the best of these has there, less what it has. The
-  // modes' order is by the density of like holds, so its neighbours speak, too.
+  // What speaks against a hold in a feature: what the best of these has there, less what it has.
+  // The modes' order is by the density of like holds, so its neighbours speak, too.
   const HoldFeatures slope = weights.weight.cwiseQuotient(weights.spread);
   const auto share_of = [&](const HoldMode& mode) -> HoldFeatures {
     return slope.cwiseProduct(all[mode.hold].features);

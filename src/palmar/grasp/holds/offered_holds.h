@@ -14,8 +14,8 @@ namespace palmar::grasp {
 bool are_offered(const HoldOptions& options);
 
 /// How people take a product to hand it over, by weights that were fitted to such holds: where the
-/// density of theirs is largest (modes_of()) the fingertips come down. Best first by score; of those
-/// whose fingertips don't reach it, or run into it, the terms say so.
+/// density of theirs is largest (modes_of()) the fingertips come down. Best first by score; of
+/// those whose fingertips don't reach it, or run into it, the terms say so.
 std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions& options,
                                       int& considered, const Progress& progress);
 

@@ -33,9 +33,9 @@ constexpr double kBeyondThumb = 40.0, kBeyondTips = 30.0, kBeyondRamp = 5.0;
 constexpr double kPalmShare = 0.6;  // of the way from the wrist to the knuckles
 
 struct Axes {
-  Vec3 centre;             // of volume
-  Eigen::Matrix3d axes;    // longest extent first
-  Vec3 extent;             // mm
+  Vec3 centre;           // of volume
+  Eigen::Matrix3d axes;  // longest extent first
+  Vec3 extent;           // mm
 };
 
 Axes sorted_axes(const PinchShape& shape) {
@@ -105,8 +105,8 @@ HoldFeatures FeatureScene::features_of(const HandPoints& points, const hand::Pos
   }
   at(kFingersOnIt) = on_it;
   at(kDepth) = deepest / kDepthUnit;
-  at(kCrossing) = std::log1p(ik_->clash_of(field_, posture, product_from_hand, contacts) /
-                             kCrossingUnit);
+  at(kCrossing) =
+      std::log1p(ik_->clash_of(field_, posture, product_from_hand, contacts) / kCrossingUnit);
   const Vec3 knuckles = 0.5 * (hand_->skeleton.joint(hand::JointId::kMiddleMcp).centre +
                                hand_->skeleton.joint(hand::JointId::kRingMcp).centre);
   const Vec3 palm = product_from_hand * Vec3(kPalmShare * knuckles + kPalmSkin * Vec3::UnitZ());
@@ -134,10 +134,12 @@ struct FeatureText {
 };
 constexpr std::array<FeatureText, kHoldFeatureCount> kTexts = {{
     {"fingers_on_it", "the fingers are on it", "not all fingers are on it"},
-    {"depth", "it lies deep between thumb and fingers", "it lies shallow between thumb and fingers"},
+    {"depth", "it lies deep between thumb and fingers",
+     "it lies shallow between thumb and fingers"},
     {"crossing", "little room for the hand", "room for the hand"},
     {"palm", "the palm is against it", "the palm is clear of it"},
-    {"weight_along", "its weight is beside the fingers' row", "its weight is within the fingers' row"},
+    {"weight_along", "its weight is beside the fingers' row",
+     "its weight is within the fingers' row"},
     {"weight_beside", "its weight is beside the line from thumb to fingers",
      "its weight is between thumb and fingers"},
     {"beyond_thumb_side", "much of it is beyond the thumb's side",
@@ -189,8 +191,7 @@ std::vector<OpposedHold> opposed_holds(OpenedHand& opened, const product::Produc
   wanted.widest = kWidest * hand.dimensions.hand_length;
   wanted.most = std::numeric_limits<int>::max();
   wanted.points = kPairPoints;
-  const std::vector<OpposingPair> pairs =
-      find_opposing_pairs(product, scene.shape(), wanted);
+  const std::vector<OpposingPair> pairs = find_opposing_pairs(product, scene.shape(), wanted);
   std::vector<OpposedHold> holds;
   for (const Grip grip : kGrips) {
     progress.throw_if_cancelled();
@@ -210,9 +211,8 @@ std::vector<OpposedHold> opposed_holds(OpenedHand& opened, const product::Produc
           hold.grip = grip;
           hold.place = opposed_place(hand, opening, scene.shape(), thumb, others, turn);
           hold.points = hand_points(hand, opening.posture, hold.place.product_from_hand);
-          hold.features =
-              scene.features_of(hold.points, opening.posture, hold.place.product_from_hand,
-                                openings.fingertips());
+          hold.features = scene.features_of(hold.points, opening.posture,
+                                            hold.place.product_from_hand, openings.fingertips());
           found[static_cast<std::size_t>(i)].push_back(hold);
         }
       }

@@ -28,20 +28,21 @@ HandPoints hand_points(const hand::Hand& hand, const hand::Posture& posture,
 /// What a hold is judged by before anything is closed: each a smooth function of the posed hand and
 /// of the product's shape, the same whatever the product's triangles and wherever it lies.
 enum class HoldFeature : std::uint8_t {
-  kFingersOnIt,        ///< of four, how many fingertips are at its surface (a bell of 15 mm)
-  kDepth,              ///< how far the deepest fingertip is in it: up to 3 cm
-  kCrossing,           ///< ln(1 + c / 5 mm), c how far fingers, palm and forearm are in it, summed
-  kPalm,               ///< 1 if it touches the palm, nearly 0 if it is 30 mm away
-  kWeightAlong,        ///< (a / L)^2, a its centre of gravity from the grip along the fingers' row
-  kWeightBeside,       ///< |b| / L, b the same along the line from fingers to thumb
-  kBeyondThumbSide,    ///< share of its surface more than 40 mm beyond the grip there
-  kBeyondFingertips,   ///< share of its surface more than 30 mm beyond the grip, off the wrist
-  kRowAcrossFlat,      ///< flatness times the square of cos(fingers' row, shortest axis)
+  kFingersOnIt,       ///< of four, how many fingertips are at its surface (a bell of 15 mm)
+  kDepth,             ///< how far the deepest fingertip is in it: up to 3 cm
+  kCrossing,          ///< ln(1 + c / 5 mm), c how far fingers, palm and forearm are in it, summed
+  kPalm,              ///< 1 if it touches the palm, nearly 0 if it is 30 mm away
+  kWeightAlong,       ///< (a / L)^2, a its centre of gravity from the grip along the fingers' row
+  kWeightBeside,      ///< |b| / L, b the same along the line from fingers to thumb
+  kBeyondThumbSide,   ///< share of its surface more than 40 mm beyond the grip there
+  kBeyondFingertips,  ///< share of its surface more than 30 mm beyond the grip, off the wrist
+  kRowAcrossFlat,     ///< flatness times the square of cos(fingers' row, shortest axis)
 };
 inline constexpr int kHoldFeatureCount = 9;
 using HoldFeatures = Eigen::Matrix<double, kHoldFeatureCount, 1>;
 std::string_view name_of(HoldFeature feature);  ///< "fingers_on_it", as in a file of weights
-/// For people, a clause: what it is like if there is much of it, "all fingers are on it", or little.
+/// For people, a clause: what it is like if there is much of it, "all fingers are on it", or
+/// little.
 std::string_view words_of(HoldFeature feature, bool is_much);
 
 /// A hold between the pads of thumb and fingers: the hand opened to the distance of two opposite

@@ -11,6 +11,7 @@
 
 #include "palmar/core/error.h"
 #include "palmar/grasp/holds/hold.h"
+#include "palmar/grasp/holds/hold_anchor.h"
 #include "palmar/grasp/holds/hold_candidates.h"
 #include "palmar/grasp/holds/hold_limits.h"
 #include "palmar/grasp/holds/hold_place.h"
@@ -246,6 +247,7 @@ RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
     hold.ranked.score = sum_of(hold.ranked.terms);
     hold.ranked.grasp.score = hold.ranked.score;
     hold.ranked.words = words_of(hold.ranked.hold, result.parts);
+    hold.ranked.hold.anchor = anchor_of(hold.ranked.hold, result.parts);
     hold.ranked.against = against(hold.ranked.terms);
   }
   std::stable_sort(closed.begin(), closed.end(), [](const ClosedHold& a, const ClosedHold& b) {

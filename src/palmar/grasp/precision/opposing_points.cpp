@@ -240,8 +240,8 @@ geometry::TriangleMesh near_part(const geometry::TriangleMesh& mesh, const Vec3&
 std::vector<OpposingPair> find_opposing_pairs(const product::Product& product,
                                               const PinchShape& shape,
                                               const OpposingOptions& options) {
-  const std::vector<SurfacePoint> points =
-      spread_points(options.at ? near_part(product.mesh, *options.at) : product.mesh, options.points);
+  const std::vector<SurfacePoint> points = spread_points(
+      options.at ? near_part(product.mesh, *options.at) : product.mesh, options.points);
   const double unit = options.at ? kAwayFromPlace : kAway;
   const geometry::RayQuery rays(product.mesh);
   const std::vector<Vec3> normals = geometry::triangle_normals(product.mesh);

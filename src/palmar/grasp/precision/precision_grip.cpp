@@ -262,11 +262,11 @@ void put_beside(const hand::Hand& hand, const product::Product& product, Grasp& 
 
 void PrecisionGripOptions::check() const {
   if (is_power(grip)) {
-    throw UsageError(
-        fmt::format("grip {} is no precision grip; tip_pinch, palmar_pinch, tripod, "
-                    "writing_tripod, lateral, precision_sphere, precision_disk, prismatic or distal_type is "
-                    "allowed",
-                    name_of(grip)));
+    throw UsageError(fmt::format(
+        "grip {} is no precision grip; tip_pinch, palmar_pinch, tripod, "
+        "writing_tripod, lateral, precision_sphere, precision_disk, prismatic or distal_type is "
+        "allowed",
+        name_of(grip)));
   }
   if (!(fingertip_depth > 0.0) || fingertip_depth > 6.0) {
     throw UsageError(fmt::format("fingertip depth is {:g} mm; above 0 and at most 6 mm is allowed",

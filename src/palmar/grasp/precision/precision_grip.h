@@ -27,15 +27,16 @@ struct OpposedPlace {
 struct PrecisionGripOptions {
   Grip grip = Grip::kTripod;             ///< a precision or the lateral grip
   std::vector<FingertipTarget> targets;  ///< empty: found from the product's shape
-  /// Fingertips come down on the surface from here, and nothing is searched; goes without `targets`.
+  /// Fingertips come down on the surface from here, and nothing is searched; goes without
+  /// `targets`.
   std::optional<OpposedPlace> from;
   /// With `targets`: where the wrist likes to be, from the middle between the fingertips; unit,
   /// product frame. Unset: where the hand is least bent.
   std::optional<Vec3> wrist;
-  double fingertip_depth = 2.0;          ///< mm; how deep pads are pressed into the product
-  PlacementRequest placement;            ///< hints for the search where `targets` is empty
-  int candidates = 200;                  ///< placements to try, coarse to fine
-  void check() const;                    ///< throws UsageError: field, value, allowed range
+  double fingertip_depth = 2.0;  ///< mm; how deep pads are pressed into the product
+  PlacementRequest placement;    ///< hints for the search where `targets` is empty
+  int candidates = 200;          ///< placements to try, coarse to fine
+  void check() const;            ///< throws UsageError: field, value, allowed range
 };
 
 /// Precision grip (docs/method/precision.md): pads of the grip's fingers on points of the product

@@ -222,9 +222,8 @@ double Search::placing_cost(const geometry::Rigid3& product_from_hand) const {
 }
 
 PrecisionHold Search::set_down_on(const Candidate& candidate, const OpposingPair& pair) const {
-  PrecisionHold hold = set_down(
-      *ik_, *openings_, *product_,
-      {candidate.thumb, candidate.other, candidate.product_from_hand});
+  PrecisionHold hold = set_down(*ik_, *openings_, *product_,
+                                {candidate.thumb, candidate.other, candidate.product_from_hand});
   hold.cost += pair.cost + openings_->at(pair.width()).strain / kStrainUnit +
                placing_cost(hold.solution.product_from_hand);
   return hold;

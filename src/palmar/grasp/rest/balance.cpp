@@ -237,7 +237,8 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   return balance;
 }
 
-/// What a grip at rest lacks to be one, in words (lacking_contact()): skin that touches has friction.
+/// What a grip at rest lacks to be one, in words (lacking_contact()): skin that touches has
+/// friction.
 std::string lacking_at_rest(const hand::Hand& hand, Grip grip, const Balance& balance) {
   std::set<hand::Region> touching;
   for (std::size_t v = 0; v < balance.friction_force.size(); ++v) {

@@ -14,9 +14,8 @@ namespace {
 
 /// In the order in which they are tried among those with as many fingers.
 constexpr std::array kOtherGrips = {
-    Grip::kWritingTripod, Grip::kPalmarPinch,     Grip::kLateral,      Grip::kTipPinch,
-    Grip::kTripod,        Grip::kPrecisionSphere, Grip::kPrecisionDisk,
-    Grip::kPrismatic};
+    Grip::kWritingTripod, Grip::kPalmarPinch,     Grip::kLateral,       Grip::kTipPinch,
+    Grip::kTripod,        Grip::kPrecisionSphere, Grip::kPrecisionDisk, Grip::kPrismatic};
 
 bool holds(const contact::PreparedHand& hand, const product::Product& product,
            const GraspOptions& options, const BalanceOptions& balance,

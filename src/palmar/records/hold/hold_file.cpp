@@ -86,23 +86,42 @@ void check_fingertips(const formats::TomlSection& file, const grasp::Hold& hold)
   }
 }
 
-std::optional<Vec3> read_wrist(const formats::TomlSection& file, const grasp::Hold& hold) {
-  if (!file.has("wrist")) return std::nullopt;
-  const std::vector<double> numbers = file.numbers("wrist", "", -kMostHeight, kMostHeight);
-  if (hold.fingertips.empty()) {
-    file.fail("wrist", "goes with grips of fingertips only; turn_deg says where the palm lies");
-  }
+/// A direction of the product's frame, as a unit vector.
+std::optional<Vec3> read_direction(const formats::TomlSection& file, const char* key) {
+  if (!file.has(key)) return std::nullopt;
+  const std::vector<double> numbers = file.numbers(key, "", -kMostHeight, kMostHeight);
   if (numbers.size() != 3) {
-    file.fail("wrist", fmt::format("has {} numbers; three, of a direction in the product's frame, "
-                                   "are required",
-                                   numbers.size()));
+    file.fail(key, fmt::format("has {} numbers; three, of a direction in the product's frame, are "
+                               "required",
+                               numbers.size()));
   }
   const Vec3 direction(numbers[0], numbers[1], numbers[2]);
   if (direction.norm() < 1e-9) {
-    file.fail("wrist", "has no direction; three numbers, not all 0, are required");
+    file.fail(key, "has no direction; three numbers, not all 0, are required");
   }
   // What is a unit vector already stays as it is, to the last digit.
   return std::abs(direction.norm() - 1.0) < 1e-12 ? direction : Vec3(direction.normalized());
+}
+
+void read_directions(const formats::TomlSection& file, grasp::Hold& hold) {
+  hold.wrist = read_direction(file, "wrist");
+  if (hold.wrist && hold.fingertips.empty()) {
+    file.fail("wrist", "goes with grips of fingertips only; turn_deg says where the palm lies");
+  }
+  const std::optional<Vec3> along = read_direction(file, "along_toward");
+  const std::optional<Vec3> zero = read_direction(file, "turn_from");
+  if (along.has_value() != zero.has_value()) {
+    file.fail(
+        along ? "along_toward" : "turn_from",
+        fmt::format("stands alone; {} is required, too", along ? "turn_from" : "along_toward"));
+  }
+  if (along) hold.anchor = {*along, *zero};
+}
+
+std::string direction_line(const char* key, const Vec3& direction, const char* words) {
+  return fmt::format("{} = [{}, {}, {}]  # {}\n", key, formats::toml_number(direction.x()),
+                     formats::toml_number(direction.y()), formats::toml_number(direction.z()),
+                     words);
 }
 
 /// Degrees that read back to an angle, with as few digits as say so; 45.0 for pi / 4.
@@ -127,7 +146,7 @@ HoldFile read_hold(const std::string& path) {
   const toml::table table = formats::parse_toml(formats::read_file(path, kMostHoldBytes), path);
   const formats::TomlSection file(path, "", table);
   file.allow({"version", "product", "part", "part_name", "grip", "along", "edge", "toward",
-              "turn_deg", "over_end", "wrist", "fingertip"});
+              "turn_deg", "over_end", "wrist", "along_toward", "turn_from", "fingertip"});
   // A newer file may hold more than this program knows, so its version is looked at first.
   const auto version = file.integer("version", 1, std::numeric_limits<std::int64_t>::max());
   if (version.value_or(1) > kHoldFileVersion) {
@@ -156,7 +175,7 @@ HoldFile read_hold(const std::string& path) {
     hold.fingertips.push_back(read_fingertip(tip));
   }
   check_fingertips(file, hold);
-  hold.wrist = read_wrist(file, hold);
+  read_directions(file, hold);
   return result;
 }
 
@@ -187,10 +206,12 @@ std::string hold_toml(const HoldFile& file) {
   text += fmt::format("over_end = {}  # the palm lies over the end of the part\n",
                       hold.is_over_end ? "true" : "false");
   if (hold.wrist) {
-    text += fmt::format(
-        "wrist = [{}, {}, {}]  # from the fingertips' middle to the wrist, the product's frame\n",
-        formats::toml_number(hold.wrist->x()), formats::toml_number(hold.wrist->y()),
-        formats::toml_number(hold.wrist->z()));
+    text += direction_line("wrist", *hold.wrist,
+                           "from the fingertips' middle to the wrist, the product's frame");
+  }
+  if (hold.anchor) {
+    text += direction_line("along_toward", hold.anchor->along, "where along grows; these two make");
+    text += direction_line("turn_from", hold.anchor->zero, "the hold the same on another version");
   }
   for (const grasp::HoldFingertip& tip : hold.fingertips) {
     text += fmt::format("\n[[fingertip]]\nfinger = {}\nalong = {}\nturn_deg = {}\nheight_mm = {}\n",

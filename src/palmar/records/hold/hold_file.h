@@ -25,6 +25,8 @@ inline constexpr int kHoldFileVersion = 1;
 ///     over_end = false          # the palm lies over the end of the part
 ///     wrist = [0.0, -0.6, 0.8]  # of a precision grip: from the fingertips' middle to the wrist,
 ///                               # the product's frame; not needed
+///     along_toward = [0, 0, 1]  # where along grows and
+///     turn_from = [1, 0, 0]     # from where turn_deg is counted, the product's frame; not needed
 ///     [[fingertip]]             # of a precision grip, once per finger
 ///     finger = "thumb"
 ///     along = 0.5

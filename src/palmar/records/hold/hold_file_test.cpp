@@ -127,6 +127,17 @@ TEST(HoldFile, TheWristsSideOfFingertipsReadsBackExactly) {
               HasSubstr("wrist goes with grips of fingertips only"));
 }
 
+TEST(HoldFile, WhereItsPartLayReadsBackExactly) {
+  HoldFile file = hook_of_a_mug();
+  file.hold.anchor = {Vec3(0.1, 0.2, -0.9).normalized(), Vec3(0.0, 0.9, 0.2).normalized()};
+  const grasp::Hold back = read_hold_text(hold_toml(file)).hold;
+  ASSERT_TRUE(back.anchor.has_value());
+  EXPECT_EQ(back.anchor->along, file.hold.anchor->along);
+  EXPECT_EQ(back.anchor->zero, file.hold.anchor->zero);
+  EXPECT_THAT(hold_message(kShortest + "turn_from = [0, 0, 1]\n"),
+              HasSubstr("turn_from stands alone; along_toward is required, too"));
+}
+
 TEST(HoldFile, WhatIsNotSaidHasItsDefault) {
   const HoldFile file = read_hold_text(kShortest);
   EXPECT_EQ(file.product, "");

@@ -45,6 +45,10 @@ HoldJson plain_hold(const grasp::Hold& hold, const std::optional<product::PartKi
                    {"turn_deg", hold.turn * geometry::kDegreesPerRadian},
                    {"over_end", hold.is_over_end},
                    {"words", words}};
+  if (hold.anchor) {
+    json["along_toward"] = vector3(hold.anchor->along);
+    json["turn_from"] = vector3(hold.anchor->zero);
+  }
   if (hold.fingertips.empty()) return json;
   HoldJson tips = HoldJson::array();
   for (const grasp::HoldFingertip& tip : hold.fingertips) {

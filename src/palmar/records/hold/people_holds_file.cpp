@@ -76,10 +76,10 @@ std::string hold_weights_toml(const grasp::HoldWeights& weights) {
       "# docs/method/holds.md says what the features are. A hold's score is the sum of\n"
       "# weight (feature - mean) / spread.\n";
   for (int k = 0; k < grasp::kHoldFeatureCount; ++k) {
-    text += fmt::format("\n[{}]\nweight = {}\nmean = {}\nspread = {}\n", name_of(feature_at(k)),
-                        formats::toml_number(weights.weight[k]),
-                        formats::toml_number(weights.mean[k]),
-                        formats::toml_number(weights.spread[k]));
+    text +=
+        fmt::format("\n[{}]\nweight = {}\nmean = {}\nspread = {}\n", name_of(feature_at(k)),
+                    formats::toml_number(weights.weight[k]), formats::toml_number(weights.mean[k]),
+                    formats::toml_number(weights.spread[k]));
   }
   return text;
 }

@@ -91,13 +91,13 @@ TEST_F(PeopleHoldsFile, WeightsOfAnotherKindAreRefused) {
   const std::string good = hold_weights_toml(grasp::hand_over_weights());
   EXPECT_THAT(why("[depth]\nweight = 1\nmean = 0\nspread = 1\n"),
               HasSubstr("table [fingers_on_it] is missing"));
-  EXPECT_THAT(why(good + "[depht]\n"), HasSubstr("did you mean depth?"));
+  EXPECT_THAT(why(good + "[depths]\n"), HasSubstr("did you mean depth?"));
   std::string flat = good;
   const std::size_t at = flat.find("spread = ");
   flat.replace(at, flat.find('\n', at) - at, "spread = 0");
   EXPECT_THAT(why(flat), HasSubstr("spread"));
   std::string odd = good;
-  odd.replace(odd.find("weight = "), 9, "wait = ");
+  odd.replace(odd.find("weight = "), 9, "weights = ");
   EXPECT_THAT(why(odd), HasSubstr("did you mean weight?"));
 }
 

@@ -161,7 +161,12 @@ Json hold_json(const std::optional<grasp::Hold>& hold) {
                {"turn_rad", hold->turn},
                {"over_end", hold->is_over_end},
                {"fingertips", fingertips_json(*hold)}};
-  if (hold->wrist) json["wrist"] = {hold->wrist->x(), hold->wrist->y(), hold->wrist->z()};
+  const auto say = [&](const char* key, const Vec3& v) { json[key] = {v.x(), v.y(), v.z()}; };
+  if (hold->wrist) say("wrist", *hold->wrist);
+  if (hold->anchor) {
+    say("along_toward", hold->anchor->along);
+    say("turn_from", hold->anchor->zero);
+  }
   return json;
 }
 
@@ -178,10 +183,12 @@ std::optional<grasp::Hold> hold_from(const Json& json) {
   hold.toward = json.at("toward");
   hold.turn = json.at("turn_rad");
   hold.is_over_end = json.at("over_end");
-  if (json.contains("wrist")) {
-    const Json& wrist = json.at("wrist");
-    hold.wrist = Vec3(wrist.at(0), wrist.at(1), wrist.at(2));
-  }
+  const auto said = [&](const char* key) {
+    const Json& three = json.at(key);
+    return Vec3(three.at(0), three.at(1), three.at(2));
+  };
+  if (json.contains("wrist")) hold.wrist = said("wrist");
+  if (json.contains("along_toward")) hold.anchor = {said("along_toward"), said("turn_from")};
   for (const Json& tip : json.at("fingertips")) {
     const auto finger = hand::finger_named(tip.at("finger").get<std::string>());
     if (!finger) throw InputError("its plan has an unknown finger: " + tip.at("finger").dump());

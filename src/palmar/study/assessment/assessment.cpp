@@ -158,9 +158,7 @@ Assessment assess(const contact::PreparedHand& hand, const product::Product& pro
   stoppable.report = nullptr;  // its share is not that of the whole
   if (is_held) {
     grasp::BalanceOptions resting = options.balance;
-    const grasp::GraspOptions& asked = options.grasp;
-    resting.takes_other_holds = asked.holds.purpose == grasp::HoldPurpose::kHandOver &&
-                                !asked.hold && asked.hold_rank == 1 && !asked.is_placed();
+    resting.takes_other_holds = options.grasp.leaves_hold_open();
     balance = grasp::balance_grasp(hand, product, grasp, resting, options.contact, stoppable);
   }
   const double balance_seconds = balance_watch.seconds();

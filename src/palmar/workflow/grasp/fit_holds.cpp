@@ -41,8 +41,8 @@ grasp::HoldFit fit_holds(const FitHoldsRequest& request, const Progress& progres
     progress.update(done, "looking for holds of " + people[k].object);
     const product::Product product =
         records::load_product(meshes[k], {.unit = geometry::LengthUnit::kMillimetre});
-    objects.push_back({people[k].object, grasp::opposed_holds(opened, product, progress),
-                       people[k].holds});
+    objects.push_back(
+        {people[k].object, grasp::opposed_holds(opened, product, progress), people[k].holds});
   }
   progress.update(0.95, "fitting weights");
   const grasp::HoldFit fit = grasp::fit_holds(objects);

@@ -17,7 +17,7 @@ struct HoldWords {
   std::string toward;  ///< where the thumb's side points: "up", "down", an axis ("+x") or "x,y,z"
   std::string up;      ///< the product's up in use: an axis or "x,y,z"; +z for `toward` "up"
   std::string purpose = "use";  ///< or "hand-over"
-  std::string weights;          ///< file of records::hold_weights_toml() for hand-over; "": built in
+  std::string weights;  ///< file of records::hold_weights_toml() for hand-over; "": built in
 };
 
 /// The file of a hold is read. Throws UsageError, InputError naming the file.
