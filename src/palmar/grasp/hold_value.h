@@ -53,7 +53,8 @@ struct Hold {
 };
 
 /// One reason for or against a hold. Scores add up; each is the natural logarithm of how much
-/// rarer people are taken to choose such a hold, so none is above 0.
+/// rarer people are taken to choose such a hold, so none is above 0. Of a hold to hand a product
+/// over: rarer than the likeliest one, so some may be.
 struct HoldTerm {
   std::string name;    ///< "girth", "room for fingers", ...
   double value = 0.0;  ///< what was measured

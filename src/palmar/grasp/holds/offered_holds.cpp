@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "palmar/geometry/degrees.h"
@@ -77,20 +76,10 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
   const HoldWeights& weights = options.weights ? *options.weights : hand_over_weights();
   const std::vector<HoldMode> modes =
       modes_of(all, chances(weights, all), static_cast<std::size_t>(options.most) + kSpareModes);
-  // What speaks against a hold in a feature: what the best of these has there, less what it has.
-  // The modes' order is by the density of like holds, so its neighbours speak, too.
+  // Reasons are told against the likeliest hold. The modes' order is by the density of like holds,
+  // so what its own features leave of its score is the neighbours' part.
   const HoldFeatures slope = weights.weight.cwiseQuotient(weights.spread);
-  const auto share_of = [&](const HoldMode& mode) -> HoldFeatures {
-    return slope.cwiseProduct(all[mode.hold].features);
-  };
-  HoldFeatures best = HoldFeatures::Constant(-std::numeric_limits<double>::infinity());
-  for (const HoldMode& mode : modes) best = best.cwiseMax(share_of(mode));
-  double most_like = -std::numeric_limits<double>::infinity();
-  const auto like_of = [&](const HoldMode& mode) {
-    return mode.score - (share_of(mode) - best).sum();
-  };
-  for (const HoldMode& mode : modes) most_like = std::max(most_like, like_of(mode));
-
+  const HoldFeatures& likeliest = all[modes.front().hold].features;
   std::vector<RankedHold> found;
   for (const HoldMode& mode : modes) {
     progress.throw_if_cancelled();
@@ -101,16 +90,16 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
     const Grasp grasp = close_precision_grip(hand, *scene.product, precision, progress);
     if (grasp.fingertips.empty()) continue;
     RankedHold ranked = closed_hold(scene, grasp);
-    const HoldFeatures share = share_of(mode) - best;
+    const HoldFeatures share = slope.cwiseProduct(hold.features - likeliest);
     for (int k = 0; k < kHoldFeatureCount; ++k) {
       const auto feature = static_cast<HoldFeature>(k);
       std::string name(name_of(feature));
       std::replace(name.begin(), name.end(), '_', ' ');
-      const bool is_much = hold.features[k] > weights.mean[k];
+      const double compared = share[k] == 0.0 ? weights.mean[k] : likeliest[k];
       ranked.terms.push_back({std::move(name), hold.features[k], "", share[k],
-                              std::string(words_of(feature, is_much))});
+                              std::string(words_of(feature, hold.features[k] > compared))});
     }
-    ranked.terms.push_back({"like holds", like_of(mode), "", like_of(mode) - most_like,
+    ranked.terms.push_back({"like holds", mode.score, "", mode.score - share.sum(),
                             "few of people's holds are like it"});
     const double held = grasp.status == GraspStatus::kHeld         ? 0.0
                         : grasp.status == GraspStatus::kPartlyHeld ? kPartlyHeld
