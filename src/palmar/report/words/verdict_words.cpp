@@ -149,11 +149,13 @@ std::vector<std::string> words_of_line(const std::string& line) {
   return words;
 }
 
-/// What a command said of the task, so that another one asks for the same: " --grip-force-n 60".
+/// What a command said of the task and the hold, so that another one asks for the same:
+/// " --grip-force-n 60".
 std::string task_options(const std::string& command_line) {
   static const std::vector<std::string> options = {
-      "--grip", "--grip-force-n",   "--hold", "--limit-depths", "--mass-kg",
-      "--part", "--strength-share", "--task", "--turn-n-m"};
+      "--along",        "--grip",    "--grip-force-n", "--hold",    "--hold-weights",
+      "--limit-depths", "--mass-kg", "--part",         "--purpose", "--strength-share",
+      "--task",         "--toward",  "--turn-n-m",     "--up"};
   const std::vector<std::string> words = words_of_line(command_line);
   std::string line;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -227,7 +229,9 @@ class SetSpeaker {
     if (product.empty() || one.ways == nullptr) return;
     const auto rank = static_cast<std::size_t>(one.ways->taken);
     if (rank >= one.ways->holds.size()) return;
-    next("other_hold", "palmar assess " + product + " --hold " + std::to_string(rank + 1));
+    const std::string options = changed_command(task_options(set_.command_line), {"--hold"},
+                                                "--hold " + std::to_string(rank + 1));
+    next("other_hold", "palmar assess " + product + " " + options);
   }
 
   /// What a measurement is laid beside the simulation for.
@@ -486,7 +490,8 @@ std::string changed_command(const std::string& command_line,
     }
     line += (line.empty() ? "" : " ") + words[i];
   }
-  return added.empty() ? line : line + " " + added;
+  if (line.empty() || added.empty()) return line + added;
+  return line + " " + added;
 }
 
 std::string product_arguments(const std::vector<const product::Product*>& products,
