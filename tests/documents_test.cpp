@@ -116,6 +116,21 @@ const std::string& stand_ins() {
          {"old-handle.stl", "new-handle.stl", "drill.stl", "old.stl", "new.stl"}) {
       fs::copy(fs::path(made) / "handle.stl", fs::path(made) / name);
     }
+    // How two people held two objects: wrist and fingertips.
+    std::string people = "object";
+    for (const char* point : {"wrist", "thumb", "index", "middle", "ring", "little"}) {
+      for (const char axis : {'x', 'y', 'z'}) {
+        people += std::string(",") + point + "_" + axis + "_mm";
+      }
+    }
+    fs::create_directory(fs::path(made) / "objects");
+    for (const char* name : {"bar", "can"}) {
+      fs::copy(fs::path(made) / "handle.stl",
+               fs::path(made) / "objects" / (std::string(name) + ".stl"));
+      people += std::string("\n") + name +
+                ",-20,-130,0,20,0,10,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30";
+    }
+    write_text(made + "/people.csv", people + "\n");
     fs::copy(fs::path(made) / "handle.step", fs::path(made) / "handle.iges");  // read by content
     fs::copy(fs::path(made) / "handle.step", fs::path(made) / "prism.step");
     return made;
@@ -214,10 +229,11 @@ std::vector<std::pair<std::string, std::vector<std::string>>> examples_of_help()
 }
 
 TEST(HelpExamples, WorkFromTheRepositoryLineByLine) {
-  // Minutes each, of images and photographs, or on a cluster: other tests run them.
-  const std::vector<std::string> long_ones = {"hand from-",       "mri",           "phantom",
-                                              "photos calibrate", "photos mesh",   "study submit",
-                                              "validate",         "hand template", "serve"};
+  // Minutes each, of images and photographs, on a cluster, or of people's holds, which no command
+  // makes: other tests run them.
+  const std::vector<std::string> long_ones = {
+      "hand from-", "mri",           "phantom", "photos calibrate", "photos mesh", "study submit",
+      "validate",   "hand template", "serve",   "grasp fit-holds"};
   const std::string folder = temporary_folder();
   fs::copy(fs::path(PALMAR_SOURCE_DIR) / "examples", fs::path(folder) / "examples",
            fs::copy_options::recursive);
