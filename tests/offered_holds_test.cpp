@@ -13,8 +13,10 @@
 #include "holds/tried_products.h"
 #include "palmar/grasp/find/find_grasp.h"
 #include "palmar/grasp/holds/opposed_holds.h"
+#include "palmar/grasp/precision/precision_shape.h"
 #include "palmar/hand/instance/scaled_hand.h"
 #include "palmar/hand/mirror.h"
+#include "palmar/product/primitives.h"
 #include "template_fixture.h"
 
 namespace palmar::tests {
@@ -114,6 +116,50 @@ TEST_P(OfferedHolds, AreTakenAgainWhereTheyWereFound) {
   EXPECT_LT(points_of(hand(), first)
                 .distance_to(grasp::hand_points(hand(), grasp.posture, grasp.product_from_hand)),
             10.0);  // mm
+}
+
+// Of a bar the shares and levers are plain: 300 mm along x, taken anywhere.
+class OpposedHolds : public TemplateTest {};
+
+TEST_F(OpposedHolds, FeaturesOfHoldsOfABarAreWhatItsShapeSays) {
+  const product::Product bar =
+      product::make_prism_product({.width = 24.0, .depth = 24.0, .length = 300.0});
+  const Box3 box = bar.distance->bounding_box();
+  Eigen::Index longest = 0;
+  box.sizes().maxCoeff(&longest);
+  const Vec3 x = Vec3::Unit(longest);
+  grasp::OpenedHand opened(hand());
+  const double length = hand().dimensions.hand_length;
+  int in_line = 0, along = 0;
+  for (const grasp::OpposedHold& hold : grasp::opposed_holds(opened, bar)) {
+    const Vec3 others = (hold.points.tip(1) + hold.points.tip(2) + hold.points.tip(3)) / 3.0;
+    const Vec3 middle = 0.5 * (hold.points.tip(0) + others);
+    const Vec3 thumb = (hold.points.tip(0) - others).normalized();
+    Vec3 wrist = hold.points.wrist() - middle;
+    wrist = (wrist - thumb * thumb.dot(wrist)).normalized();
+    Vec3 row = wrist.cross(thumb).normalized();
+    if (row.dot(hold.points.tip(1) - hold.points.tip(4)) < 0.0) row = -row;
+    const double off = x.dot(middle - box.center());
+    const auto feature = [&](grasp::HoldFeature one) {
+      return hold.features[static_cast<int>(one)];
+    };
+    // From the grip to the bar's end that a direction along it points to.
+    const auto ahead = [&](const Vec3& way) { return 150.0 - (way.dot(x) > 0.0 ? off : -off); };
+    if (std::abs(row.dot(x)) > 0.97) {  // the fingers in line along the bar
+      ++in_line;
+      EXPECT_NEAR(feature(grasp::HoldFeature::kBeyondThumbSide),
+                  std::max(0.0, (ahead(row) - 40.0) / 300.0), 0.06);
+      EXPECT_NEAR(std::sqrt(feature(grasp::HoldFeature::kWeightAlong)) * length, std::abs(off),
+                  12.0);
+    }
+    if (std::abs(wrist.dot(x)) > 0.97) {  // the hand comes along the bar
+      ++along;
+      EXPECT_NEAR(feature(grasp::HoldFeature::kBeyondFingertips),
+                  std::max(0.0, (ahead(-wrist) - 30.0) / 300.0), 0.06);
+    }
+  }
+  EXPECT_GT(in_line, 100);
+  EXPECT_GT(along, 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Products, OfferedHolds, testing::ValuesIn(products()),

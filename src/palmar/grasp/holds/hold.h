@@ -27,8 +27,9 @@ struct RankedHold {
   Grasp grasp;          ///< as the hand that it was searched with takes it, closed coarsely
 };
 
-/// What a product is to be held for; it weighs the terms differently (Brahmbhatt et al. 2020, ECCV:
-/// people hold the same thing in another way to use it than to hand it over).
+/// What a product is to be held for: people hold the same thing in another way to use it than to
+/// hand it over (Brahmbhatt et al. 2020, ECCV). To use it holds are ranked by shape_terms(), to
+/// hand it over by weights that were fitted (offered_holds()).
 enum class HoldPurpose { kUse, kHandOver };
 
 struct HoldOptions {

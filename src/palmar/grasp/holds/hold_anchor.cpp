@@ -25,6 +25,15 @@ std::optional<Vec3> chord_of(const product::ProductPart& part) {
   return chord.normalized();
 }
 
+/// Its directions as a rotation.
+Eigen::Matrix3d frame_of(const HoldAnchor& anchor) {
+  Eigen::Matrix3d frame;
+  frame.col(0) = anchor.along.normalized();
+  frame.col(2) = (anchor.zero - frame.col(0) * frame.col(0).dot(anchor.zero)).normalized();
+  frame.col(1) = frame.col(2).cross(frame.col(0));
+  return frame;
+}
+
 }  // namespace
 
 std::optional<HoldAnchor> anchor_of(const Hold& hold, const product::ProductParts& parts) {
@@ -38,8 +47,17 @@ Hold as_anchored(const Hold& hold, const product::ProductParts& parts) {
   if (!hold.anchor) return hold;
   const product::ProductPart& part = part_of(hold, parts);
   const std::optional<Vec3> chord = chord_of(part);
-  const double cosine = chord ? chord->dot(hold.anchor->along) : 0.0;
-  if (std::abs(cosine) <= kSameWay) return hold;
+  if (!chord) return hold;
+  const double cosine = chord->dot(hold.anchor->along);
+  if (std::abs(cosine) <= kSameWay) {
+    // The file was turned: what is said in its frame turns along with the part.
+    Hold turned = hold;
+    turned.anchor = anchor_of(hold, parts);
+    if (hold.wrist) {
+      turned.wrist = frame_of(*turned.anchor) * (frame_of(*hold.anchor).transpose() * *hold.wrist);
+    }
+    return turned;
+  }
   const bool is_reversed = cosine < 0.0;
   const auto mirrored = [&](double along) { return is_reversed ? 1.0 - along : along; };
   // Where its turn 0 is among this part's turns; these go the other way round if it is reversed.

@@ -98,7 +98,14 @@ TEST(HoldAnchor, AFileThatWasTurnedIsHeldByThePartsOwnCoordinates) {
     std::swap(station.axis.x(), station.axis.z());
     std::swap(station.zero.x(), station.zero.z());
   }
-  const Hold hold = found_on(first), same = as_anchored(hold, turned);
+  // x and z are swapped and turns begin 1.3 rad further on, from the other end.
+  Hold hold = found_on(first);
+  const Where before = where(hold, first);
+  hold.wrist = (0.8 * before.palm - 0.6 * before.thumb).normalized();
+  const Hold same = as_anchored(hold, turned);
+  const Where after = where(same, turned);
+  ASSERT_TRUE(same.wrist.has_value());
+  EXPECT_LT((*same.wrist - (0.8 * after.palm - 0.6 * after.thumb).normalized()).norm(), 1e-9);
   EXPECT_EQ(same.turn, hold.turn);
   EXPECT_EQ(same.along, hold.along);
   EXPECT_EQ(same.toward, hold.toward);

@@ -66,7 +66,7 @@ std::vector<HoldMode> modes_of(const std::vector<OpposedHold>& holds, const Eige
     for (std::size_t i = 0; i < order.size(); ++i) {
       if (is_free[i] != 0 && (best == order.size() || density[i] > density[best])) best = i;
     }
-    if (best == order.size()) break;
+    if (best == order.size() || !(density[best] > 0.0)) break;
     modes.push_back({order[best], std::log(density[best])});
     for (std::size_t i = 0; i < order.size(); ++i) {
       const double away = holds[order[i]].points.distance_to(holds[order[best]].points);

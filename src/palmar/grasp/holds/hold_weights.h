@@ -17,7 +17,7 @@ struct HoldWeights {
 };
 
 /// Of things that are picked up to be handed over, fitted by `palmar grasp fit-holds`;
-/// docs/method/holds.md has the data and how well they do on objects that were left out.
+/// docs/method/hand-over.md has the data and how well they do on objects that were left out.
 const HoldWeights& hand_over_weights();
 
 /// Chances of the holds by their features; they sum to 1.
@@ -33,7 +33,8 @@ struct HoldMode {
 ///
 ///     sum_c p_c exp(-d^2 / 2 h^2),   d = HandPoints::distance_to(c), h = 20 mm,
 ///
-/// is largest, then where it is so at least 35 mm from those before; at most `most`.
+/// is largest, then where it is so at least 35 mm from those before; at most `most`. Only the 600
+/// likeliest holds count.
 std::vector<HoldMode> modes_of(const std::vector<OpposedHold>& holds, const Eigen::VectorXd& chance,
                                std::size_t most);
 

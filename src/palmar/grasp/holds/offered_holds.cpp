@@ -67,6 +67,7 @@ bool are_offered(const HoldOptions& options) {
 
 std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions& options,
                                       int& considered, const Progress& progress) {
+  if (scene.parts->parts.empty()) return {};
   progress.update(0.1, "finding ways to hand over " + scene.product->name);
   OpenedHand hand(*scene.hand);
   std::vector<OpposedHold> all = opposed_holds(hand, *scene.product, progress);

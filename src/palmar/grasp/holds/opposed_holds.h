@@ -25,8 +25,9 @@ struct HandPoints {
 HandPoints hand_points(const hand::Hand& hand, const hand::Posture& posture,
                        const geometry::Rigid3& product_from_hand);
 
-/// What a hold is judged by before anything is closed: each a smooth function of the posed hand and
-/// of the product's shape, the same whatever the product's triangles and wherever it lies.
+/// What a hold is judged by before anything is closed: each a continuous function of the posed hand
+/// and of the product's shape, wherever it lies; other triangles change them by what a sample of
+/// the surface differs. L is hand length; the grip is the middle between thumb and fingers.
 enum class HoldFeature : std::uint8_t {
   kFingersOnIt,       ///< of four, how many fingertips are at its surface (a bell of 15 mm)
   kDepth,             ///< how far the deepest fingertip is in it: up to 3 cm
@@ -41,7 +42,7 @@ enum class HoldFeature : std::uint8_t {
 inline constexpr int kHoldFeatureCount = 9;
 using HoldFeatures = Eigen::Matrix<double, kHoldFeatureCount, 1>;
 std::string_view name_of(HoldFeature feature);  ///< "fingers_on_it", as in a file of weights
-/// For people, a clause: what it is like if there is much of it, "all fingers are on it", or
+/// For people, a clause: what it is like if there is much of it, "the fingers are on it", or
 /// little.
 std::string_view words_of(HoldFeature feature, bool is_much);
 
@@ -55,8 +56,8 @@ struct OpposedHold {
 };
 
 /// All of a product's: each of its opposing pairs of points, the thumb at either, in twelve turns
-/// of the hand, in a prismatic grip, precision sphere, tripod and palmar pinch. Some thousands, in
-/// an order that moves along with the product.
+/// of the hand, in a prismatic grip, precision sphere, tripod and palmar pinch. Some ten
+/// thousands, in an order that moves along with the product.
 std::vector<OpposedHold> opposed_holds(OpenedHand& hand, const product::Product& product,
                                        const Progress& progress = {});
 

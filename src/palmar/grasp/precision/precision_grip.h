@@ -47,8 +47,8 @@ struct PrecisionGripOptions {
 Grasp close_precision_grip(const hand::Hand& hand, const product::Product& product,
                            const PrecisionGripOptions& options, const Progress& progress = {});
 
-/// The same for one hand and several grips or places.
 class OpenedHand;
+/// The same by a hand whose openings are kept, for several grips or places.
 Grasp close_precision_grip(OpenedHand& hand, const product::Product& product,
                            const PrecisionGripOptions& options, const Progress& progress = {});
 

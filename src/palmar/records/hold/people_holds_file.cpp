@@ -51,6 +51,7 @@ std::vector<PeopleHolds> read_people_holds(const std::string& path) {
   std::vector<PeopleHolds> result;
   for (const formats::CsvFile::Row& row : file.rows) {
     const std::string& name = row.cells[object];
+    if (name.empty()) file.fail(row.line, "object is empty; the name of its mesh is required");
     auto known = std::find_if(result.begin(), result.end(),
                               [&](const PeopleHolds& one) { return one.object == name; });
     if (known == result.end()) known = result.insert(result.end(), {name, {}});

@@ -69,6 +69,7 @@ TEST_F(PeopleHoldsFile, SaysWhatIsWrongWithIt) {
   std::string far = row("box", 0);
   far.replace(far.find(",17,"), 4, ",17000,");
   EXPECT_THAT(why(header() + far), HasSubstr("people.csv:2: little_z_mm is 17000 mm; 5000 mm"));
+  EXPECT_THAT(why(header() + row("", 0)), HasSubstr("people.csv:2: object is empty"));
   std::string none = row("box", 0);
   none.replace(none.find(",17,"), 4, ",,");
   EXPECT_THAT(why(header() + none), HasSubstr("people.csv:2"));

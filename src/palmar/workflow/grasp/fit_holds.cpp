@@ -34,6 +34,9 @@ grasp::HoldFit fit_holds(const FitHoldsRequest& request, const Progress& progres
     meshes.push_back(mesh_of(request.products, one.object));
   }
   const std::shared_ptr<const hand::Hand> hand = load_hand(request.hand);
+  if (hand->side != hand::Side::kRight) {
+    throw UsageError("setting \"hand\" is a left hand; people's holds are a right hand's");
+  }
   grasp::OpenedHand opened(*hand);
   std::vector<grasp::ObservedObject> objects;
   for (std::size_t k = 0; k < people.size(); ++k) {
