@@ -123,12 +123,13 @@ const std::string& stand_ins() {
         people += std::string(",") + point + "_" + axis + "_mm";
       }
     }
+    people += ",up_x,up_y,up_z";
     fs::create_directory(fs::path(made) / "objects");
     for (const char* name : {"bar", "can"}) {
       fs::copy(fs::path(made) / "handle.stl",
                fs::path(made) / "objects" / (std::string(name) + ".stl"));
       people += std::string("\n") + name +
-                ",-20,-130,0,20,0,10,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30";
+                ",-20,-130,0,20,0,10,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30,0,0,1";
     }
     write_text(made + "/people.csv", people + "\n");
     fs::copy(fs::path(made) / "handle.step", fs::path(made) / "handle.iges");  // read by content

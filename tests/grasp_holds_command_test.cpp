@@ -113,17 +113,18 @@ TEST(GraspHolds, WeightsAreFittedToPeoplesHoldsAndUsed) {
   for (const char* point : {"wrist", "thumb", "index", "middle", "ring", "little"}) {
     for (const char axis : {'x', 'y', 'z'}) table += std::string(",") + point + "_" + axis + "_mm";
   }
+  table += ",up_x,up_y,up_z";
   // From the side, fingers and thumb round it; from above.
   table +=
-      "\nbar,-20,-130,0,20,0,10,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30"
-      "\nbar,0,-130,0,20,5,0,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30"
-      "\ncan,0,-20,180,32,0,50,-32,10,50,-34,0,50,-32,-10,50,-20,-25,50\n";
+      "\nbar,-20,-130,0,20,0,10,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30,0,0,1"
+      "\nbar,0,-130,0,20,5,0,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30,0,0,1"
+      "\ncan,0,-20,180,32,0,50,-32,10,50,-34,0,50,-32,-10,50,-20,-25,50,0,0,1\n";
   write_text(bar_folder() + "/people.csv", table);
   const ProgramRun fit =
       in_bar_folder("grasp fit-holds people.csv --products . --out weights.toml --json");
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
   const HoldsJson json = HoldsJson::parse(fit.out);
-  EXPECT_EQ(json.at("features").size(), 9U);
+  EXPECT_EQ(json.at("features").size(), 12U);
   ASSERT_EQ(json.at("left_out").size(), 2U);
   EXPECT_EQ(json.at("left_out").at(0).at("object"), "bar");
   EXPECT_EQ(json.at("left_out").at(0).at("holds"), 2);

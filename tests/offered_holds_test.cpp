@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "holds/tried_products.h"
 #include "palmar/grasp/find/find_grasp.h"
@@ -33,8 +34,10 @@ const std::vector<std::string>& products() {
   return names;
 }
 
-grasp::RankedHolds offered(const hand::Hand& hand, const product::Product& product) {
+grasp::RankedHolds offered(const hand::Hand& hand, const product::Product& product,
+                           const std::optional<Vec3>& up = {}) {
   grasp::HoldOptions options;
+  options.up = up;
   options.purpose = grasp::HoldPurpose::kHandOver;
   return grasp::rank_holds(hand, product, options);
 }
@@ -104,6 +107,26 @@ TEST_P(OfferedHolds, StayInAHandOneHundredthLarger) {
   const double d = away(hand(), as_it_is(), larger, offered(larger, tried_product(GetParam())),
                         [](const Vec3& p) { return p; });
   EXPECT_LT(d, kSameHold);
+}
+
+// Where it is said how it lies: the same of a product that is turned along with its up, and the
+// thumb's side goes along with it.
+TEST_P(OfferedHolds, KeepTheThumbsSideUpWhereUpIsSaid) {
+  const Vec3 up = Vec3::UnitZ();
+  const product::Product product = tried_product(GetParam());
+  const grasp::RankedHolds upright = offered(hand(), product, up);
+  const geometry::Rigid3 motion = {Quat(Eigen::AngleAxisd(2.2, Vec3(0.36, 0.48, -0.8))),
+                                   Vec3(-40.0, 25.0, 310.0)};
+  const geometry::Rigid3 back = motion.inverse();
+  EXPECT_LT(away(hand(), upright, hand(),
+                 offered(hand(), moved(product, motion), Vec3(motion.rotation * up)),
+                 [&](const Vec3& p) { return back * p; }),
+            kSameHold);
+  const auto thumb_side_up = [&](const grasp::RankedHolds& holds) {
+    return grasp::grip_frame(points_of(hand(), holds.holds.front())).row.dot(up);
+  };
+  const double over = thumb_side_up(offered(hand(), product, Vec3(-up)));
+  EXPECT_GT(thumb_side_up(upright), over + 0.3);
 }
 
 // What is written of a hold says enough to take it again.

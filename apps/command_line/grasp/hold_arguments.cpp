@@ -18,7 +18,7 @@ void HoldArguments::add_to(CLI::App& verb) {
                   "Where the thumb's side points: up, down, an axis of the product (+x, -z) or "
                   "x,y,z");
   verb.add_option("--up", words_.up,
-                  "Which way is up when the product is used: an axis (+y) or x,y,z in the "
+                  "Which way is up where the product is taken: an axis (+y) or x,y,z in the "
                   "product's frame; not known if not given, and +z for --toward up");
   verb.add_option("--purpose", words_.purpose, "What it is held for: use or hand-over")
       ->capture_default_str();

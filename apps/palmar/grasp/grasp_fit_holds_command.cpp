@@ -20,19 +20,21 @@ std::string fit_text(const grasp::HoldFit& fit) {
   text += fmt::format("log-likelihood per hold {:.3f}, of the holds that it was fitted to\n\n",
                       fit.likelihood);
   text +=
-      "object left out           holds  log-likelihood  even chances  first hold  best of 8  "
+      "object left out           holds  log-likelihood  not knowing up  even chances  first hold  "
+      "best of 8  "
       "nearest candidate\n";
-  double likelihood = 0.0, even = 0.0, holds = 0.0;
+  double likelihood = 0.0, unseen = 0.0, even = 0.0, holds = 0.0;
   for (const grasp::LeftOut& one : fit.left_out) {
-    text +=
-        fmt::format("{:<25} {:5d} {:15.2f} {:13.2f} {:8.0f} mm {:7.0f} mm {:12.0f} mm\n", one.name,
-                    one.seen, one.likelihood, one.even, one.first, one.best_of_eight, one.nearest);
+    text += fmt::format(
+        "{:<25} {:5d} {:15.2f} {:15.2f} {:13.2f} {:8.0f} mm {:7.0f} mm {:12.0f} mm\n", one.name,
+        one.seen, one.likelihood, one.unseen, one.even, one.first, one.best_of_eight, one.nearest);
     likelihood += one.seen * one.likelihood;
+    unseen += one.seen * one.unseen;
     even += one.seen * one.even;
     holds += one.seen;
   }
-  return text + fmt::format("all                       {:5.0f} {:15.2f} {:13.2f}\n", holds,
-                            likelihood / holds, even / holds);
+  return text + fmt::format("all                       {:5.0f} {:15.2f} {:15.2f} {:13.2f}\n", holds,
+                            likelihood / holds, unseen / holds, even / holds);
 }
 
 int run_fit(const workflow::FitHoldsRequest& request, const Context& context) {
@@ -52,7 +54,7 @@ void add_grasp_fit_holds(CLI::App& grasp, Context& context) {
       "palmar grasp fit-holds people.csv --products objects --out weights.toml");
   verb->add_option("TABLE", o->table,
                    "CSV file: object, wrist_x_mm, wrist_y_mm, wrist_z_mm, thumb_x_mm ... "
-                   "little_z_mm, a row per hold in the object's frame")
+                   "little_z_mm, up_x, up_y, up_z, a row per hold in the object's frame")
       ->required();
   verb->add_option("--products", o->products,
                    "Folder with the objects' meshes in mm, named as in the table: OBJECT.obj, .stl "

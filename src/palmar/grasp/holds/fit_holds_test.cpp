@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "palmar/core/error.h"
@@ -15,16 +16,26 @@ namespace {
 
 constexpr double kApart = 1000.0;  // mm between holds: none is mistaken for another
 
-OpposedHold hold_at(double place, HoldFeatures features) {
+OpposedHold hold_at(double place, ShapeFeatures features) {
   OpposedHold hold;
   for (Vec3& point : hold.points.point) point = Vec3(place, 0.0, 0.0);
   hold.features = features;
   return hold;
 }
 
-HandPoints seen_at(double place) {
+/// Far above the table, which then says nothing but which way is up.
+ObservedHold seen(const HandPoints& points, const Vec3& up = Vec3::UnitZ()) {
+  return {points, {.up = up, .table = -1e9}};
+}
+
+ObservedHold seen_at(double place) { return seen(hold_at(place, ShapeFeatures::Zero()).points); }
+
+/// A hand with its grip in the middle of three fingers in line and a thumb opposite.
+HandPoints turned_hand(const Quat& turn, double place) {
   HandPoints points;
-  for (Vec3& point : points.point) point = Vec3(place, 0.0, 0.0);
+  points.point = {Vec3(-100, 0, 0), Vec3(0, 20, 0),    Vec3(0, -20, 20),
+                  Vec3(0, -20, 0),  Vec3(0, -20, -20), Vec3(0, -20, -40)};
+  for (Vec3& point : points.point) point = turn * point + Vec3(place, 0.0, 0.0);
   return points;
 }
 
@@ -33,7 +44,7 @@ HandPoints seen_at(double place) {
 ObservedObject two_kinds(int first, int others) {
   ObservedObject object;
   object.name = "bar";
-  HoldFeatures features = HoldFeatures::Zero();
+  ShapeFeatures features = ShapeFeatures::Zero();
   object.candidates.push_back(hold_at(0.0, features));
   features[0] = 1.0;
   object.candidates.push_back(hold_at(kApart, features));
@@ -60,39 +71,69 @@ TEST(FitHolds, OneFeatureOfTwoValuesGetsTheLogarithmOfTheOdds) {
 TEST(FitHolds, FindsWeightsThatHoldsWereDrawnWith) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
-  HoldFeatures truth;
+  ShapeFeatures truth;
   truth << 1.0, -0.5, 0.0, 0.3, -1.2, 0.0, 0.8, 0.0, -0.2;
+  constexpr double kThumbUp = 1.5, kWristUp = 0.7;
   std::vector<ObservedObject> objects(8);
   for (ObservedObject& object : objects) {
     object.name = "thing";
-    std::vector<double> chance;
+    std::vector<Eigen::Matrix3d> turns;  // of the hand: x from the wrist, z along its row
     for (int c = 0; c < 200; ++c) {
-      HoldFeatures features;
+      ShapeFeatures features;
       for (double& x : features) x = normal(random);
+      const Quat turn =
+          Quat(normal(random), normal(random), normal(random), normal(random)).normalized();
       object.candidates.push_back(hold_at(c * kApart, features));
-      chance.push_back(std::exp(truth.dot(features)));
+      object.candidates.back().points = turned_hand(turn, c * kApart);
+      turns.push_back(turn.toRotationMatrix());
     }
-    std::discrete_distribution<int> draw(chance.begin(), chance.end());
-    for (int i = 0; i < 400; ++i) object.seen.push_back(seen_at(draw(random) * kApart));
+    for (int i = 0; i < 400; ++i) {
+      const Vec3 up = Vec3(normal(random), normal(random), normal(random)).normalized();
+      std::vector<double> chance;
+      for (std::size_t c = 0; c < turns.size(); ++c) {
+        chance.push_back(std::exp(truth.dot(object.candidates[c].features) +
+                                  kThumbUp * up.dot(turns[c].col(2)) -
+                                  kWristUp * up.dot(turns[c].col(0))));
+      }
+      std::discrete_distribution<int> draw(chance.begin(), chance.end());
+      object.seen.push_back(
+          seen(object.candidates[static_cast<std::size_t>(draw(random))].points, up));
+    }
   }
   const HoldFit fit = fit_holds(objects);
-  for (int k = 0; k < kHoldFeatureCount; ++k) {
-    EXPECT_NEAR(fit.weights.weight[k] / fit.weights.spread[k], truth[k], 0.1) << k;
-  }
-  // What is left out is told nearly as well as what is fitted, and better than by even chances.
+  const ShapeFeatures found = fit.weights.shape_slope();
+  for (int k = 0; k < kShapeFeatureCount; ++k) EXPECT_NEAR(found[k], truth[k], 0.1) << k;
+  EXPECT_NEAR(fit.weights.table_slope()[0], kThumbUp, 0.1);
+  EXPECT_NEAR(fit.weights.table_slope()[1], kWristUp, 0.1);
+  EXPECT_NEAR(fit.weights.table_slope()[2], 0.0, 1e-9);  // nothing is lower than the table
+  // What is left out is told nearly as well as what is fitted, and better than by even chances; to
+  // know how it had lain tells more.
   for (const LeftOut& one : fit.left_out) {
     EXPECT_GT(one.likelihood, one.even + 0.5);
+    EXPECT_GT(one.likelihood, one.unseen + 0.2);
     EXPECT_NEAR(one.likelihood, fit.likelihood, 0.5);
     EXPECT_NEAR(one.even, -std::log(200.0), 1e-6);
     EXPECT_EQ(one.seen, 400);
   }
 }
 
+TEST(FitHolds, HowItLiesCountsWhereThatIsKnown) {
+  const Quat over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));  // its row points down
+  std::vector<OpposedHold> holds(2);
+  holds[0].points = turned_hand(Quat::Identity(), 0.0);
+  holds[1].points = turned_hand(over, 0.0);
+  for (OpposedHold& hold : holds) hold.features.setZero();
+  HoldWeights weights;
+  weights.weight[kShapeFeatureCount] = 0.5 * std::log(3.0);  // thumb's side up: three to one
+  EXPECT_NEAR(chances(weights, holds)[0], 0.5, 1e-12);
+  EXPECT_NEAR(chances(weights, holds, Standing{.table = -1e9})[0], 0.75, 1e-12);
+}
+
 TEST(FitHolds, TheFirstModeIsWherePeoplesHoldsAreDensestAndTheNextElsewhere) {
   // Three alike holds of 0.2 each beside one of 0.4: together they are denser.
   std::vector<OpposedHold> holds;
   for (const double place : {0.0, 3.0, 6.0, kApart}) {
-    holds.push_back(hold_at(place, HoldFeatures::Zero()));
+    holds.push_back(hold_at(place, ShapeFeatures::Zero()));
   }
   Eigen::VectorXd chance(4);
   chance << 0.2, 0.2, 0.2, 0.4;

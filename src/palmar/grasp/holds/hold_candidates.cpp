@@ -131,7 +131,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     if (hold.grip != Grip::kFixedHook)
       hold.grip = grip_for(part, candidate.at, hold.is_over_end, options, length);
     candidate.terms = shape_terms(scene, hold, candidate.at);
-    candidate.score = sum_of(candidate.terms);
+    candidate.score = sum_of(candidate.terms) + rough_table_score(scene, candidate.at);
     candidate.hold = std::move(hold);
     // Mirror images of each other have the same number.
     candidate.index =

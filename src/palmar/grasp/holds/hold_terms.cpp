@@ -41,8 +41,10 @@ constexpr double kNoseAngle = 40.0 * geometry::kDegree;  // choice
 constexpr double kLoopAngle = 45.0 * geometry::kDegree;  // choice
 constexpr double kFlatLoss = 3.0;                        // an edge of a sheet in the palm; choice
 constexpr double kThumbSide = 1.5;   // per share of the product on the little finger's side; choice
-constexpr double kUpsideDown = 2.5;  // thumb down where up was given; choice
-constexpr double kMaybeUpsideDown = 1.2;  // where up was guessed from the shape; choice
+constexpr double kUpsideDown = 2.5;  // thumb down of a vessel with a hollow; choice
+constexpr double kMaybeUpsideDown = 1.2;  // where up was guessed from where it is heavier; choice
+// Of hand lengths, where a wrist is beside a handle: from its middle out of the palm, and back.
+constexpr double kWristOut = 0.13, kWristBack = 0.37;
 constexpr double kHollow = 0.7;        // volume over that with its hollow: less is a vessel; choice
 constexpr double kEvenShare = 0.01;    // of the length; nearer to the middle says nothing; choice
 constexpr double kWrongEnd = 1.5;      // a tool's working end at the little finger; choice
@@ -200,7 +202,7 @@ HoldTerm thumb_side_term(const HoldScene& scene, const product::ProductPart& par
                          const GripSite& site) {
   const bool is_vessel =
       part.kind == product::PartKind::kBody || part.kind == product::PartKind::kLoop;
-  if (scene.up && (is_vessel || scene.is_up_given)) {
+  if (scene.up && is_vessel) {
     const double up = site.axis.dot(*scene.up);
     const double most = scene.is_up_known ? kUpsideDown : kMaybeUpsideDown;
     return {"thumb's side", std::acos(std::clamp(up, -1.0, 1.0)) / geometry::kDegree, "deg",
@@ -424,6 +426,12 @@ Upright upright(const product::ProductParts& parts, const geometry::TriangleMesh
   return {off < 0.0 ? axis : Vec3(-axis), false};
 }
 
+// Less what a hand would have at best: thumb's side and wrist are across each other.
+double score_on_table(const HoldWeights& weights, const TableFeatures& features) {
+  const TableFeatures slope = weights.table_slope();
+  return slope.dot(features) - std::hypot(slope[0], slope[1]);
+}
+
 }  // namespace
 
 HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
@@ -441,6 +449,7 @@ HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
   const Upright guess = upright(parts, product.mesh, scene.gravity_centre);
   scene.up = options.up ? std::optional<Vec3>(options.up->normalized()) : guess.up;
   scene.is_up_known = options.up || guess.is_vessel;
+  if (options.up) scene.lay = standing_with(product.mesh, *options.up);
   scene.part_of_gravity = parts.parts.empty() ? -1 : parts.nearest(product, scene.gravity_centre);
   const bool has_loop_on_body =
       std::any_of(parts.parts.begin(), parts.parts.end(), [&](const product::ProductPart& part) {
@@ -468,6 +477,44 @@ const product::PartTrigger* trigger_of(const HoldScene& scene, const product::Pr
     if (trigger.part == part.number) return &trigger;
   }
   return nullptr;
+}
+
+HoldTerm table_term(const HoldScene& scene, const HoldWeights& weights, const Grasp& grasp) {
+  const HandPoints points = hand_points(*scene.hand, grasp.posture, grasp.product_from_hand);
+  GripFrame frame = grip_frame(points);
+  if (is_power(grasp.grip)) {
+    frame.middle = grasp.grip_point;
+    frame.row = grasp.grip_axis;
+  } else if (is_non_prehensile(grasp.grip)) {
+    frame.row = (points.tip(1) - points.tip(4)).normalized();
+  }
+  const TableFeatures features = table_features(points, frame, *scene.lay);
+  const double up = features[0], below = features[2];
+  constexpr double kWorthTelling = 0.5;
+  return {"as it lies", up, "", score_on_table(weights, features),
+          below > kWorthTelling ? std::string(words_of(HoldFeature::kBelowTable, true))
+          : up > kWorthTelling  ? "thumb's side up"
+          : up < -kWorthTelling ? "thumb's side down"
+                                : "thumb's side neither up nor down"};
+}
+
+double rough_table_score(const HoldScene& scene, const HoldSite& at) {
+  if (!scene.lay) return 0.0;
+  const hand::Hand& hand = *scene.hand;
+  const double length = hand.dimensions.hand_length, breadth = fingers_breadth(hand);
+  // The palm faces the axis; the hand's frame has z out of the palm and y along the fingers.
+  const Vec3 radial = hand.side == hand::Side::kRight ? at.site.axis : Vec3(-at.site.axis);
+  const Vec3 distal = radial.cross(at.palm);
+  HandPoints points;
+  points.point[0] = at.site.point + length * (kWristOut * at.palm - kWristBack * distal);
+  for (std::size_t f = 0; f < hand::kFingerCount; ++f) {
+    const double along = (0.5 - 0.25 * static_cast<double>(f)) * breadth;
+    points.point[1 + f] = at.site.point + along * at.site.axis - 0.5 * at.site.thickness * at.palm;
+  }
+  GripFrame frame;
+  frame.middle = at.site.point;
+  frame.row = at.site.axis;
+  return score_on_table(hand_over_weights(), table_features(points, frame, *scene.lay));
 }
 
 std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site) {
@@ -510,7 +557,9 @@ std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, cons
   }
   if (part.opening) terms.push_back(opening_term(scene, part));
   terms.push_back(place_term(scene, part, at));
-  if (trigger == nullptr) terms.push_back(thumb_side_term(scene, part, hold.toward, at.site));
+  if (trigger == nullptr && !(scene.is_up_given && part.kind != product::PartKind::kBar)) {
+    terms.push_back(thumb_side_term(scene, part, hold.toward, at.site));
+  }
   terms.push_back(palm_term(scene, part, hold, at));
   if (part.kind != product::PartKind::kBar) terms.push_back(moment_term(scene, at.site));
   terms.push_back(room_term(scene, part, at));

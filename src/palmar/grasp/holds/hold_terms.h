@@ -21,7 +21,8 @@ struct HoldScene {
   /// The product's up in use: as asked for, else of a vessel from its heavier to its lighter end.
   std::optional<Vec3> up;
   bool is_up_given = false;
-  bool is_up_known = false;  ///< given, or that of a vessel by its hollow
+  bool is_up_known = false;     ///< given, or that of a vessel by its hollow
+  std::optional<Standing> lay;  ///< how it lies or stands where it is taken, if up is given
   /// By part: whether it is what the product has for the hand, a handle or a loop on something
   /// larger; and whether there is such a part at all.
   std::vector<char> is_handle;
@@ -33,6 +34,12 @@ HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
 /// Reasons for and against a hold by the product's shape alone; docs/method/holds.md. `site` as
 /// site_of() has it (of a precision grip: where its fingertips are, with `palm` any).
 std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, const HoldSite& site);
+
+/// How well a closed hand goes with how the product lies, by the weights that were fitted to holds
+/// of things that lay on a table: ln of how much rarer than the best. Only where that is known.
+HoldTerm table_term(const HoldScene& scene, const HoldWeights& weights, const Grasp& grasp);
+/// Its score of a power hold before the hand is closed, by where that would roughly be.
+double rough_table_score(const HoldScene& scene, const HoldSite& at);
 
 /// Where the working end sticks out from a site across its axis, beyond the hand on the thumb's
 /// side: unit, product frame; nothing if it doesn't.

@@ -20,22 +20,34 @@ constexpr std::size_t kLikeliest = 600;  // holds that are looked at; the others
 const HoldWeights& hand_over_weights() {
   static const HoldWeights weights = [] {
     HoldWeights table;
-    table.weight << 0.819939, 1.02029, -0.565677, -0.69922, -1.11431, -1.01223, 0.79928, 0.716545,
-        0.852323;
+    table.weight << 0.819423, 0.840558, -0.819522, -0.551139, -1.23956, -0.864469, 0.709646,
+        0.643905, 0.425326, 2.13768, 0.918321, -1.15902;
     table.mean << 2.41272, 0.162831, 2.09296, 0.207613, 0.0316248, 0.0853636, 0.188831, 0.213043,
-        0.0709659;
+        0.0709659, 0.0, 0.0, 0.0;
     table.spread << 1.03605, 0.401556, 1.47026, 0.346613, 0.0500059, 0.0989646, 0.191478, 0.202962,
-        0.134806;
+        0.134806, 1.0, 1.0, 1.0;
     return table;
   }();
   return weights;
 }
 
-Eigen::VectorXd chances(const HoldWeights& weights, const std::vector<OpposedHold>& holds) {
+ShapeFeatures HoldWeights::shape_slope() const {
+  return weight.head<kShapeFeatureCount>().cwiseQuotient(spread.head<kShapeFeatureCount>());
+}
+
+TableFeatures HoldWeights::table_slope() const {
+  return weight.tail<kTableFeatureCount>().cwiseQuotient(spread.tail<kTableFeatureCount>());
+}
+
+Eigen::VectorXd chances(const HoldWeights& weights, const std::vector<OpposedHold>& holds,
+                        const std::optional<Standing>& lay) {
   Eigen::VectorXd chance(static_cast<Eigen::Index>(holds.size()));
-  const HoldFeatures slope = weights.weight.cwiseQuotient(weights.spread);
+  const ShapeFeatures shape = weights.shape_slope();
+  const TableFeatures table = weights.table_slope();
   for (std::size_t c = 0; c < holds.size(); ++c) {
-    chance[static_cast<Eigen::Index>(c)] = slope.dot(holds[c].features - weights.mean);
+    double& score = chance[static_cast<Eigen::Index>(c)];
+    score = shape.dot(holds[c].features);
+    if (lay) score += table.dot(table_features(holds[c].points, grip_frame(holds[c].points), *lay));
   }
   if (holds.empty()) return chance;
   chance = (chance.array() - chance.maxCoeff()).exp();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "palmar/grasp/holds/opposed_holds.h"
@@ -14,14 +15,19 @@ namespace palmar::grasp {
 struct HoldWeights {
   HoldFeatures mean = HoldFeatures::Zero(), spread = HoldFeatures::Ones();
   HoldFeatures weight = HoldFeatures::Zero();
+
+  ShapeFeatures shape_slope() const;  ///< weight / spread
+  TableFeatures table_slope() const;
 };
 
 /// Of things that are picked up to be handed over, fitted by `palmar grasp fit-holds`;
 /// docs/method/hand-over.md has the data and how well they do on objects that were left out.
 const HoldWeights& hand_over_weights();
 
-/// Chances of the holds by their features; they sum to 1.
-Eigen::VectorXd chances(const HoldWeights& weights, const std::vector<OpposedHold>& holds);
+/// Chances of the holds by their features; they sum to 1. Unless it is known how the product lies,
+/// that counts nothing.
+Eigen::VectorXd chances(const HoldWeights& weights, const std::vector<OpposedHold>& holds,
+                        const std::optional<Standing>& lay = {});
 
 /// A hold round which people's are densest.
 struct HoldMode {

@@ -75,12 +75,16 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
   std::erase_if(all, [&](const OpposedHold& hold) { return !is_asked(hold, scene, options); });
   if (all.empty()) return {};
   const HoldWeights& weights = options.weights ? *options.weights : hand_over_weights();
-  const std::vector<HoldMode> modes =
-      modes_of(all, chances(weights, all), static_cast<std::size_t>(options.most) + kSpareModes);
+  const std::vector<HoldMode> modes = modes_of(
+      all, chances(weights, all, scene.lay), static_cast<std::size_t>(options.most) + kSpareModes);
   // Reasons are told against the likeliest hold. The modes' order is by the density of like holds,
   // so what its own features leave of its score is the neighbours' part.
-  const HoldFeatures slope = weights.weight.cwiseQuotient(weights.spread);
-  const HoldFeatures& likeliest = all[modes.front().hold].features;
+  const ShapeFeatures slope = weights.shape_slope();
+  const ShapeFeatures& likeliest = all[modes.front().hold].features;
+  const auto on_table = [&](const OpposedHold& hold) {
+    return weights.table_slope().dot(
+        table_features(hold.points, grip_frame(hold.points), *scene.lay));
+  };
   std::vector<RankedHold> found;
   for (const HoldMode& mode : modes) {
     progress.throw_if_cancelled();
@@ -91,8 +95,8 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
     const Grasp grasp = close_precision_grip(hand, *scene.product, precision, progress);
     if (grasp.fingertips.empty()) continue;
     RankedHold ranked = closed_hold(scene, grasp);
-    const HoldFeatures share = slope.cwiseProduct(hold.features - likeliest);
-    for (int k = 0; k < kHoldFeatureCount; ++k) {
+    const ShapeFeatures share = slope.cwiseProduct(hold.features - likeliest);
+    for (int k = 0; k < kShapeFeatureCount; ++k) {
       const auto feature = static_cast<HoldFeature>(k);
       std::string name(name_of(feature));
       std::replace(name.begin(), name.end(), '_', ' ');
@@ -100,8 +104,14 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
       ranked.terms.push_back({std::move(name), hold.features[k], "", share[k],
                               std::string(words_of(feature, hold.features[k] > compared))});
     }
-    ranked.terms.push_back({"like holds", mode.score, "", mode.score - share.sum(),
-                            "few of people's holds are like it"});
+    double told = share.sum();
+    if (scene.lay) {
+      ranked.terms.push_back(table_term(scene, weights, grasp));
+      ranked.terms.back().score = on_table(hold) - on_table(all[modes.front().hold]);
+      told += ranked.terms.back().score;
+    }
+    ranked.terms.push_back(
+        {"like holds", mode.score, "", mode.score - told, "few of people's holds are like it"});
     const double held = grasp.status == GraspStatus::kHeld         ? 0.0
                         : grasp.status == GraspStatus::kPartlyHeld ? kPartlyHeld
                                                                    : kNotHeld;

@@ -31,6 +31,7 @@ constexpr double kCrossingUnit = 5.0;
 constexpr double kPalmUnit = 15.0, kPalmSkin = 20.0;  // the palm's skin is so far from its bones
 constexpr double kBeyondThumb = 40.0, kBeyondTips = 30.0, kBeyondRamp = 5.0;
 constexpr double kPalmShare = 0.6;  // of the way from the wrist to the knuckles
+constexpr double kAboveTable = 10.0, kBelowUnit = 20.0;  // a fingertip is 10 mm thick; wrists more
 
 struct Axes {
   Vec3 centre;           // of volume
@@ -64,9 +65,9 @@ class FeatureScene {
 
   const PinchShape& shape() const { return shape_; }
 
-  HoldFeatures features_of(const HandPoints& points, const hand::Posture& posture,
-                           const geometry::Rigid3& product_from_hand,
-                           const std::vector<FingertipPoint>& contacts) const;
+  ShapeFeatures features_of(const HandPoints& points, const hand::Posture& posture,
+                            const geometry::Rigid3& product_from_hand,
+                            const std::vector<FingertipPoint>& contacts) const;
 
  private:
   const hand::Hand* hand_;
@@ -81,21 +82,14 @@ double above(double value, double limit) {
   return 1.0 / (1.0 + std::exp(-(value - limit) / kBeyondRamp));
 }
 
-HoldFeatures FeatureScene::features_of(const HandPoints& points, const hand::Posture& posture,
-                                       const geometry::Rigid3& product_from_hand,
-                                       const std::vector<FingertipPoint>& contacts) const {
+ShapeFeatures FeatureScene::features_of(const HandPoints& points, const hand::Posture& posture,
+                                        const geometry::Rigid3& product_from_hand,
+                                        const std::vector<FingertipPoint>& contacts) const {
   using enum HoldFeature;
-  HoldFeatures result;
+  ShapeFeatures result;
   const auto at = [&](HoldFeature feature) -> double& { return result[static_cast<int>(feature)]; };
   const double length = hand_->dimensions.hand_length;
-  // The grip's own frame: from fingers to thumb, towards the wrist, along the fingers' row.
-  const Vec3 others = (points.tip(1) + points.tip(2) + points.tip(3)) / 3.0;
-  const Vec3 middle = 0.5 * (points.tip(0) + others);
-  const Vec3 thumb = (points.tip(0) - others).normalized();
-  Vec3 wrist = points.wrist() - middle;
-  wrist = (wrist - thumb * thumb.dot(wrist)).normalized();
-  Vec3 row = wrist.cross(thumb);
-  if (row.dot(points.tip(1) - points.tip(4)) < 0.0) row = -row;
+  const auto [middle, thumb, wrist, row] = grip_frame(points);
 
   double on_it = 0.0, deepest = 0.0;
   for (std::size_t f = 1; f < hand::kFingerCount; ++f) {
@@ -148,6 +142,9 @@ constexpr std::array<FeatureText, kHoldFeatureCount> kTexts = {{
      "little of it is beyond the fingertips"},
     {"row_across_flat", "the fingers' row is across its flat sides",
      "the fingers' row is along its flat sides"},
+    {"thumb_side_up", "the thumb's side is up", "the thumb's side is down"},
+    {"wrist_up", "the hand comes from above", "the hand comes from below"},
+    {"below_table", "the hand is where the table is", "the hand is clear of the table"},
 }};
 
 }  // namespace
@@ -162,6 +159,36 @@ double HandPoints::distance_to(const HandPoints& other) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < kCount; ++k) sum += (point[k] - other.point[k]).squaredNorm();
   return std::sqrt(sum / kCount);
+}
+
+Standing standing_with(const geometry::TriangleMesh& mesh, const Vec3& up) {
+  Standing standing;
+  standing.up = up.normalized();
+  standing.table = std::numeric_limits<double>::infinity();
+  for (const Vec3& v : mesh.vertices) standing.table = std::min(standing.table, standing.up.dot(v));
+  return standing;
+}
+
+GripFrame grip_frame(const HandPoints& points) {
+  const Vec3 others = (points.tip(1) + points.tip(2) + points.tip(3)) / 3.0;
+  GripFrame frame;
+  frame.middle = 0.5 * (points.tip(0) + others);
+  frame.thumb = (points.tip(0) - others).normalized();
+  const Vec3 wrist = points.wrist() - frame.middle;
+  frame.wrist = (wrist - frame.thumb * frame.thumb.dot(wrist)).normalized();
+  frame.row = frame.wrist.cross(frame.thumb);
+  if (frame.row.dot(points.tip(1) - points.tip(4)) < 0.0) frame.row = -frame.row;
+  return frame;
+}
+
+TableFeatures table_features(const HandPoints& points, const GripFrame& frame,
+                             const Standing& lay) {
+  double below = 0.0;
+  for (const Vec3& point : points.point) {
+    below += std::max(0.0, lay.table + kAboveTable - lay.up.dot(point));
+  }
+  return {frame.row.dot(lay.up), (points.wrist() - frame.middle).normalized().dot(lay.up),
+          std::log1p(below / kBelowUnit)};
 }
 
 HandPoints hand_points(const hand::Hand& hand, const hand::Posture& posture,

@@ -25,9 +25,27 @@ struct HandPoints {
 HandPoints hand_points(const hand::Hand& hand, const hand::Posture& posture,
                        const geometry::Rigid3& product_from_hand);
 
+/// How a thing lies or stands on a table. Its own frame, mm.
+struct Standing {
+  Vec3 up = Vec3::UnitZ();  ///< unit
+  double table = 0.0;       ///< height of the table along `up`
+};
+/// With that side up, on its lowest point.
+Standing standing_with(const geometry::TriangleMesh& mesh, const Vec3& up);
+
+/// A grip's own frame: unit directions across each other, product frame.
+struct GripFrame {
+  Vec3 middle = Vec3::Zero();  ///< between the thumb's tip and the mean of three fingers', mm
+  Vec3 thumb = Vec3::UnitX();  ///< from the fingers to the thumb
+  Vec3 wrist = Vec3::UnitY();  ///< towards the wrist
+  Vec3 row = Vec3::UnitZ();    ///< along the fingers' row, to the thumb's side
+};
+GripFrame grip_frame(const HandPoints& points);
+
 /// What a hold is judged by before anything is closed: each a continuous function of the posed hand
-/// and of the product's shape, wherever it lies; other triangles change them by what a sample of
-/// the surface differs. L is hand length; the grip is the middle between thumb and fingers.
+/// and of the product's shape; other triangles change them by what a sample of the surface differs.
+/// The last three need to know how the product lay before (Standing). L is hand length; the grip is
+/// the middle between thumb and fingers.
 enum class HoldFeature : std::uint8_t {
   kFingersOnIt,       ///< of four, how many fingertips are at its surface (a bell of 15 mm)
   kDepth,             ///< how far the deepest fingertip is in it: up to 3 cm
@@ -38,9 +56,18 @@ enum class HoldFeature : std::uint8_t {
   kBeyondThumbSide,   ///< share of its surface more than 40 mm beyond the grip there
   kBeyondFingertips,  ///< share of its surface more than 30 mm beyond the grip, off the wrist
   kRowAcrossFlat,     ///< flatness times the square of cos(fingers' row, shortest axis)
+  kThumbSideUp,       ///< cos(fingers' row, up)
+  kWristUp,           ///< cos(from the grip to the wrist, up)
+  kBelowTable,  ///< ln(1 + b / 20 mm), b how far wrist and fingertips, summed, are lower than 10 mm
+                ///< above the table
 };
-inline constexpr int kHoldFeatureCount = 9;
+inline constexpr int kHoldFeatureCount = 12, kTableFeatureCount = 3;
+inline constexpr int kShapeFeatureCount = kHoldFeatureCount - kTableFeatureCount;
 using HoldFeatures = Eigen::Matrix<double, kHoldFeatureCount, 1>;
+using ShapeFeatures = Eigen::Matrix<double, kShapeFeatureCount, 1>;
+using TableFeatures = Eigen::Matrix<double, kTableFeatureCount, 1>;
+/// Of any hand; of the frame only the middle and the row count.
+TableFeatures table_features(const HandPoints& points, const GripFrame& frame, const Standing& lay);
 std::string_view name_of(HoldFeature feature);  ///< "fingers_on_it", as in a file of weights
 /// For people, a clause: what it is like if there is much of it, "the fingers are on it", or
 /// little.
@@ -52,7 +79,7 @@ struct OpposedHold {
   Grip grip{};
   OpposedPlace place;
   HandPoints points;
-  HoldFeatures features;
+  ShapeFeatures features;
 };
 
 /// All of a product's: each of its opposing pairs of points, the thumb at either, in twelve turns

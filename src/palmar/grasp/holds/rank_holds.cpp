@@ -244,6 +244,9 @@ RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
     closed.push_back({std::move(ranked), kPrecisionOrder + closed.size()});
   }
   for (ClosedHold& hold : closed) {
+    if (scene.lay && !is_offered) {
+      hold.ranked.terms.push_back(table_term(scene, hand_over_weights(), hold.ranked.grasp));
+    }
     hold.ranked.score = sum_of(hold.ranked.terms);
     hold.ranked.grasp.score = hold.ranked.score;
     hold.ranked.words = words_of(hold.ranked.hold, result.parts);

@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kFarthest = 5000.0;  // mm from the object's origin; farther is another unit
 constexpr double kLargest = 1e6;      // of a weight, mean or spread
+constexpr double kLeastUp = 1e-6;     // shorter has no direction
 constexpr std::uint64_t kMostBytes = 1 << 16;
 
 std::string point_name(std::size_t k) {
@@ -34,10 +35,11 @@ std::vector<PeopleHolds> read_people_holds(const std::string& path) {
   const auto column = [&](const std::string& name) {
     const int found = file.column(name);
     if (found < 0) {
-      file.fail(file.header_line,
-                fmt::format("there is no column \"{}\"; object and wrist_x_mm, wrist_y_mm, "
-                            "wrist_z_mm, thumb_x_mm ... little_z_mm are required",
-                            name));
+      file.fail(
+          file.header_line,
+          fmt::format("there is no column \"{}\"; object and wrist_x_mm, wrist_y_mm, "
+                      "wrist_z_mm, thumb_x_mm ... little_z_mm, up_x, up_y and up_z are required",
+                      name));
     }
     return static_cast<std::size_t>(found);
   };
@@ -48,6 +50,8 @@ std::vector<PeopleHolds> read_people_holds(const std::string& path) {
       columns[k][c] = column(fmt::format("{}_{}_mm", point_name(k), "xyz"[c]));
     }
   }
+  std::array<std::size_t, 3> up{};
+  for (std::size_t c = 0; c < 3; ++c) up[c] = column(fmt::format("up_{}", "xyz"[c]));
   std::vector<PeopleHolds> result;
   for (const formats::CsvFile::Row& row : file.rows) {
     const std::string& name = row.cells[object];
@@ -55,7 +59,7 @@ std::vector<PeopleHolds> read_people_holds(const std::string& path) {
     auto known = std::find_if(result.begin(), result.end(),
                               [&](const PeopleHolds& one) { return one.object == name; });
     if (known == result.end()) known = result.insert(result.end(), {name, {}});
-    grasp::HandPoints& points = known->holds.emplace_back();
+    PeopleHold& hold = known->holds.emplace_back();
     for (std::size_t k = 0; k < columns.size(); ++k) {
       for (std::size_t c = 0; c < 3; ++c) {
         const double value = file.number(row, columns[k][c]);
@@ -63,9 +67,18 @@ std::vector<PeopleHolds> read_people_holds(const std::string& path) {
           file.fail(row.line, fmt::format("{} is {:g} mm; {:g} mm at most is allowed",
                                           file.header[columns[k][c]], value, kFarthest));
         }
-        points.point[k][static_cast<Eigen::Index>(c)] = value;
+        hold.points.point[k][static_cast<Eigen::Index>(c)] = value;
       }
     }
+    for (std::size_t c = 0; c < 3; ++c) {
+      hold.up[static_cast<Eigen::Index>(c)] = file.number(row, up[c]);
+    }
+    if (!(hold.up.norm() > kLeastUp && hold.up.norm() < kLargest)) {
+      file.fail(row.line,
+                "up_x, up_y and up_z have no direction; three numbers, not all 0, are "
+                "required");
+    }
+    hold.up.normalize();
   }
   if (result.empty()) throw InputError(path + ": it has no holds below the header");
   return result;
@@ -118,6 +131,7 @@ std::string hold_fit_json(const grasp::HoldFit& fit) {
                                 {"holds", one.seen},
                                 {"nearest_candidate_mm", one.nearest},
                                 {"log_likelihood_per_hold", one.likelihood},
+                                {"log_likelihood_not_knowing_how_it_lay", one.unseen},
                                 {"log_likelihood_of_even_chances", one.even},
                                 {"first_hold_mm", one.first},
                                 {"best_of_eight_mm", one.best_of_eight}});

@@ -20,14 +20,14 @@ std::string header() {
   for (const char* point : {"wrist", "thumb", "index", "middle", "ring", "little"}) {
     for (const char axis : {'x', 'y', 'z'}) text += fmt::format(",{}_{}_mm", point, axis);
   }
-  return text + ",spread_mm\n";
+  return text + ",spread_mm,up_x,up_y,up_z\n";
 }
 
 /// 0, 1, 2 ... 17 from `first` on.
 std::string row(const std::string& object, double first) {
   std::string text = object + ",01";
   for (int k = 0; k < 18; ++k) text += fmt::format(",{}", first + k);
-  return text + ",4.5\n";
+  return text + ",4.5,0,3,4\n";
 }
 
 class PeopleHoldsFile : public testing::Test {
@@ -55,9 +55,10 @@ TEST_F(PeopleHoldsFile, HasHoldsByObject) {
   ASSERT_EQ(people.size(), 2U);
   EXPECT_EQ(people[0].object, "box");
   ASSERT_EQ(people[0].holds.size(), 2U);
-  EXPECT_EQ(people[0].holds[0].wrist(), Vec3(0, 1, 2));
-  EXPECT_EQ(people[0].holds[1].tip(4), Vec3(65, 66, 67));
-  EXPECT_EQ(people[1].holds[0].tip(0), Vec3(103, 104, 105));
+  EXPECT_EQ(people[0].holds[0].points.wrist(), Vec3(0, 1, 2));
+  EXPECT_EQ(people[0].holds[1].points.tip(4), Vec3(65, 66, 67));
+  EXPECT_LT((people[0].holds[0].up - Vec3(0.0, 0.6, 0.8)).norm(), 1e-12);
+  EXPECT_EQ(people[1].holds[0].points.tip(0), Vec3(103, 104, 105));
 }
 
 TEST_F(PeopleHoldsFile, SaysWhatIsWrongWithIt) {
@@ -70,6 +71,10 @@ TEST_F(PeopleHoldsFile, SaysWhatIsWrongWithIt) {
   far.replace(far.find(",17,"), 4, ",17000,");
   EXPECT_THAT(why(header() + far), HasSubstr("people.csv:2: little_z_mm is 17000 mm; 5000 mm"));
   EXPECT_THAT(why(header() + row("", 0)), HasSubstr("people.csv:2: object is empty"));
+  std::string flat = row("box", 0);
+  flat.replace(flat.find(",0,3,4"), 6, ",0,0,0");
+  EXPECT_THAT(why(header() + flat),
+              HasSubstr("people.csv:2: up_x, up_y and up_z have no direction"));
   std::string none = row("box", 0);
   none.replace(none.find(",17,"), 4, ",,");
   EXPECT_THAT(why(header() + none), HasSubstr("people.csv:2"));

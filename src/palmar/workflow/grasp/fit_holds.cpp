@@ -44,8 +44,13 @@ grasp::HoldFit fit_holds(const FitHoldsRequest& request, const Progress& progres
     progress.update(done, "looking for holds of " + people[k].object);
     const product::Product product =
         records::load_product(meshes[k], {.unit = geometry::LengthUnit::kMillimetre});
-    objects.push_back(
-        {people[k].object, grasp::opposed_holds(opened, product, progress), people[k].holds});
+    grasp::ObservedObject object;
+    object.name = people[k].object;
+    object.candidates = grasp::opposed_holds(opened, product, progress);
+    for (const records::PeopleHold& hold : people[k].holds) {
+      object.seen.push_back({hold.points, grasp::standing_with(product.mesh, hold.up)});
+    }
+    objects.push_back(std::move(object));
   }
   progress.update(0.95, "fitting weights");
   const grasp::HoldFit fit = grasp::fit_holds(objects);
