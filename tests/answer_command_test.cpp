@@ -60,6 +60,11 @@ TEST_F(AnswerCommand, IsTheSameInTheTextTheJsonAndThePage) {
   };
   EXPECT_NEAR(json.at("verdict").at("comparisons").at(0).at("peak_change").get<double>(),
               peak(1) / peak(0) - 1.0, 1e-12);
+  // Both are held alike, so that what differs is the products.
+  const Json& pair = json.at("verdict").at("comparisons").at(0);
+  EXPECT_LT(pair.at("hand_turned_deg").get<double>(), 10.0);
+  EXPECT_LT(pair.at("hand_shifted_mm").get<double>(), 5.0);
+  EXPECT_EQ(pair.at("held_alike"), true);
   // Nothing else judges comfort.
   EXPECT_THAT(text.out, Not(HasSubstr("algometer")));
 }

@@ -9,16 +9,19 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "holds/made_products.h"
 #include "holds/peoples_holds.h"
 #include "holds/tried_products.h"
 #include "palmar/geometry/mesh/mesh_topology.h"
+#include "palmar/product/primitives.h"
 #include "template_fixture.h"
 
 namespace palmar::tests {
@@ -136,6 +139,36 @@ TEST_F(Holds, ThoroughScoresFallAndAreTheSumsOfTheirTerms) {
         sum += term.score;
       }
       EXPECT_NEAR(sum, found.score, 1e-9) << found.words;
+    }
+  }
+}
+
+// Bars that look alike from the other side or are round are taken from the side from which the hand
+// came to the one before, however their meshes begin.
+TEST_F(Holds, OfSymmetricProductsAreTakenLikeThoseOfAnotherOne) {
+  const auto prism = [](double width, double depth) {
+    return product::make_prism_product({.width = width, .depth = depth, .length = 150.0});
+  };
+  const auto cylinder = [&](double diameter, double turn) {
+    const Quat about(Eigen::AngleAxisd(turn, Vec3::UnitZ()));
+    return moved(product::make_cylinder_product({.diameter = diameter, .length = 130.0}),
+                 {about, Vec3::Zero()});
+  };
+  for (const double other_way : {0.0, 1.0, 2.0, 3.0}) {
+    const Quat way(Eigen::AngleAxisd(0.5 * std::numbers::pi * other_way, Vec3::UnitZ()));
+    for (const product::Product& product :
+         {prism(45.0, 20.0), prism(40.0, 30.0), cylinder(40.0, 0.0), cylinder(43.0, 0.6)}) {
+      grasp::HoldOptions options;
+      const grasp::RankedHolds first = grasp::rank_holds(hand(), product, options);
+      ASSERT_FALSE(first.holds.empty());
+      // Half turns of a prism are the same to it, all turns of a cylinder.
+      const bool is_round = product.name == "cylinder";
+      if (!is_round && std::fmod(other_way, 2.0) != 0.0) continue;
+      options.like = way * first.holds[0].grasp.product_from_hand.rotation;
+      const grasp::RankedHolds like = grasp::rank_holds(hand(), product, options);
+      EXPECT_LT(like.holds[0].grasp.product_from_hand.rotation.angularDistance(*options.like),
+                10.0 * std::numbers::pi / 180.0)
+          << product.name << ", turned by " << 90.0 * other_way;
     }
   }
 }

@@ -6,10 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -285,6 +288,48 @@ TEST_F(StudyCommand, NeedsNoFile) {
   EXPECT_EQ(json::parse(done.out)["grasps"], 2);
   EXPECT_EQ(run("study run").exit_code, 2);
   EXPECT_THAT(run("study run").err, HasSubstr("FILE.toml or --product is required"));
+}
+
+/// Cells of a line of CSV, quotes taken off.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (c == '"') {
+      is_quoted = !is_quoted;
+    } else if (c == ',' && !is_quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+// In gloves a product is thicker and its other side may do as well: it is held as without.
+TEST_F(StudyCommand, AllProfilesHoldAProductInTheSameWay) {
+  ASSERT_EQ(run("study run --product handle.stl --unit mm --hands 2 --profile none --profile "
+                "thick_gloves --out gloves.palmar --quiet")
+                .exit_code,
+            0);
+  ASSERT_EQ(run("study export gloves.palmar --out gloves").exit_code, 0);
+  std::istringstream table(read_text(folder_ + "/gloves/grasps.csv"));
+  std::string line;
+  std::getline(table, line);
+  const std::vector<std::string> header = cells_of(line);
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  };
+  std::set<std::string> profiles, ways;
+  while (std::getline(table, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    ASSERT_EQ(cells.size(), header.size());
+    profiles.insert(cells[column("profile")]);
+    ways.insert(cells[column("part")] + " " + cells[column("grip")] + " " + cells[column("along")] +
+                " " + cells[column("toward")] + " " + cells[column("turn_deg")]);
+  }
+  EXPECT_EQ(profiles.size(), 2U);
+  EXPECT_EQ(ways.size(), 1U) << ::testing::PrintToString(ways);
 }
 
 TEST_F(StudyCommand, SaysWhatWouldRunAndHowLong) {

@@ -157,10 +157,14 @@ function pictureNamed(pictures: Picture[], names: string[]): Picture[] {
 
 function tone(page: AssessmentPage): Verdict {
   const all = page.report.assessments;
-  if (all.length > 1) return page.report.verdict.best !== null ? "good" : "fair";
+  if (all.length > 1) {
+    const { best, comparisons } = page.report.verdict;
+    const isByShape = comparisons.every((one) => one.held_alike || one.verdict === "only_one_held");
+    return best !== null && isByShape ? "good" : "fair";
+  }
   const { held, comfort } = all[0].verdict;
   if (held === "not_held" || (comfort && comfort.moment.level === "above")) return "bad";
-  return held === "held" && comfort && comfort.repeated.level === "below" ? "good" : "fair";
+  return held !== "doubtful" && comfort && comfort.repeated.level === "below" ? "good" : "fair";
 }
 
 function answer(page: AssessmentPage): FirstScreen {

@@ -311,7 +311,7 @@ export interface OnsetVerdict {
 
 /// What one product comes to; sentences as they are in the language of the report.
 export interface ProductVerdict {
-  held: "held" | "doubtful" | "not_held";
+  held: "held" | "rests" | "pushes" | "doubtful" | "not_held";
   sentence: string;
   comfort: null | {
     sentence: string;
@@ -351,6 +351,9 @@ export interface SetVerdict {
     peak_change_stiff: number | null;
     peak_unsure: number | null;
     peak_change_second_rest: number | null;
+    hand_turned_deg: number | null;
+    hand_shifted_mm: number | null;
+    held_alike: boolean;
   }[];
 }
 

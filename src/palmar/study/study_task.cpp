@@ -273,6 +273,13 @@ struct StudyBench::Impl {
   std::map<StudyTask, Place> places;                          ///< by task, of hand 0
   std::vector<bool> holds_only;  ///< by setting: products are only held (grasp::UsualTask)
 
+  /// The places that have to be known before one, and that itself: the first product's, that of
+  /// the same product under the first profile.
+  std::vector<StudyTask> places_for(const StudyTask& place) const;
+  /// How the mean hand takes a product there: under other profiles as under the first, other
+  /// products like the first where that is as good.
+  grasp::GraspOptions place_options(const StudyTask& key) const;
+  void find_places(const Progress& progress);
   /// Says what hands do with the products where nothing is said (holds_only).
   void settle_usual_tasks();
   /// Lets the mean hands come to rest on the products.
@@ -462,8 +469,10 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
     const StudyTask task = task_at(bench.plan, number);
     const StudySetting& setting = bench.plan.settings[task.setting];
     if (setting.is_place_per_hand || (for_all && !setting.follows_product)) return;
-    bench.places[bench.place_key(task)];
-    is_needed[task.profile] = true;
+    for (const StudyTask& place : bench.places_for(bench.place_key(task))) {
+      bench.places[place];
+      is_needed[place.profile] = true;
+    }
   };
   for (const std::int64_t number : tasks) need(number, false);
   // What is usual is said of all products, whichever are still to be run.
@@ -484,31 +493,66 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
       bench.mean_failures[p] = std::string("the mean hand can't be made: ") + error.what();
     }
   });
-  std::vector<std::pair<const StudyTask, Impl::Place>*> open;
-  for (auto& entry : bench.places) {
-    if (entry.second.place == nullptr && entry.second.failure.empty()) open.push_back(&entry);
-  }
-  parallel_for(static_cast<int>(open.size()), [&](int i) {
-    auto& [task, place] = *open[i];
-    const int profile = task.profile;
-    if (bench.mean_hands[profile] == nullptr) {
-      place.failure = bench.mean_failures[profile];
-      return;
-    }
-    run_isolated([&, &key = task, &found = place] {
-      try {
-        found.place = std::make_unique<const grasp::GraspPlace>(
-            *bench.mean_hands[profile], bench.product_for(key.profile, key.product),
-            bench.grasp_options(key), progress);
-      } catch (const Cancelled&) {
-        throw;
-      } catch (const Error& error) {
-        found.failure = std::string("no place on the product for the mean hand: ") + error.what();
-      }
-    });
-  });
+  bench.find_places(progress);
   bench.settle_usual_tasks();
   bench.rest_mean_hands(progress);
+}
+
+std::vector<StudyTask> StudyBench::Impl::places_for(const StudyTask& place) const {
+  StudyTask bare = place;
+  bare.profile = 0;
+  StudyTask first = bare;
+  first.product = 0;
+  return {place_key(first), bare, place};
+}
+
+grasp::GraspOptions StudyBench::Impl::place_options(const StudyTask& key) const {
+  grasp::GraspOptions options = grasp_options(key);
+  if (options.hold || options.is_placed()) return options;
+  const std::vector<StudyTask> others = places_for(key);
+  const auto grasp_of = [&](const StudyTask& other) -> const grasp::Grasp* {
+    const auto found = places.find(other);
+    if (other == key || found == places.end() || found->second.place == nullptr) return nullptr;
+    return &found->second.place->reference_grasp();
+  };
+  if (const grasp::Grasp* bare = grasp_of(others[1]); bare != nullptr && bare->hold) {
+    options.hold = bare->hold;  // whatever the profile
+  } else if (const grasp::Grasp* first = grasp_of(others[0]); first != nullptr && first->hold) {
+    options.holds.like = first->product_from_hand.rotation;
+  }
+  return options;
+}
+
+void StudyBench::Impl::find_places(const Progress& progress) {
+  // Those that others look to come first: the first product's, then each product's under the first
+  // profile.
+  for (int wave = 0; wave < 3; ++wave) {
+    std::vector<std::pair<const StudyTask, Place>*> open;
+    for (auto& entry : places) {
+      const auto& [task, found] = entry;
+      const std::vector<StudyTask> before = places_for(task);
+      const int own = task == before[0] ? 0 : task == before[1] ? 1 : 2;
+      if (own == wave && found.place == nullptr && found.failure.empty()) open.push_back(&entry);
+    }
+    parallel_for(static_cast<int>(open.size()), [&](int i) {
+      auto& [task, place] = *open[i];
+      if (mean_hands[task.profile] == nullptr) {
+        place.failure = mean_failures[task.profile];
+        return;
+      }
+      run_isolated([&, &key = task, &found = place] {
+        try {
+          found.place = std::make_unique<const grasp::GraspPlace>(
+              *mean_hands[key.profile], product_for(key.profile, key.product), place_options(key),
+              progress);
+        } catch (const Cancelled&) {
+          throw;
+        } catch (const Error& error) {
+          found.failure = std::string("no place on the product for the mean hand: ") + error.what();
+        }
+      });
+    });
+  }
 }
 
 void StudyBench::Impl::settle_usual_tasks() {

@@ -48,8 +48,10 @@ std::vector<HeldProduct> take_products(const AssessRequest& request,
   const double step = (kHeld - kPrepared) / static_cast<double>(tasks.size());
   for (const ProductTask& task : tasks) {
     const double start = kPrepared + step * static_cast<double>(held.size());
+    grasp::GraspOptions options = task.grasp;
+    if (!held.empty()) options.holds.like = held.front().turn();
     held.push_back(take_product(
-        hand, task.product, request.grasp, task.grasp,
+        hand, task.product, request.grasp, options,
         part_of(progress, start, start + step, "taking hold of " + task.product.name)));
   }
   return held;

@@ -42,6 +42,10 @@ struct HoldOptions {
   std::optional<double> mass;   ///< kg; unset: from the volume at 1 g/cm^3
   std::optional<double> along;  ///< fraction of the part's length, 0 to 1
   HoldPurpose purpose = HoldPurpose::kUse;
+  /// How a hand holds another product that this one is to be compared with, product from hand: of
+  /// holds that are as good, that which is turned least against it leads, and what is round is
+  /// taken from the same side. Unset: the first of the candidates leads.
+  std::optional<Quat> like;
   /// Of holds to hand over; null: hand_over_weights().
   std::shared_ptr<const HoldWeights> weights;
   double palm_limit_depth = 7.0;    ///< mm; as PowerGraspOptions
@@ -52,7 +56,7 @@ struct HoldOptions {
 
 /// Ways of holding a product, as people would choose: best first, each unlike those before it. Of
 /// holds whose scores are within 0.2 of the best, which the last digits decide, the one leads that
-/// comes first among the candidates.
+/// comes first among the candidates (HoldOptions::like).
 struct RankedHolds {
   product::ProductParts parts;
   std::vector<RankedHold> holds;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "palmar/geometry/degrees.h"
 #include "palmar/grasp/holds/hold_limits.h"
@@ -23,6 +24,7 @@ constexpr double kShortPart = 1.25;  // breadths of the fingers; shorter: one pl
 constexpr double kSamePlace = 0.25;  // breadths of the fingers; nearer places are the same; choice
 constexpr double kIndexBeyond = 0.25;    // one of four fingers lies beyond a short handle's end
 constexpr double kBelowTrigger = 0.25;   // of the fingers' breadth: one finger; choice
+constexpr double kPalmAlong = 0.9;       // cosine; choice
 constexpr double kIndexPlaceOf = 0.375;  // of the fingers' breadth: the index finger's middle
 
 struct CandidatePlace {
@@ -112,7 +114,35 @@ Grip grip_for(const product::ProductPart& part, const HoldSite& at, bool is_over
   return wrap_for(at.site.girth, hand_length);
 }
 
+/// The turn about a part's axis at which the palm lies as in that hold of another product; nothing
+/// if its palm faces along the axis.
+std::optional<double> turn_like(const product::ProductPart& part, double along, const Quat& like) {
+  const geometry::Rigid3 frame = product::part_frame(part, along, 0.0);
+  const Vec3 axis = frame.rotation * Vec3::UnitX(), zero = frame.rotation * Vec3::UnitZ();
+  const Vec3 palm = like * -Vec3::UnitZ();  // from the axis to it: it faces along z
+  if (std::abs(axis.dot(palm)) > kPalmAlong) return std::nullopt;
+  return std::atan2(axis.dot(zero.cross(palm)), zero.dot(palm));
+}
+
 }  // namespace
+
+bool is_round_about(const product::ProductPart& axis_of, const product::ProductParts& parts) {
+  constexpr double kRound = 0.08;  // width over thickness, less 1
+  constexpr double kOff = 2.0;     // mm beside the axis; or a share of the width
+  const geometry::Rigid3 frame = product::part_frame(axis_of, 0.5, 0.0);
+  const Vec3 axis = frame.rotation * Vec3::UnitX();
+  for (const product::ProductPart& part : parts.parts) {
+    if (part.kind == product::PartKind::kLoop || part.is_ring || part.sections.empty())
+      return false;
+    const double width = std::max(part.width, 1.0);
+    if (part.width > (1.0 + kRound) * part.thickness) return false;
+    for (const product::PartStation& station : part.line) {
+      const Vec3 r = station.centre - frame.translation;
+      if ((r - axis * axis.dot(r)).norm() > std::max(kOff, 0.05 * width)) return false;
+    }
+  }
+  return true;
+}
 
 bool is_part_asked(const product::ProductPart& part, const HoldOptions& options) {
   if (options.part && *options.part != part.number) return false;
@@ -124,7 +154,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
   std::vector<HoldCandidate> found;
   const double length = scene.hand->dimensions.hand_length;
   std::size_t place_number = 0;
-  const auto add = [&](Hold hold, const product::ProductPart& part) {
+  const auto add = [&](Hold hold, const product::ProductPart& part, int side) {
     HoldCandidate candidate;
     candidate.at = site_of(hold, *scene.parts, *scene.product, *scene.hand);
     if (!is_toward(options, candidate.at)) return;
@@ -134,9 +164,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     candidate.score = sum_of(candidate.terms) + rough_table_score(scene, candidate.at);
     candidate.hold = std::move(hold);
     // Mirror images of each other have the same number.
-    candidate.index =
-        16 * place_number +
-        static_cast<std::size_t>(std::abs(std::lround(4.0 * hold.turn / std::numbers::pi)));
+    candidate.index = 16 * place_number + static_cast<std::size_t>(std::abs(side));
     found.push_back(std::move(candidate));
   };
   for (const product::ProductPart& part : scene.parts->parts) {
@@ -144,6 +172,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     Hold hold;
     hold.part = part.number;
     hold.part_name = part.name;
+    const bool is_round = options.like && is_round_about(part, *scene.parts);
     for (const int toward : {1, -1}) {
       hold.toward = toward;
       std::vector<CandidatePlace> places = places_on(scene, part, toward);
@@ -152,14 +181,17 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
         hold.along = place.along;
         hold.edge = place.edge;
         ++place_number;
+        const std::optional<double> like =
+            is_round ? turn_like(part, place.along, *options.like) : std::nullopt;
         for (const int side : kPalmSides) {
-          hold.turn = 0.25 * std::numbers::pi * side;
+          if (like && side != 0) continue;  // all sides are the same
+          hold.turn = like.value_or(0.0) + 0.25 * std::numbers::pi * side;
           if (part.kind == product::PartKind::kLoop) hold.turn = std::numbers::pi;
-          add(hold, part);
+          add(hold, part, part.kind == product::PartKind::kLoop ? 4 : side);
           if (part.kind != product::PartKind::kLoop) continue;
           if (!options.grip) {
             hold.grip = Grip::kFixedHook;
-            add(hold, part);
+            add(hold, part, 4);
             hold.grip = Grip::kMediumWrap;
           }
           break;
@@ -181,7 +213,7 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
       ++place_number;
       for (const int side : kPalmSides) {
         hold.turn = 0.25 * std::numbers::pi * side;
-        add(hold, part);
+        add(hold, part, side);
       }
     }
   }

@@ -25,6 +25,10 @@ struct HoldCandidate {
 std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOptions& options);
 
 /// Whether a part is meant by the options: by number, by name, or because none is asked for.
+/// Whether the whole product is round about a part's axis: then it is all one on which side of it
+/// the palm is.
+bool is_round_about(const product::ProductPart& axis_of, const product::ProductParts& parts);
+
 bool is_part_asked(const product::ProductPart& part, const HoldOptions& options);
 
 }  // namespace palmar::grasp

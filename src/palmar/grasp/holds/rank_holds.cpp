@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "palmar/core/error.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/grasp/holds/hold.h"
 #include "palmar/grasp/holds/hold_anchor.h"
 #include "palmar/grasp/holds/hold_candidates.h"
@@ -34,6 +35,9 @@ constexpr double kEnoughWrap = 1.0 / 3.0;  // of a turn
 constexpr double kUsualContact = 0.06;     // of hand length squared: palmar skin in a power grip
 constexpr double kHookContact = 0.02;      // ... of the fingers alone
 constexpr double kContactWeight = 0.7;     // Napier 1956: a power grip uses much of the palm
+
+// Turns of two holds against a third that differ by less are the same; choice.
+constexpr double kSameTurn = 5.0 * geometry::kDegree;
 
 /// A candidate with the hand closed on it.
 struct ClosedHold {
@@ -75,7 +79,7 @@ HoldTerm grip_term(const PowerPlace& place, const HoldScene& scene, const Hold& 
   if (missing > 0.0)
     reasons.push_back(fmt::format("{} of {} fingers on it", measure.fingers, wanted));
   if (wrap > 0.0) reasons.push_back(fmt::format("only {:.0f} degrees round it", degrees));
-  if (measure.other_area > 50.0) reasons.emplace_back("the back of the hand against it");
+  if (measure.other_area > 50.0) reasons.emplace_back("the back of the hand is in it");
   if (little < kWorthNaming) reasons.emplace_back("little of the palm's side touches it");
   std::string words;
   for (const std::string& reason : reasons) words += (words.empty() ? "" : ", ") + reason;
@@ -106,26 +110,6 @@ std::string against(const std::vector<HoldTerm>& terms) {
                        [](const HoldTerm& a, const HoldTerm& b) { return a.score < b.score; });
   constexpr double kWorthTelling = -0.5;
   return worst == terms.end() || worst->score > kWorthTelling ? "" : worst->words;
-}
-
-// Whether the whole product is round about a part's axis: then it is all one on which side of it
-// the palm is.
-bool is_round_about(const product::ProductPart& axis_of, const product::ProductParts& parts) {
-  constexpr double kRound = 0.08;  // width over thickness, less 1
-  constexpr double kOff = 2.0;     // mm beside the axis; or a share of the width
-  const geometry::Rigid3 frame = product::part_frame(axis_of, 0.5, 0.0);
-  const Vec3 axis = frame.rotation * Vec3::UnitX();
-  for (const product::ProductPart& part : parts.parts) {
-    if (part.kind == product::PartKind::kLoop || part.is_ring || part.sections.empty())
-      return false;
-    const double width = std::max(part.width, 1.0);
-    if (part.width > (1.0 + kRound) * part.thickness) return false;
-    for (const product::PartStation& station : part.line) {
-      const Vec3 r = station.centre - frame.translation;
-      if ((r - axis * axis.dot(r)).norm() > std::max(kOff, 0.05 * width)) return false;
-    }
-  }
-  return true;
 }
 
 bool is_unlike(const hand::Hand& hand, const product::ProductParts& parts, const RankedHold& a,
@@ -256,14 +240,19 @@ RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
   std::stable_sort(closed.begin(), closed.end(), [](const ClosedHold& a, const ClosedHold& b) {
     return a.ranked.score > b.ranked.score;
   });
-  // Of holds that are as good, by the last digits chance decides: the first of the candidates.
+  // Of holds that are as good, by the last digits chance decides: the one most like the hold of
+  // another product, else the first of the candidates.
+  const auto rank_of = [&](const ClosedHold& hold) {
+    const bool is_as_good = hold.ranked.score >= closed.front().ranked.score - kNearTie;
+    const double turned =
+        options.like ? hold.ranked.grasp.product_from_hand.rotation.angularDistance(*options.like)
+                     : 0.0;
+    return std::tuple(is_as_good ? 0 : 1, std::round(turned / kSameTurn), hold.order,
+                      -hold.ranked.score);
+  };
   const auto best =
-      std::min_element(closed.begin(), closed.end(), [&](const auto& a, const auto& b) {
-        const double least = closed.front().ranked.score - kNearTie;
-        const bool is_a = a.ranked.score >= least, is_b = b.ranked.score >= least;
-        if (is_a != is_b || !is_a) return is_a && !is_b;
-        return a.order != b.order ? a.order < b.order : a.ranked.score > b.ranked.score;
-      });
+      std::min_element(closed.begin(), closed.end(),
+                       [&](const auto& a, const auto& b) { return rank_of(a) < rank_of(b); });
   if (best != closed.end()) std::rotate(closed.begin(), best, best + 1);
   for (ClosedHold& hold : closed) {
     if (result.holds.size() == static_cast<std::size_t>(options.most)) break;

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "palmar/geometry/degrees.h"
 #include "palmar/records/json_values.h"
 
 namespace palmar::records {
@@ -51,15 +52,20 @@ nlohmann::ordered_json verdict_object(const study::SetVerdict& verdict, const Ve
                                       const std::vector<std::string>& names) {
   VerdictJson comparisons = VerdictJson::array();
   for (const study::ProductComparison& one : verdict.comparisons) {
-    comparisons.push_back({{"better", names.at(one.better)},
-                           {"worse", names.at(one.worse)},
-                           {"verdict", name_of(one.verdict)},
-                           {"peak_change", one.peak_change},
-                           {"area_change", one.area_change},
-                           {"peak_change_soft", or_null(one.peak_change_soft)},
-                           {"peak_change_stiff", or_null(one.peak_change_stiff)},
-                           {"peak_unsure", or_null(one.peak_unsure)},
-                           {"peak_change_second_rest", or_null(one.peak_change_second)}});
+    comparisons.push_back(
+        {{"better", names.at(one.better)},
+         {"worse", names.at(one.worse)},
+         {"verdict", name_of(one.verdict)},
+         {"peak_change", one.peak_change},
+         {"area_change", one.area_change},
+         {"peak_change_soft", or_null(one.peak_change_soft)},
+         {"peak_change_stiff", or_null(one.peak_change_stiff)},
+         {"peak_unsure", or_null(one.peak_unsure)},
+         {"peak_change_second_rest", or_null(one.peak_change_second)},
+         {"hand_turned_deg", one.hand_turned ? VerdictJson(*one.hand_turned / geometry::kDegree)
+                                             : VerdictJson(nullptr)},
+         {"hand_shifted_mm", or_null(one.hand_shifted)},
+         {"held_alike", one.are_held_alike()}});
   }
   return {{"sentence", words.sentence},
           {"reasons", words.reasons},

@@ -7,6 +7,7 @@
 
 #include "palmar/contact/prepared/resolution.h"
 #include "palmar/core/text.h"
+#include "palmar/geometry/degrees.h"
 #include "palmar/grasp/task_force.h"
 #include "palmar/report/words/phrases.h"
 #include "palmar/report/words/plain_words.h"
@@ -118,6 +119,13 @@ records::ProductWords product_words(const study::AssessedProduct& product,
       words.held = texts("verdict.one.held", {{"product", name},
                                               {"force", texts.number(verdict.grip_force, 2)},
                                               {"comfort", comfort_words(verdict.comfort, texts)}});
+      break;
+    case study::HeldVerdict::kRests:
+    case study::HeldVerdict::kPushes:
+      words.held = texts("verdict.one." + std::string(name_of(verdict.held)),
+                         {{"product", name},
+                          {"force", texts.number(verdict.grip_force, 2)},
+                          {"comfort", comfort_words(verdict.comfort, texts)}});
       break;
     case study::HeldVerdict::kDoubtful:
       words.held = texts("verdict.one.doubtful",
@@ -271,7 +279,7 @@ class SetSpeaker {
     }
     if (!words.hardest.empty()) words_.reasons.push_back(words.hardest);
     if (!words.strength.empty()) words_.reasons.push_back(words.strength);
-    if (verdict.held != study::HeldVerdict::kHeld) {
+    if (!study::is_sound(verdict.held)) {
       try_other_hold(0);
       return;
     }
@@ -355,6 +363,7 @@ class SetSpeaker {
     } else {
       words_.sentence = texts_("verdict.no_best", {{"first", pair_sentence(pair)}});
     }
+    for (const study::ProductComparison& one : verdict_.comparisons) add_other_hold(one);
     if (pair.verdict == study::PairVerdict::kLower) {
       if (pair.peak_change_soft && pair.peak_change_stiff) {
         const auto signed_percent = [&](double change) {
@@ -394,6 +403,17 @@ class SetSpeaker {
     }
   }
 
+  /// How much of a difference may come from another hold.
+  void add_other_hold(const study::ProductComparison& pair) {
+    if (!pair.hand_turned || pair.are_held_alike()) return;
+    words_.reasons.push_back(
+        texts_("reason.other_hold",
+               {{"better", name(pair.better)},
+                {"worse", name(pair.worse)},
+                {"turned", std::to_string(std::lround(*pair.hand_turned / geometry::kDegree))},
+                {"shifted", std::to_string(std::lround(*pair.hand_shifted))}}));
+  }
+
   /// Whose highest pressure hangs on edges sharper than the mesh.
   void add_unresolved(const study::ProductComparison& pair) {
     std::vector<std::string> names;
@@ -409,7 +429,7 @@ class SetSpeaker {
   void compare_at_equal_force() {
     double least = 0.0;
     for (const study::ProductVerdict& one : verdict_.products) {
-      if (one.held != study::HeldVerdict::kHeld) continue;
+      if (!study::is_sound(one.held)) continue;
       // Hooked fingers carry: no force can be asked of them.
       const auto number = static_cast<std::size_t>(&one - verdict_.products.data());
       if (set_.assessments[number].assessment.grasp.grip == grasp::Grip::kFixedHook) return;

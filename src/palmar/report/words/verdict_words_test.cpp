@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace palmar::report {
 namespace {
 
@@ -69,6 +71,18 @@ records::VerdictWords words_of(std::vector<study::AssessedProduct> products,
                                  .assessments = std::move(products),
                                  .command_line = line};
   return verdict_words(set, study::verdict_of(set), Language::kEnglish);
+}
+
+TEST(VerdictWords, AnotherHoldIsAReasonToDoubtADifference) {
+  std::vector<study::AssessedProduct> two = {held("A", 60, 0.40), held("B", 60, 0.292)};
+  EXPECT_THAT(words_of(two).reasons, Not(Contains(HasSubstr("lies otherwise"))));
+  two[1].assessment.grasp.product_from_hand.rotation =
+      Quat(Eigen::AngleAxisd(std::numbers::pi / 6.0, Vec3::UnitX()));
+  two[1].assessment.grasp.grip_point = Vec3(0.0, 12.0, 0.0);
+  EXPECT_THAT(words_of(two).reasons,
+              Contains("The hand lies otherwise on B than on A: turned by 30° and shifted by 12 mm "
+                       "in the frame of their files. Part of the difference may be that of the "
+                       "hold."));
 }
 
 TEST(VerdictWords, TheAnswerNamesProductsAmountAndForce) {

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palmar/geometry/degrees.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/task_force.h"
 #include "palmar/study/assessment/hold_doubts.h"
 
 namespace palmar::study {
 namespace {
+
+constexpr double kSameTurn = 10.0 * geometry::kDegree;  // choices: less than hands differ by
+constexpr double kSameShift = 5.0;                      // mm
 
 double peak_of(const AssessedProduct& one) {
   return one.assessment.contact.total.peak_pressure_cells;
@@ -62,10 +66,13 @@ std::optional<HardestPlace> hardest_of(const AssessedProduct& one) {
 ProductVerdict judge(const AssessedProduct& one, const hand::Hand* hand) {
   ProductVerdict verdict;
   if (!presses_on_skin(one.assessment)) return verdict;
-  verdict.held =
-      doubts_of(one.assessment).empty() && one.assessment.grasp.status == grasp::GraspStatus::kHeld
-          ? HeldVerdict::kHeld
-          : HeldVerdict::kDoubtful;
+  const grasp::Grasp& grasp = one.assessment.grasp;
+  const bool is_doubtful =
+      !doubts_of(one.assessment).empty() || grasp.status != grasp::GraspStatus::kHeld;
+  verdict.held = is_doubtful                              ? HeldVerdict::kDoubtful
+                 : grasp.grip == grasp::Grip::kFingerPush ? HeldVerdict::kPushes
+                 : grasp::is_non_prehensile(grasp.grip)   ? HeldVerdict::kRests
+                                                          : HeldVerdict::kHeld;
   verdict.grip_force = grip_force_of(one);
   if (one.assessment.options.balance.is_on) {
     verdict.asked = one.assessment.options.balance.asked_grip_force(one.assessment.grasp.grip);
@@ -87,6 +94,24 @@ bool does_task(const AssessedProduct& one) {
   return options.holds_load && asked && are_equally_firm(balance.grip_force, *asked);
 }
 
+/// Between thumb and fingers where fingertips hold it, else where the hand is along the axis.
+Vec3 middle_of(const grasp::Grasp& grasp) {
+  if (grasp.fingertips.empty()) return grasp.grip_point;
+  Vec3 others = Vec3::Zero();
+  double count = 0.0;
+  std::optional<Vec3> thumb;
+  for (const grasp::FingertipContact& tip : grasp.fingertips) {
+    if (tip.finger == hand::Finger::kThumb) {
+      thumb = tip.reached;
+    } else {
+      others += tip.reached;
+      count += 1.0;
+    }
+  }
+  if (count == 0.0) return *thumb;
+  return thumb ? Vec3(0.5 * (*thumb + others / count)) : Vec3(others / count);
+}
+
 double change(double worse, double better) { return worse > 0.0 ? better / worse - 1.0 : 0.0; }
 
 ProductComparison compare(const AssessmentSet& set, const std::vector<ProductVerdict>& verdicts,
@@ -97,11 +122,14 @@ ProductComparison compare(const AssessmentSet& set, const std::vector<ProductVer
   const AssessedProduct& a = set.assessments[worse];
   const AssessedProduct& b = set.assessments[better];
   const HeldVerdict held_a = verdicts[worse].held, held_b = verdicts[better].held;
-  if (held_a != HeldVerdict::kHeld || held_b != HeldVerdict::kHeld) {
-    pair.verdict =
-        held_b == HeldVerdict::kHeld ? PairVerdict::kOnlyOneHeld : PairVerdict::kNoneHeld;
+  if (!is_sound(held_a) || !is_sound(held_b)) {
+    pair.verdict = is_sound(held_b) ? PairVerdict::kOnlyOneHeld : PairVerdict::kNoneHeld;
     return pair;
   }
+  const grasp::Grasp &grasp_a = a.assessment.grasp, &grasp_b = b.assessment.grasp;
+  pair.hand_turned =
+      grasp_a.product_from_hand.rotation.angularDistance(grasp_b.product_from_hand.rotation);
+  pair.hand_shifted = (middle_of(grasp_b) - middle_of(grasp_a)).norm();
   pair.peak_change = change(peak_of(a), peak_of(b));
   pair.area_change = change(a.assessment.contact.total.area, b.assessment.contact.total.area);
   pair.are_of_task = does_task(a) && does_task(b);
@@ -153,7 +181,8 @@ int least_pressing(const AssessmentSet& set, const std::vector<ProductVerdict>& 
   int least = 0;
   for (int i = 1; i < static_cast<int>(verdicts.size()); ++i) {
     const auto rank = [&](int k) {
-      return std::pair(static_cast<int>(verdicts[k].held), peak_of(set.assessments[k]));
+      const HeldVerdict held = verdicts[k].held;
+      return std::pair(is_sound(held) ? 0 : static_cast<int>(held), peak_of(set.assessments[k]));
     };
     if (rank(i) < rank(least)) least = i;
   }
@@ -162,16 +191,28 @@ int least_pressing(const AssessmentSet& set, const std::vector<ProductVerdict>& 
 
 }  // namespace
 
+bool ProductComparison::are_held_alike() const {
+  return hand_turned && *hand_turned <= kSameTurn && *hand_shifted <= kSameShift;
+}
+
 std::string_view name_of(HeldVerdict verdict) {
   switch (verdict) {
     case HeldVerdict::kHeld:
       return "held";
+    case HeldVerdict::kRests:
+      return "rests";
+    case HeldVerdict::kPushes:
+      return "pushes";
     case HeldVerdict::kDoubtful:
       return "doubtful";
     case HeldVerdict::kNotHeld:
       break;
   }
   return "not_held";
+}
+
+bool is_sound(HeldVerdict verdict) {
+  return verdict != HeldVerdict::kDoubtful && verdict != HeldVerdict::kNotHeld;
 }
 
 std::string_view name_of(PairVerdict verdict) {

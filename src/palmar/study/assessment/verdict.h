@@ -40,10 +40,14 @@ struct HardestPlace {
 
 enum class HeldVerdict {
   kHeld,      ///< at rest, with all that its grip needs; or as it was closed, if nothing was asked
+  kRests,     ///< as well, but the hand only lies on it: it couldn't be carried so
+  kPushes,    ///< as well, but a finger only presses on it
   kDoubtful,  ///< in the hand, but doubts_of() has something against it
   kNotHeld
 };
-std::string_view name_of(HeldVerdict verdict);  ///< "held", "doubtful", "not_held"
+std::string_view name_of(HeldVerdict verdict);  ///< "held", "rests", "pushes", "doubtful", ...
+/// Whether it is in the hand as its grip has it, with nothing against it.
+bool is_sound(HeldVerdict verdict);
 
 struct ProductVerdict {
   HeldVerdict held = HeldVerdict::kNotHeld;
@@ -81,6 +85,11 @@ struct ProductComparison {
   /// The peak's change at the second rest of one of the two that speaks most against the order;
   /// nothing without one.
   std::optional<double> peak_change_second;
+  /// How far the hand lies otherwise on the second, in the frame that both files share: its angle,
+  /// rad, and the way of the grip's middle, mm. Nothing unless both are held.
+  std::optional<double> hand_turned, hand_shifted;
+  /// Within 10 degrees and 5 mm: what differs is the products, not how they are held.
+  bool are_held_alike() const;
 };
 
 struct SetVerdict {

@@ -95,6 +95,44 @@ TEST(SetVerdict, ADifferenceThatASecondRestReversesIsNone) {
   EXPECT_FALSE(verdict_on(two).best);
 }
 
+TEST(SetVerdict, SaysHowFarTheHandLiesOtherwise) {
+  std::vector<AssessedProduct> two = {held("a", 60, 0.40), held("b", 60, 0.30)};
+  EXPECT_TRUE(verdict_on(two).comparisons[0].are_held_alike());
+  grasp::Grasp& grasp = two[1].assessment.grasp;
+  // Thicker handles keep the hand's middle on their axis, while the hand itself moves.
+  grasp.product_from_hand.translation = Vec3(0.0, 0.0, 30.0);
+  EXPECT_TRUE(verdict_on(two).comparisons[0].are_held_alike());
+  grasp.product_from_hand.rotation = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitY()));
+  grasp.grip_point = Vec3(3.0, 0.0, 4.0);
+  EXPECT_NEAR(*verdict_on(two).comparisons[0].hand_turned, 0.3, 1e-9);
+  EXPECT_NEAR(*verdict_on(two).comparisons[0].hand_shifted, 5.0, 1e-9);
+  EXPECT_FALSE(verdict_on(two).comparisons[0].are_held_alike());  // 17 degrees
+  grasp.product_from_hand.rotation = Quat(Eigen::AngleAxisd(0.1, Vec3::UnitY()));
+  EXPECT_TRUE(verdict_on(two).comparisons[0].are_held_alike());
+  grasp.grip_point = Vec3(3.0, 0.0, 4.1);
+  EXPECT_FALSE(verdict_on(two).comparisons[0].are_held_alike());
+  EXPECT_EQ(verdict_on(two).best, 1);  // still the one that presses less, as it is held
+  two[0].assessment.contact.regions.clear();
+  EXPECT_FALSE(verdict_on(two).comparisons[0].hand_turned);
+}
+
+TEST(SetVerdict, TheMiddleOfAPinchIsBetweenThumbAndFingers) {
+  std::vector<AssessedProduct> two = {held("a", 60, 0.40), held("b", 60, 0.30)};
+  for (AssessedProduct& one : two) {
+    grasp::Grasp& grasp = one.assessment.grasp;
+    grasp.grip = grasp::Grip::kTripod;
+    grasp.fingertips.resize(3);
+    for (int f = 0; f < 3; ++f) {
+      grasp.fingertips[f].finger = static_cast<hand::Finger>(f);
+      grasp.fingertips[f].reached = Vec3(f == 0 ? 20.0 : -20.0, 10.0 * f, 0.0);
+    }
+  }
+  // The fingers move by 12 mm, the middle by half of that.
+  two[1].assessment.grasp.fingertips[1].reached += Vec3(0.0, 12.0, 0.0);
+  two[1].assessment.grasp.fingertips[2].reached += Vec3(0.0, 12.0, 0.0);
+  EXPECT_NEAR(*verdict_on(two).comparisons[0].hand_shifted, 6.0, 1e-9);
+}
+
 TEST(SetVerdict, PressuresOfUnequalGripsAreNotCompared) {
   const SetVerdict verdict = verdict_on({held("a", 107, 0.40), held("b", 86, 0.20)});
   EXPECT_EQ(verdict.comparisons[0].verdict, PairVerdict::kUnequalForce);
@@ -111,6 +149,19 @@ TEST(SetVerdict, WhatSlipsOutIsNotBetter) {
   two[0].assessment.contact.regions.clear();
   EXPECT_EQ(verdict_on(two).products[0].held, HeldVerdict::kNotHeld);
   EXPECT_EQ(verdict_on(two).comparisons[0].verdict, PairVerdict::kNoneHeld);
+}
+
+TEST(SetVerdict, WhatTheHandOnlyLiesOnIsNotHeld) {
+  std::vector<AssessedProduct> two = {held("a", 60, 0.40), held("b", 60, 0.10)};
+  two[0].assessment.grasp.grip = grasp::Grip::kRestingHand;
+  two[1].assessment.grasp.grip = grasp::Grip::kFingerPush;
+  const SetVerdict verdict = verdict_on(two);
+  EXPECT_EQ(name_of(verdict.products[0].held), "rests");
+  EXPECT_EQ(name_of(verdict.products[1].held), "pushes");
+  EXPECT_EQ(verdict.best, 1);  // pressures can be compared all the same
+  two[1].assessment.balance.status = grasp::BalanceStatus::kSlipsOut;
+  EXPECT_EQ(name_of(verdict_on(two).products[1].held), "doubtful");
+  EXPECT_EQ(verdict_on(two).best, 0);
 }
 
 TEST(SetVerdict, OfThreeTheBestBeatsBoth) {

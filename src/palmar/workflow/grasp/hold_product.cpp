@@ -37,6 +37,12 @@ std::shared_ptr<const hand::Hand> reference_for(const std::shared_ptr<const hand
              : built_in;
 }
 
+std::optional<Quat> HeldProduct::turn() const {
+  const grasp::Grasp& taken = reference_grasp ? *reference_grasp : grasp;
+  if (!taken.hold) return std::nullopt;
+  return taken.product_from_hand.rotation;
+}
+
 HeldProduct take_product(const std::shared_ptr<const hand::Hand>& hand,
                          const product::Product& product, const grasp::GraspSettings& settings,
                          const grasp::GraspOptions& options, const Progress& progress) {

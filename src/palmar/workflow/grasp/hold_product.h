@@ -21,6 +21,9 @@ struct HeldProduct {
   std::shared_ptr<const hand::Hand> ways_hand;     ///< that they were ranked with
   /// How that hand takes hold of it, where it is another one than the hand that holds.
   std::optional<grasp::Grasp> reference_grasp;
+
+  /// For HoldOptions::like of other products; nothing if it isn't held.
+  std::optional<Quat> turn() const;
 };
 
 /// The hand that holds are ranked and places are searched with, so that hands differ in size and
