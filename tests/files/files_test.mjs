@@ -98,8 +98,8 @@ function grasps() {
   toml("hold.toml", "holds/hold-1.toml");
   palmarDoes("product make cylinder --diameter-mm 60 --length-mm 100 --out can.stl");
   const points = ["wrist", "thumb", "index", "middle", "ring", "little"].flatMap((one) => ["x", "y", "z"].map((axis) => `${one}_${axis}_mm`));
-  writeFileSync(join(folder, "people.csv"), ["object", ...points].join() +
-    "\nbar,-20,-130,0,20,0,10,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30\ncan,0,-20,180,32,0,50,-32,10,50,-34,0,50,-32,-10,50,-20,-25,50\n");
+  writeFileSync(join(folder, "people.csv"), ["object", ...points, "up_x", "up_y", "up_z"].join() +
+    "\nbar,-20,-130,0,20,0,10,-22,15,30,-22,15,10,-22,15,-10,-22,10,-30,0,0,1\ncan,0,-20,180,32,0,50,-32,10,50,-34,0,50,-32,-10,50,-20,-25,50,0,0,1\n");
   csv("people-holds.csv", "people.csv");
   printed("hold-fit", "grasp fit-holds people.csv --products . --out weights.toml");
   toml("hold-weights.toml", "weights.toml");

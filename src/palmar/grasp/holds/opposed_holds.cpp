@@ -21,7 +21,6 @@ constexpr std::array kGrips = {Grip::kPrismatic, Grip::kPrecisionSphere, Grip::k
 constexpr double kTipShare = 0.8;     // of the last phalanx, from its joint
 constexpr double kWidest = 0.58;      // hand lengths between the two points
 constexpr double kWiderThanHand = 4;  // mm; pads give way, as search_precision_grip() has it
-constexpr double kFiveFit = 25.0;     // mm; round less, five fingertips don't fit
 constexpr int kPairPoints = 900, kSurfacePoints = 300;
 constexpr double kGridSpacing = 3.0, kGridBand = 30.0;  // mm
 // Where the features change, mm; all chosen by sense, before any fit.

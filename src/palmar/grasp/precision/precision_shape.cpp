@@ -21,7 +21,6 @@ constexpr double kSquareOnBall =
     65.0 * geometry::kDegree;         // fingertips touch a ball with their sides, too
 constexpr double kSideBySide = 17.0;  // mm between the pads of index and middle finger
 constexpr std::array<double, 12> kWidths = {2, 8, 14, 20, 28, 36, 45, 55, 65, 75, 85, 95};
-constexpr double kFiveFit = 25.0;   // mm; round less, five fingertips don't fit
 constexpr double kThickPen = 30.0;  // mm; people write with nothing thicker
 constexpr double kThinPen = 5.0;    // mm
 constexpr double kBesides = 20.0;   // mm; from fingertip to fingertip along a rim

@@ -15,6 +15,8 @@ namespace palmar::grasp {
 /// Round a ball or a disc, fingers slide up to this far and touch with their sides.
 inline constexpr double kBallSlide = 8.0;   // mm
 inline constexpr double kBallSquare = 0.9;  // rad
+/// Round less, five fingertips don't fit.
+inline constexpr double kFiveFit = 25.0;  // mm
 
 /// The fingers that take part in a precision or lateral grip, thumb first, and what of them
 /// touches.

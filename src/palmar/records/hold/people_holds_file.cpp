@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kFarthest = 5000.0;  // mm from the object's origin; farther is another unit
 constexpr double kLargest = 1e6;      // of a weight, mean or spread
-constexpr double kLeastUp = 1e-6;     // shorter has no direction
 constexpr std::uint64_t kMostBytes = 1 << 16;
 
 std::string point_name(std::size_t k) {
@@ -73,7 +72,7 @@ std::vector<PeopleHolds> read_people_holds(const std::string& path) {
     for (std::size_t c = 0; c < 3; ++c) {
       hold.up[static_cast<Eigen::Index>(c)] = file.number(row, up[c]);
     }
-    if (!(hold.up.norm() > kLeastUp && hold.up.norm() < kLargest)) {
+    if (!(hold.up.norm() > 0.0 && hold.up.norm() < kLargest)) {
       file.fail(row.line,
                 "up_x, up_y and up_z have no direction; three numbers, not all 0, are "
                 "required");
