@@ -156,8 +156,8 @@ TEST_F(Holds, OfSymmetricProductsAreTakenLikeThoseOfAnotherOne) {
   };
   for (const double other_way : {0.0, 1.0, 2.0, 3.0}) {
     const Quat way(Eigen::AngleAxisd(0.5 * std::numbers::pi * other_way, Vec3::UnitZ()));
-    for (const product::Product& product :
-         {prism(45.0, 20.0), prism(40.0, 30.0), cylinder(40.0, 0.0), cylinder(43.0, 0.6)}) {
+    for (const product::Product& product : {prism(45.0, 20.0), prism(40.0, 30.0), prism(30.0, 30.0),
+                                            cylinder(40.0, 0.0), cylinder(43.0, 0.6)}) {
       grasp::HoldOptions options;
       const grasp::RankedHolds first = grasp::rank_holds(hand(), product, options);
       ASSERT_FALSE(first.holds.empty());

@@ -24,6 +24,7 @@ constexpr double kShortPart = 1.25;  // breadths of the fingers; shorter: one pl
 constexpr double kSamePlace = 0.25;  // breadths of the fingers; nearer places are the same; choice
 constexpr double kIndexBeyond = 0.25;    // one of four fingers lies beyond a short handle's end
 constexpr double kBelowTrigger = 0.25;   // of the fingers' breadth: one finger; choice
+constexpr double kCircle = 1.05;         // of a circle's girth; a square has 1.27; choice
 constexpr double kPalmAlong = 0.9;       // cosine; choice
 constexpr double kIndexPlaceOf = 0.375;  // of the fingers' breadth: the index finger's middle
 
@@ -172,7 +173,9 @@ std::vector<HoldCandidate> power_candidates(const HoldScene& scene, const HoldOp
     Hold hold;
     hold.part = part.number;
     hold.part_name = part.name;
-    const bool is_round = options.like && is_round_about(part, *scene.parts);
+    // A square bar is as broad as it is thick, too, but its edges count.
+    const bool is_circle = part.girth < kCircle * std::numbers::pi * part.width;
+    const bool is_round = options.like && is_circle && is_round_about(part, *scene.parts);
     for (const int toward : {1, -1}) {
       hold.toward = toward;
       std::vector<CandidatePlace> places = places_on(scene, part, toward);
