@@ -69,6 +69,17 @@ TEST_F(AnswerCommand, IsTheSameInTheTextTheJsonAndThePage) {
   EXPECT_THAT(text.out, Not(HasSubstr("algometer")));
 }
 
+TEST_F(AnswerCommand, AHoldByNumberIsTheSameBesideAnotherProduct) {
+  const Json beside = assessed("--grip-force-n 40 --hold 2").at("assessments").at(1);
+  const ProgramRun run =
+      palmar("assess thin.stl --unit mm --quiet --json --grip-force-n 40 --hold 2");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json alone = Json::parse(run.out).at("assessments").at(0);
+  for (const char* key : {"words", "along", "toward", "turn_deg"}) {
+    EXPECT_EQ(beside.at("hold").at(key), alone.at("hold").at(key)) << key;
+  }
+}
+
 TEST_F(AnswerCommand, ComfortIsWhatItsFiguresSay) {
   const Json one = assessed("--grip-force-n 40").at("assessments").at(0);
   const Json& comfort = one.at("verdict").at("comfort");

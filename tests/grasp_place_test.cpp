@@ -114,6 +114,23 @@ TEST_F(GraspPlaces, AHandThatCantHoldItThereIsAResult) {
                        ::testing::HasSubstr("; it could hold it so: ")));
 }
 
+// Of a hold that was given nothing else was ranked, so nothing is said of other holds.
+TEST_F(GraspPlaces, AGivenHoldThatAHandCantTakeSaysNothingOfOthers) {
+  product::CylinderProductOptions pipe;
+  pipe.diameter = 100.0;
+  const product::Product product = product::make_cylinder_product(pipe);
+  grasp::GraspOptions options;
+  options.hold = grasp::GraspPlace(hand(), product).reference_grasp().hold;
+  ASSERT_TRUE(options.hold);
+  const grasp::GraspPlace place(hand(), product, options);
+  ASSERT_EQ(place.reference_grasp().status, grasp::GraspStatus::kHeld);
+  const auto doll = std::make_shared<const hand::Hand>(scaled(hand(), 0.4));
+  const grasp::Grasp kept = place.hold(grasp::GraspingHand(doll));
+  ASSERT_NE(kept.status, grasp::GraspStatus::kHeld);
+  EXPECT_THAT(kept.message, ::testing::StartsWith("cannot take the hold \""));
+  EXPECT_THAT(kept.message, ::testing::Not(::testing::HasSubstr("other hold")));
+}
+
 TEST_F(GraspPlaces, ThreadsShareAPlace) {
   const product::Product product = cylinder();
   const grasp::GraspPlace place(hand(), product);

@@ -509,6 +509,8 @@ std::vector<StudyTask> StudyBench::Impl::places_for(const StudyTask& place) cons
 grasp::GraspOptions StudyBench::Impl::place_options(const StudyTask& key) const {
   grasp::GraspOptions options = grasp_options(key);
   if (options.hold || options.is_placed()) return options;
+  const bool is_numbered =
+      plan.products[static_cast<std::size_t>(key.product)].holding.number.has_value();
   const std::vector<StudyTask> others = places_for(key);
   const auto grasp_of = [&](const StudyTask& other) -> const grasp::Grasp* {
     const auto found = places.find(other);
@@ -517,7 +519,8 @@ grasp::GraspOptions StudyBench::Impl::place_options(const StudyTask& key) const 
   };
   if (const grasp::Grasp* bare = grasp_of(others[1]); bare != nullptr && bare->hold) {
     options.hold = bare->hold;  // whatever the profile
-  } else if (const grasp::Grasp* first = grasp_of(others[0]); first != nullptr && first->hold) {
+  } else if (const grasp::Grasp* first = grasp_of(others[0]);
+             first != nullptr && first->hold && !is_numbered) {
     options.holds.like = first->product_from_hand.rotation;
   }
   return options;

@@ -49,7 +49,8 @@ std::vector<HeldProduct> take_products(const AssessRequest& request,
   for (const ProductTask& task : tasks) {
     const double start = kPrepared + step * static_cast<double>(held.size());
     grasp::GraspOptions options = task.grasp;
-    if (!held.empty()) options.holds.like = held.front().turn();
+    // A hold by its number is that of `palmar grasp holds`.
+    if (!held.empty() && !request.grasp.holding.number) options.holds.like = held.front().turn();
     held.push_back(take_product(
         hand, task.product, request.grasp, options,
         part_of(progress, start, start + step, "taking hold of " + task.product.name)));

@@ -277,6 +277,7 @@ Grasp GraspPlace::hold(const GraspingHand& hand, const Progress& progress) const
       (grasp.hold_words.empty() ? "cannot hold it where the reference hand does: "
                                 : "cannot take the hold \"" + grasp.hold_words + "\": ") +
       why;
+  if (impl_->ranked.holds.empty()) return grasp;  // the hold was given: no other was looked for
   const std::string other = impl_->other_hold_of(hand, grasp, progress);
   grasp.message += other.empty() ? "; no other hold was found that this hand can take"
                                  : "; it could hold it so: " + other;

@@ -50,7 +50,8 @@ class GraspPlace {
 
   /// How `hand` holds it there. A hand that can't hold it that way, while the reference hand can,
   /// is a result like others: its message names the first of the next holds that it can take, and
-  /// that stands first among the runners-up. On a product that the reference hand found no place
+  /// that stands first among the runners-up (of holds that were ranked; none of a hold that was
+  /// given). On a product that the reference hand found no place
   /// on, each hand searches by itself. The reference hand gets reference_grasp(). Throws Cancelled.
   Grasp hold(const GraspingHand& hand, const Progress& progress = {}) const;
 

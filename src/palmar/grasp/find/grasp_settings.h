@@ -18,7 +18,7 @@ struct HoldRequest {
   std::string part_name;        ///< hold a part of this name: "handle"; "": any
   std::optional<double> along;  ///< where along the part, a fraction of its length, 0 to 1
   std::optional<Vec3> toward;   ///< where the thumb's side is to point, product frame
-  std::optional<Vec3> up;       ///< the product's up in use, product frame; unset: unknown
+  std::optional<Vec3> up;  ///< the product's up where it is taken, product frame; unset: unknown
   HoldPurpose purpose = HoldPurpose::kUse;
   std::shared_ptr<const HoldWeights> weights;  ///< as HoldOptions has them
 

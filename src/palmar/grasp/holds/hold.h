@@ -38,7 +38,7 @@ struct HoldOptions {
   std::optional<int> part;      ///< only this part (its number)
   std::string part_name;        ///< only parts of this name; "": any
   std::optional<Vec3> toward;   ///< where the thumb's side is to point, product frame
-  std::optional<Vec3> up;       ///< the product's up when it is used, product frame
+  std::optional<Vec3> up;       ///< the product's up where it is taken, product frame
   std::optional<double> mass;   ///< kg; unset: from the volume at 1 g/cm^3
   std::optional<double> along;  ///< fraction of the part's length, 0 to 1
   HoldPurpose purpose = HoldPurpose::kUse;

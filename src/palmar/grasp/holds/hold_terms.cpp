@@ -204,7 +204,7 @@ HoldTerm thumb_side_term(const HoldScene& scene, const product::ProductPart& par
       part.kind == product::PartKind::kBody || part.kind == product::PartKind::kLoop;
   if (scene.up && is_vessel) {
     const double up = site.axis.dot(*scene.up);
-    const double most = scene.is_up_known ? kUpsideDown : kMaybeUpsideDown;
+    const double most = scene.is_vessel ? kUpsideDown : kMaybeUpsideDown;
     return {"thumb's side", std::acos(std::clamp(up, -1.0, 1.0)) / geometry::kDegree, "deg",
             -most * std::max(0.0, -up),
             up > 0.5    ? "thumb's side up"
@@ -448,7 +448,7 @@ HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
   scene.is_up_given = options.up.has_value();
   const Upright guess = upright(parts, product.mesh, scene.gravity_centre);
   scene.up = options.up ? std::optional<Vec3>(options.up->normalized()) : guess.up;
-  scene.is_up_known = options.up || guess.is_vessel;
+  scene.is_vessel = guess.is_vessel;
   if (options.up) scene.lay = standing_with(product.mesh, *options.up);
   scene.part_of_gravity = parts.parts.empty() ? -1 : parts.nearest(product, scene.gravity_centre);
   const bool has_loop_on_body =

@@ -18,10 +18,10 @@ struct HoldScene {
   Vec3 gravity_centre = Vec3::Zero();  ///< of the product's volume, product frame, mm
   int part_of_gravity = -1;            ///< index of the part that it lies in or is nearest to
   double weight = 0.0;                 ///< N
-  /// The product's up in use: as asked for, else of a vessel from its heavier to its lighter end.
+  /// The product's up: as asked for, else of a body from its heavier to its lighter end.
   std::optional<Vec3> up;
   bool is_up_given = false;
-  bool is_up_known = false;     ///< given, or that of a vessel by its hollow
+  bool is_vessel = false;       ///< it has a hollow, whose mouth is up
   std::optional<Standing> lay;  ///< how it lies or stands where it is taken, if up is given
   /// By part: whether it is what the product has for the hand, a handle or a loop on something
   /// larger; and whether there is such a part at all.
