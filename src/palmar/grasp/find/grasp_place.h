@@ -49,10 +49,10 @@ class GraspPlace {
   const RankedHolds& ranked() const;
 
   /// How `hand` holds it there. A hand that can't hold it that way, while the reference hand can,
-  /// is a result like others: its message names the first of the next holds that it can take, and
-  /// that stands first among the runners-up (of holds that were ranked; none of a hold that was
-  /// given). On a product that the reference hand found no place
-  /// on, each hand searches by itself. The reference hand gets reference_grasp(). Throws Cancelled.
+  /// is a result like others: where holds were ranked its message names the first of the next ones
+  /// that it can take, which stands first among the runners-up. On a product that the reference
+  /// hand found no place on, each hand searches by itself. The reference hand gets
+  /// reference_grasp(). Throws Cancelled.
   Grasp hold(const GraspingHand& hand, const Progress& progress = {}) const;
 
   struct Impl;

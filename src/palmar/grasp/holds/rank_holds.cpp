@@ -240,8 +240,7 @@ RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
   std::stable_sort(closed.begin(), closed.end(), [](const ClosedHold& a, const ClosedHold& b) {
     return a.ranked.score > b.ranked.score;
   });
-  // Of holds that are as good, by the last digits chance decides: the one most like the hold of
-  // another product, else the first of the candidates.
+  // Of holds that are as good: the one most like another product's, else the first candidate.
   const auto rank_of = [&](const ClosedHold& hold) {
     const bool is_as_good = hold.ranked.score >= closed.front().ranked.score - kNearTie;
     const double turned =
