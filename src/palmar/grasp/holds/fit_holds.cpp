@@ -148,12 +148,11 @@ Seen seen_of(const ObservedObject& object, const HoldWeights& scale) {
     seen.features.row(c) = (candidate.features - scale.mean.head<kShapeFeatureCount>())
                                .cwiseQuotient(scale.spread.head<kShapeFeatureCount>())
                                .transpose();
-    const GripFrame frame = grip_frame(candidate.points);
     for (Eigen::Index i = 0; i < people; ++i) {
       const ObservedHold& hold = object.seen[static_cast<std::size_t>(i)];
       seen.distance(i, c) = candidate.points.distance_to(hold.points);
       seen.holds[static_cast<std::size_t>(i)].features.row(c) =
-          table_features(candidate.points, frame, hold.lay).transpose();
+          table_features(candidate.palm, hold.lay).transpose();
     }
   }
   for (Eigen::Index i = 0; i < people; ++i) {

@@ -30,13 +30,9 @@ ObservedHold seen(const HandPoints& points, const Vec3& up = Vec3::UnitZ()) {
 
 ObservedHold seen_at(double place) { return seen(hold_at(place, ShapeFeatures::Zero()).points); }
 
-/// A hand with its grip in the middle of three fingers in line and a thumb opposite.
-HandPoints turned_hand(const Quat& turn, double place) {
-  HandPoints points;
-  points.point = {Vec3(-100, 0, 0), Vec3(0, 20, 0),    Vec3(0, -20, 20),
-                  Vec3(0, -20, 0),  Vec3(0, -20, -20), Vec3(0, -20, -40)};
-  for (Vec3& point : points.point) point = turn * point + Vec3(place, 0.0, 0.0);
-  return points;
+/// A palm that faces x, its thumb's side to z, before it is turned.
+PalmPlace turned_palm(const Quat& turn) {
+  return {.faces = turn * Vec3::UnitX(), .thumb_side = turn * Vec3::UnitZ()};
 }
 
 /// Two kinds of holds that one feature tells apart, `first` of people's at the one and the others
@@ -73,27 +69,25 @@ TEST(FitHolds, FindsWeightsThatHoldsWereDrawnWith) {
   std::normal_distribution<double> normal;
   ShapeFeatures truth;
   truth << 1.0, -0.5, 0.0, 0.3, -1.2, 0.0, 0.8, 0.0, -0.2;
-  constexpr double kThumbUp = 1.5, kWristUp = 0.7;
+  constexpr double kThumbUp = 1.5, kPalmDown = 0.7;
   std::vector<ObservedObject> objects(8);
   for (ObservedObject& object : objects) {
     object.name = "thing";
-    std::vector<Eigen::Matrix3d> turns;  // of the hand: x from the wrist, z along its row
     for (int c = 0; c < 200; ++c) {
       ShapeFeatures features;
       for (double& x : features) x = normal(random);
       const Quat turn =
           Quat(normal(random), normal(random), normal(random), normal(random)).normalized();
       object.candidates.push_back(hold_at(c * kApart, features));
-      object.candidates.back().points = turned_hand(turn, c * kApart);
-      turns.push_back(turn.toRotationMatrix());
+      object.candidates.back().palm = turned_palm(turn);
     }
     for (int i = 0; i < 400; ++i) {
       const Vec3 up = Vec3(normal(random), normal(random), normal(random)).normalized();
       std::vector<double> chance;
-      for (std::size_t c = 0; c < turns.size(); ++c) {
-        chance.push_back(std::exp(truth.dot(object.candidates[c].features) +
-                                  kThumbUp * up.dot(turns[c].col(2)) -
-                                  kWristUp * up.dot(turns[c].col(0))));
+      for (const OpposedHold& hold : object.candidates) {
+        chance.push_back(std::exp(truth.dot(hold.features) +
+                                  kThumbUp * up.dot(hold.palm.thumb_side) -
+                                  kPalmDown * up.dot(hold.palm.faces)));
       }
       std::discrete_distribution<int> draw(chance.begin(), chance.end());
       object.seen.push_back(
@@ -104,7 +98,7 @@ TEST(FitHolds, FindsWeightsThatHoldsWereDrawnWith) {
   const ShapeFeatures found = fit.weights.shape_slope();
   for (int k = 0; k < kShapeFeatureCount; ++k) EXPECT_NEAR(found[k], truth[k], 0.1) << k;
   EXPECT_NEAR(fit.weights.table_slope()[0], kThumbUp, 0.1);
-  EXPECT_NEAR(fit.weights.table_slope()[1], kWristUp, 0.1);
+  EXPECT_NEAR(fit.weights.table_slope()[1], kPalmDown, 0.1);
   EXPECT_NEAR(fit.weights.table_slope()[2], 0.0, 1e-9);  // nothing is lower than the table
   // What is left out is told nearly as well as what is fitted, and better than by even chances; to
   // know how it had lain tells more.
@@ -118,10 +112,10 @@ TEST(FitHolds, FindsWeightsThatHoldsWereDrawnWith) {
 }
 
 TEST(FitHolds, HowItLiesCountsWhereThatIsKnown) {
-  const Quat over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));  // its row points down
+  const Quat over(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));  // thumb's side down
   std::vector<OpposedHold> holds(2);
-  holds[0].points = turned_hand(Quat::Identity(), 0.0);
-  holds[1].points = turned_hand(over, 0.0);
+  holds[0].palm = turned_palm(Quat::Identity());
+  holds[1].palm = turned_palm(over);
   for (OpposedHold& hold : holds) hold.features.setZero();
   HoldWeights weights;
   weights.weight[kShapeFeatureCount] = 0.5 * std::log(3.0);  // thumb's side up: three to one

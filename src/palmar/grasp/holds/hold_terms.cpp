@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "palmar/geometry/degrees.h"
+#include "palmar/geometry/distance/closest_point.h"
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/holds/hold_limits.h"
 #include "palmar/grasp/holds/twin_handles.h"
@@ -27,12 +28,6 @@ constexpr double kWideShare = 0.04;  // of people's grasps
 // El-Khoury & Sahbani 2010 (Autonomous Robots 28:57-71): people take things that have a handle by
 // the handle. One in ten doesn't: our choice, that study gives no share.
 constexpr double kBesideHandle = 0.1;
-constexpr double kThinnestHandle = 14.0;    // mm; thinner bars are shafts and stems
-constexpr double kShortestHandle = 45.0;    // mm; two fingers and a half
-constexpr double kBent = 0.8;               // distance of the ends over length: choice
-constexpr double kInLine = 0.95;            // cosine of the angle between a neck and its bottle
-constexpr double kLargestKnob = 80.0;       // mm; as wide as hands span with ease; choice
-constexpr double kFewestFingers = 0.45;     // of the fingers' breadth through a loop: two fingers
 constexpr double kFingerThickness = 0.085;  // hand lengths: 16 mm of 188 (Greiner 1991, index DIP)
 constexpr double kMoment =
     400.0;  // N mm of weight about the grip that people begin to avoid; choice
@@ -45,11 +40,9 @@ constexpr double kUpsideDown = 2.5;  // thumb down of a vessel with a hollow; ch
 constexpr double kMaybeUpsideDown = 1.2;  // where up was guessed from where it is heavier; choice
 // Of hand lengths, where a wrist is beside a handle: from its middle out of the palm, and back.
 constexpr double kWristOut = 0.13, kWristBack = 0.37;
-constexpr double kHollow = 0.7;        // volume over that with its hollow: less is a vessel; choice
-constexpr double kEvenShare = 0.01;    // of the length; nearer to the middle says nothing; choice
-constexpr double kWrongEnd = 1.5;      // a tool's working end at the little finger; choice
-constexpr double kIndexPlace = 0.375;  // of the fingers' breadth, from their middle
-constexpr double kOneOfTwo = 0.1;      // who takes one of two handles; choice
+constexpr double kWrongEnd = 1.5;       // a tool's working end at the little finger; choice
+constexpr double kIndexPlace = 0.375;   // of the fingers' breadth, from their middle
+constexpr double kOneOfTwo = 0.1;       // who takes one of two handles; choice
 constexpr double kTriggerSpread = 0.2;  // of the fingers' breadth; choice
 constexpr double kOffTrigger = 0.1;     // who uses it so that no finger is on it; choice
 constexpr double kSkinRoom = 6.0;       // mm that a finger's middle keeps off the product
@@ -94,12 +87,13 @@ HoldTerm span_term(const HoldScene& scene, const HoldSite& at) {
 }
 
 HoldTerm handle_term(const HoldScene& scene, const Hold& hold) {
-  const bool is_handle = scene.is_handle[hold.part - 1] != 0;
-  const bool is_passed_over = scene.has_handle && !is_handle;
-  return {"handle", is_handle ? 1.0 : 0.0, "", is_passed_over ? std::log(kBesideHandle) : 0.0,
-          is_passed_over ? "beside the handle"
-          : is_handle    ? "by the handle"
-                         : "no handle is passed over"};
+  const bool is_handle = scene.is_handle(hold.part);
+  const double passed_over = scene.passed_over(hold.part);
+  return {"handle", scene.handle[static_cast<std::size_t>(hold.part) - 1], "",
+          std::log(kBesideHandle) * passed_over,
+          passed_over > 0.5 ? "beside the handle"
+          : is_handle       ? "by the handle"
+                            : "no handle is passed over"};
 }
 
 HoldTerm coverage_term(const HoldScene& scene, const product::ProductPart& part, const Hold& hold) {
@@ -277,20 +271,18 @@ HoldTerm place_term(const HoldScene& scene, const product::ProductPart& part, co
   const double gravity = line.dot(scene.gravity_centre - start) / span;
   const double here = line.dot(at.site.point - start) / span;
   const double away = std::abs(here - gravity);
-  if (scene.part_of_gravity == part.number - 1) {
-    const double z = away / breadth;
-    return {"place along it", away, "mm", -0.5 * std::min(z * z, 4.0),
-            fmt::format("{:.0f} mm from the middle of its weight", away)};
-  }
-  if (scene.is_handle[part.number - 1] == 0) {
-    const double z = (scene.gravity_centre - at.site.point).norm() / breadth;
-    // What it stands on, or works with, is nothing to hold it by.
-    const double per = part.kind == product::PartKind::kPlate ? 1.0 : 0.5;
-    return {"place along it", z * breadth, "mm", -per * std::min(z * z, 4.0),
-            fmt::format("{:.0f} mm from the middle of its weight", z * breadth)};
-  }
-  const double share = std::min(1.0, away / (span + std::abs(away - span)));
-  return {"place along it", away, "mm", -1.0 * (1.0 - share),
+  const auto squared = [&](double distance) {
+    return std::min(std::pow(distance / breadth, 2), 4.0);
+  };
+  const auto index = static_cast<std::size_t>(part.number) - 1;
+  const double within = -0.5 * squared(away);
+  const double as_handle = std::min(1.0, away / (span + std::abs(away - span))) - 1.0;
+  // What it stands on, or works with, is nothing to hold it by.
+  const double beside = (part.kind == product::PartKind::kPlate ? -1.0 : -0.5) *
+                        squared((scene.gravity_centre - at.site.point).norm());
+  const double handle = scene.handle[index], weight = scene.weight_share[index];
+  return {"place along it", away, "mm",
+          weight * within + (1.0 - weight) * (handle * as_handle + (1.0 - handle) * beside),
           fmt::format("{:.0f} mm from the middle of its weight", away)};
 }
 
@@ -340,92 +332,6 @@ HoldTerm room_term(const HoldScene& scene, const product::ProductPart& part, con
           share < 0.1 ? "room for palm and fingers" : "something is in the hand's way"};
 }
 
-double diagonal_of(const product::ProductPart& part) { return std::max(part.length, part.width); }
-
-// The neck of a bottle goes on where its body ends; the body is what hands take.
-bool is_neck(const product::ProductPart& part, const product::ProductParts& parts) {
-  const Vec3 line = part.line.back().centre - part.line.front().centre;
-  for (const int number : part.joined) {
-    const product::ProductPart& body = parts.parts[number - 1];
-    if (body.kind != product::PartKind::kBody || body.line.size() < 2) continue;
-    const Vec3 axis = body.line.back().centre - body.line.front().centre;
-    const bool is_in_line = std::abs(line.normalized().dot(axis.normalized())) > kInLine;
-    if (is_in_line && body.length > part.length && body.length > kShortestHandle) return true;
-  }
-  return false;
-}
-
-// A knob on something larger, which fingertips or the whole hand go round.
-bool is_knob(const product::ProductPart& part, const product::ProductParts& parts) {
-  const bool has_free_end = !part.ends[0].joined || !part.ends[1].joined;
-  if (part.joined.empty() || !has_free_end || diagonal_of(part) > kLargestKnob) return false;
-  const product::ProductPart& base = parts.parts[part.joined.front() - 1];
-  return base.kind == product::PartKind::kPlate || diagonal_of(base) > 2.0 * diagonal_of(part);
-}
-
-// The bent free end of a stick or an umbrella.
-bool is_crook(const product::ProductPart& part) {
-  return part.kind == product::PartKind::kBar && !part.joined.empty() &&
-         (!part.ends[0].joined || !part.ends[1].joined) && part.straightness < kBent &&
-         part.diameter() >= kThinnestHandle && part.length >= kShortestHandle;
-}
-
-bool is_handle(const product::ProductPart& part, const product::ProductParts& parts,
-               bool is_beside_loop) {
-  if (part.kind == product::PartKind::kLoop) return parts.parts.size() > 1;
-  const bool is_stub = part.kind == product::PartKind::kBar &&
-                       part.length < kStubShare * part.diameter() &&
-                       (!part.ends[0].joined || !part.ends[1].joined);
-  if (part.kind == product::PartKind::kBall || part.kind == product::PartKind::kBody || is_stub) {
-    return is_knob(part, parts);
-  }
-  // Beside a loop that is there for the hand a bar is a spout.
-  return part.kind == product::PartKind::kBar && !is_beside_loop && !part.joined.empty() &&
-         part.diameter() >= kThinnestHandle && part.length >= kShortestHandle &&
-         !is_neck(part, parts);
-}
-
-// A vessel has its mouth up: where its hollow reaches out. A solid body stands on its heavier end.
-struct Upright {
-  std::optional<Vec3> up;
-  bool is_vessel = false;  ///< with a hollow
-};
-
-Upright upright(const product::ProductParts& parts, const geometry::TriangleMesh& mesh,
-                const Vec3& gravity) {
-  if (parts.parts.empty() || parts.parts.front().kind != product::PartKind::kBody) return {};
-  const product::ProductPart& body = parts.parts.front();
-  const Vec3 start = body.line.front().centre;
-  const Vec3 axis = (body.line.back().centre - start).normalized();
-  double filled = 0.0, filled_moment = 0.0;  // of the body with its hollow, about `start`
-  for (const product::PartSection& section : body.sections) {
-    filled += section.area;
-    filled_moment += section.area * axis.dot(section.centre - start);
-  }
-  if (filled <= 0.0) return {};
-  const double filled_centre = filled_moment / filled;
-  const double filled_volume = filled * body.length / static_cast<double>(body.sections.size());
-  double volume = geometry::signed_volume(mesh);
-  for (const product::ProductPart& other : parts.parts) {
-    if (other.number != body.number) volume -= other.volume;
-  }
-  if (volume > 0.0 && volume < kHollow * filled_volume) {
-    const double hollow = filled_volume - volume;
-    const double solid_centre = axis.dot(gravity - start);
-    const double hollow_centre = (filled_volume * filled_centre - volume * solid_centre) / hollow;
-    const double off = (hollow_centre - filled_centre) / body.length;
-    if (std::abs(off) > kEvenShare) return {off > 0.0 ? axis : Vec3(-axis), true};
-  }
-  double low = 0.0, high = 0.0;
-  for (const Vec3& v : mesh.vertices) {
-    low = std::min(low, axis.dot(v - start));
-    high = std::max(high, axis.dot(v - start));
-  }
-  const double off = (axis.dot(gravity - start) - 0.5 * (low + high)) / (high - low);
-  if (std::abs(off) < 2.0 * kEvenShare) return {};
-  return {off < 0.0 ? axis : Vec3(-axis), false};
-}
-
 // Less what a hand would have at best: thumb's side and wrist are across each other.
 double score_on_table(const HoldWeights& weights, const TableFeatures& features) {
   const TableFeatures slope = weights.table_slope();
@@ -434,61 +340,9 @@ double score_on_table(const HoldWeights& weights, const TableFeatures& features)
 
 }  // namespace
 
-HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
-                     const product::ProductParts& parts, const HoldOptions& options) {
-  HoldScene scene;
-  scene.hand = &hand;
-  scene.product = &product;
-  scene.parts = &parts;
-  scene.gravity_centre = geometry::centre_of_volume(product.mesh);
-  constexpr double kWater = 1.0;  // g/cm^3
-  scene.weight = options.mass
-                     ? *options.mass * product::kStandardGravity
-                     : product::weight_of(std::abs(geometry::signed_volume(product.mesh)), kWater);
-  scene.is_up_given = options.up.has_value();
-  const Upright guess = upright(parts, product.mesh, scene.gravity_centre);
-  scene.up = options.up ? std::optional<Vec3>(options.up->normalized()) : guess.up;
-  scene.is_vessel = guess.is_vessel;
-  if (options.up) scene.lay = standing_with(product.mesh, *options.up);
-  scene.part_of_gravity = parts.parts.empty() ? -1 : parts.nearest(product, scene.gravity_centre);
-  const bool has_loop_on_body =
-      std::any_of(parts.parts.begin(), parts.parts.end(), [&](const product::ProductPart& part) {
-        return part.kind == product::PartKind::kLoop && part.opening &&
-               part.opening->width > kFewestFingers * fingers_breadth(hand) &&
-               parts.parts.front().kind == product::PartKind::kBody;
-      });
-  const bool has_crook = std::any_of(parts.parts.begin(), parts.parts.end(), is_crook);
-  for (const product::ProductPart& part : parts.parts) {
-    const bool is_on_body =
-        std::find(part.joined.begin(), part.joined.end(), 1) != part.joined.end();
-    bool is_one = is_handle(part, parts, has_loop_on_body && is_on_body);
-    // A stick is held by its crook, and what has a trigger by what is behind it.
-    if (has_crook && part.kind == product::PartKind::kBar) is_one = is_crook(part);
-    is_one = is_one || twin_of(part, parts) != nullptr;
-    if (!parts.triggers.empty()) is_one = trigger_of(scene, part) != nullptr;
-    scene.is_handle.push_back(is_one ? 1 : 0);
-    scene.has_handle = scene.has_handle || scene.is_handle.back() != 0;
-  }
-  return scene;
-}
-
-const product::PartTrigger* trigger_of(const HoldScene& scene, const product::ProductPart& part) {
-  for (const product::PartTrigger& trigger : scene.parts->triggers) {
-    if (trigger.part == part.number) return &trigger;
-  }
-  return nullptr;
-}
-
 HoldTerm table_term(const HoldScene& scene, const HoldWeights& weights, const Grasp& grasp) {
-  const HandPoints points = hand_points(*scene.hand, grasp.posture, grasp.product_from_hand);
-  GripFrame frame = grip_frame(points);
-  if (is_power(grasp.grip)) {
-    frame.middle = grasp.grip_point;
-    frame.row = grasp.grip_axis;
-  } else if (is_non_prehensile(grasp.grip)) {
-    frame.row = (points.tip(1) - points.tip(4)).normalized();
-  }
-  const TableFeatures features = table_features(points, frame, *scene.lay);
+  const TableFeatures features =
+      table_features(palm_place(*scene.hand, grasp.product_from_hand), *scene.lay);
   const double up = features[0], below = features[2];
   constexpr double kWorthTelling = 0.5;
   return {"as it lies", up, "", score_on_table(weights, features),
@@ -501,20 +355,16 @@ HoldTerm table_term(const HoldScene& scene, const HoldWeights& weights, const Gr
 double rough_table_score(const HoldScene& scene, const HoldSite& at) {
   if (!scene.lay) return 0.0;
   const hand::Hand& hand = *scene.hand;
-  const double length = hand.dimensions.hand_length, breadth = fingers_breadth(hand);
+  const double length = hand.dimensions.hand_length;
   // The palm faces the axis; the hand's frame has z out of the palm and y along the fingers.
   const Vec3 radial = hand.side == hand::Side::kRight ? at.site.axis : Vec3(-at.site.axis);
   const Vec3 distal = radial.cross(at.palm);
-  HandPoints points;
-  points.point[0] = at.site.point + length * (kWristOut * at.palm - kWristBack * distal);
-  for (std::size_t f = 0; f < hand::kFingerCount; ++f) {
-    const double along = (0.5 - 0.25 * static_cast<double>(f)) * breadth;
-    points.point[1 + f] = at.site.point + along * at.site.axis - 0.5 * at.site.thickness * at.palm;
-  }
-  GripFrame frame;
-  frame.middle = at.site.point;
-  frame.row = at.site.axis;
-  return score_on_table(hand_over_weights(), table_features(points, frame, *scene.lay));
+  Eigen::Matrix3d axes;
+  axes << radial, distal, -at.palm;
+  const geometry::Rigid3 product_from_hand{
+      Quat(axes), at.site.point + length * (kWristOut * at.palm - kWristBack * distal)};
+  return score_on_table(hand_over_weights(),
+                        table_features(palm_place(hand, product_from_hand), *scene.lay));
 }
 
 std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site) {

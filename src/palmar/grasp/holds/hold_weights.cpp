@@ -20,8 +20,8 @@ constexpr std::size_t kLikeliest = 600;  // holds that are looked at; the others
 const HoldWeights& hand_over_weights() {
   static const HoldWeights weights = [] {
     HoldWeights table;
-    table.weight << 0.819423, 0.840558, -0.819522, -0.551139, -1.23956, -0.864469, 0.709646,
-        0.643905, 0.425326, 2.13768, 0.918321, -1.15902;
+    table.weight << 0.868333, 0.850786, -0.778739, -0.550805, -1.30643, -0.868265, 0.660932,
+        0.654717, 0.519093, 1.67085, 1.64399, -0.956825;
     table.mean << 2.41272, 0.162831, 2.09296, 0.207613, 0.0316248, 0.0853636, 0.188831, 0.213043,
         0.0709659, 0.0, 0.0, 0.0;
     table.spread << 1.03605, 0.401556, 1.47026, 0.346613, 0.0500059, 0.0989646, 0.191478, 0.202962,
@@ -47,7 +47,7 @@ Eigen::VectorXd chances(const HoldWeights& weights, const std::vector<OpposedHol
   for (std::size_t c = 0; c < holds.size(); ++c) {
     double& score = chance[static_cast<Eigen::Index>(c)];
     score = shape.dot(holds[c].features);
-    if (lay) score += table.dot(table_features(holds[c].points, grip_frame(holds[c].points), *lay));
+    if (lay) score += table.dot(table_features(holds[c].palm, *lay));
   }
   if (holds.empty()) return chance;
   chance = (chance.array() - chance.maxCoeff()).exp();

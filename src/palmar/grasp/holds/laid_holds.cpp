@@ -34,6 +34,11 @@ constexpr double kHumpSpread = 40.0;  // mm of the knuckles off the highest plac
 constexpr double kPerHump = 4.0;      // per share of the length that lies behind it; choice
 constexpr double kPerMissing = 0.5;   // a finger (or the palm) that doesn't touch; choice
 constexpr double kPushPrior = -0.3;   // a thing with a button may be held as well; choice
+constexpr double kPushInHand = -2.5;  // one that doesn't stand against the push; choice
+constexpr double kSomeStand = 0.4;    // of its outline on which it stands: hardly; choice
+// Of hand length: a fingertip's middle off what it touches; and from where on it surely doesn't.
+constexpr double kTipTouches = 0.055, kTipIsOff = 0.1;
+constexpr double kTouches = 0.5;  // mm of skin, at most, that make a contact; choice
 constexpr std::size_t kMostButtons = 3;
 constexpr double kAlongAxis = 0.7;  // cosine: `up` is the part's axis
 
@@ -80,13 +85,29 @@ Vec3 longer_way(const geometry::TriangleMesh& mesh, const Vec3& up) {
   return (most.x() * u + most.y() * v).normalized();
 }
 
+// The share of its outline, seen along `up`, on which a thing stands.
+double standing_share(const geometry::TriangleMesh& mesh, const Vec3& up) {
+  double level = 1e300;
+  for (const Vec3& v : mesh.vertices) level = std::min(level, up.dot(v));
+  double outline = 0.0, base = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Vec3 area = 0.5 * (b - a).cross(c - a);
+    const double seen = area.dot(up);
+    outline += std::max(0.0, seen);
+    const bool is_low = up.dot(a + b + c) / 3.0 - level < kLowestLayer;
+    if (is_low && -seen > kLevelFace * area.norm()) base -= seen;
+  }
+  return outline > 0.0 ? base / outline : 0.0;
+}
+
 std::optional<Vault> vault_over(const geometry::TriangleMesh& mesh, const Vec3& up) {
   double level = 1e300, top = -1e300;
   for (const Vec3& v : mesh.vertices) {
     level = std::min(level, up.dot(v));
     top = std::max(top, up.dot(v));
   }
-  double outline = 0.0, base = 0.0, level_top = 0.0, high = 0.0;
+  double outline = 0.0, level_top = 0.0, high = 0.0;
   Vault vault;
   vault.up = up;
   vault.height = top - level;
@@ -95,10 +116,7 @@ std::optional<Vault> vault_over(const geometry::TriangleMesh& mesh, const Vec3& 
     const Vec3 area = 0.5 * (b - a).cross(c - a);
     const double seen = area.dot(up);
     const double at = up.dot(a + b + c) / 3.0 - level;
-    if (seen < 0.0) {
-      if (-seen > kLevelFace * area.norm() && at < kLowestLayer) base -= seen;
-      continue;
-    }
+    if (seen < 0.0) continue;
     outline += seen;
     if (seen > kLevelFace * area.norm()) level_top += seen;
     if (at > kHighPart * vault.height) {
@@ -106,7 +124,9 @@ std::optional<Vault> vault_over(const geometry::TriangleMesh& mesh, const Vec3& 
       high += seen;
     }
   }
-  if (base < kStandsOn * outline || level_top > kMostLevelTop * outline || high <= 0.0) return {};
+  if (standing_share(mesh, up) < kStandsOn || level_top > kMostLevelTop * outline || high <= 0.0) {
+    return {};
+  }
   vault.highest /= high;
   vault.along = longer_way(mesh, up);
   vault.length = extent_of(mesh, vault.along);
@@ -189,15 +209,21 @@ Hold hold_of(Grip grip, const product::ProductPart& part, const LaidSite& site) 
   return hold;
 }
 
-int touching_of(const Grasp& grasp) {
-  int touching = grasp.stops[index_of(hand::Segment::kPalm)].penetration > 0.0 ? 1 : 0;
-  for (int f = 0; f < hand::kFingerCount; ++f) {
-    const bool touches =
-        std::any_of(grasp.stops.begin(), grasp.stops.end(), [&](const SegmentStop& stop) {
-          return hand::finger_of(stop.segment) == static_cast<hand::Finger>(f) &&
-                 stop.penetration > 0.0;
-        });
-    touching += touches ? 1 : 0;
+// How many of palm and fingers touch; what hardly does, or whose tip nearly does, in part.
+double touching_of(const HoldScene& scene, const Grasp& grasp) {
+  std::array<double, hand::kFingerCount + 1> deepest{};  // mm; the palm's last
+  for (const SegmentStop& stop : grasp.stops) {
+    const auto finger = hand::finger_of(stop.segment);
+    double& most = finger ? deepest[index_of(*finger)] : deepest.back();
+    if (finger || stop.segment == hand::Segment::kPalm) most = std::max(most, stop.penetration);
+  }
+  const double length = scene.hand->dimensions.hand_length;
+  const HandPoints points = hand_points(*scene.hand, grasp.posture, grasp.product_from_hand);
+  double touching = smooth_step(deepest.back(), 0.0, kTouches);
+  for (std::size_t f = 0; f < hand::kFingerCount; ++f) {
+    const double off = scene.product->distance->at(points.tip(f)).distance / length;
+    touching +=
+        std::max(smooth_step(deepest[f], 0.0, kTouches), smooth_step(off, kTipIsOff, kTipTouches));
   }
   return touching;
 }
@@ -225,7 +251,7 @@ class LaidHolds {
       lay_on(part, options_.grip.value_or(Grip::kRestingHand));
       if (!options_.part && options_.part_name.empty()) break;  // the largest
     }
-    const bool may_push = !options_.grip && !scene_.has_handle && parts.triggers.empty();
+    const bool may_push = !options_.grip && !scene_.has_handle() && parts.triggers.empty();
     if (may_push || options_.grip == Grip::kFingerPush) push(progress);
     return std::move(found_);
   }
@@ -291,9 +317,9 @@ class LaidHolds {
           {"place over the top", off, "mm", -0.5 * z * z,
            fmt::format("its knuckles are {:.0f} mm off the highest place", off)});
     }
-    const int touching = touching_of(ranked.grasp);
+    const double touching = touching_of(scene_, ranked.grasp);
     ranked.terms.push_back(
-        {"closing", static_cast<double>(touching), "",
+        {"closing", touching, "",
          closing_score(ranked.grasp) - kPerMissing * (hand::kFingerCount + 1 - touching),
          ranked.grasp.message});
     ranked.hold = std::move(hold);
@@ -310,10 +336,14 @@ class LaidHolds {
 
   void push(const Progress& progress) {
     const product::ProductParts& parts = *scene_.parts;
-    std::vector<std::pair<int, Vec3>> places;  // part, point
+    struct Place {
+      int number;
+      Vec3 point, normal;
+    };
+    std::vector<Place> places;
     for (const product::PartButton& button : parts.buttons) {
       if (places.size() < kMostButtons && is_part_asked(parts.parts[button.part - 1], options_)) {
-        places.emplace_back(button.part, button.point);
+        places.push_back({button.part, button.point, button.normal});
       }
     }
     if (places.empty() && options_.grip && !parts.parts.empty()) {
@@ -323,11 +353,12 @@ class LaidHolds {
         const Vec3 up = ups(part).front();
         const Vec3 middle =
             product::part_frame(part, options_.along.value_or(0.5), 0.0).translation;
-        places.emplace_back(part.number, surface_below(*scene_.product, middle + 300.0 * up, -up));
+        places.push_back(
+            {part.number, surface_below(*scene_.product, middle + 300.0 * up, -up), up});
         break;
       }
     }
-    for (const auto& [number, point] : places) {
+    for (const auto& [number, point, normal] : places) {
       progress.throw_if_cancelled();
       const product::ProductPart& part = parts.parts[number - 1];
       RankedHold ranked;
@@ -337,8 +368,14 @@ class LaidHolds {
       ranked.hold.part_name = part.name;
       ranked.hold.fingertips = {{hand::Finger::kIndex, product::place_of(part, point)}};
       ranked.hold.along = std::clamp(ranked.hold.fingertips.front().place.along, 0.0, 1.0);
-      ranked.terms.push_back({"grip", 0.0, "", options_.grip ? 0.0 : kPushPrior,
-                              parts.buttons.empty() ? "as asked for" : "a button is pressed"});
+      const double stands =
+          smooth_step(standing_share(scene_.product->mesh, levelled(scene_.product->mesh, normal)),
+                      kSomeStand, kStandsOn);
+      const double prior = stands * kPushPrior + (1.0 - stands) * kPushInHand;
+      ranked.terms.push_back({"grip", stands, "", options_.grip ? 0.0 : prior,
+                              parts.buttons.empty() ? "as asked for"
+                              : stands > 0.5        ? "a button is pressed"
+                                                    : "it doesn't stand against a push"});
       ranked.terms.push_back(
           {"closing", 1.0, "", closing_score(ranked.grasp), ranked.grasp.message});
       found_.push_back(std::move(ranked));

@@ -21,11 +21,6 @@ constexpr std::size_t kSpareModes = 4;
 constexpr double kPartlyHeld = -3.0, kNotHeld = -8.0;  // as precision_holds() has them; choice
 const double kTowardLimit = std::cos(60.0 * geometry::kDegree);  // as power holds have it
 
-bool is_offered_grip(Grip grip) {
-  return grip == Grip::kPrismatic || grip == Grip::kPrecisionSphere || grip == Grip::kTripod ||
-         grip == Grip::kPalmarPinch;
-}
-
 bool is_asked(const OpposedHold& hold, const HoldScene& scene, const HoldOptions& options) {
   if (options.grip && hold.grip != *options.grip) return false;
   if (options.toward) {
@@ -62,7 +57,7 @@ RankedHold closed_hold(const HoldScene& scene, const Grasp& grasp) {
 
 bool are_offered(const HoldOptions& options) {
   return options.purpose == HoldPurpose::kHandOver && !options.is_power_only && !options.along &&
-         (!options.grip || is_offered_grip(*options.grip));
+         (!options.grip || is_opposed(*options.grip));
 }
 
 std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions& options,
@@ -82,8 +77,7 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
   const ShapeFeatures slope = weights.shape_slope();
   const ShapeFeatures& likeliest = all[modes.front().hold].features;
   const auto on_table = [&](const OpposedHold& hold) {
-    return weights.table_slope().dot(
-        table_features(hold.points, grip_frame(hold.points), *scene.lay));
+    return weights.table_slope().dot(table_features(hold.palm, *scene.lay));
   };
   std::vector<RankedHold> found;
   for (const HoldMode& mode : modes) {

@@ -30,7 +30,7 @@ constexpr double kCrossingUnit = 5.0;
 constexpr double kPalmUnit = 15.0, kPalmSkin = 20.0;  // the palm's skin is so far from its bones
 constexpr double kBeyondThumb = 40.0, kBeyondTips = 30.0, kBeyondRamp = 5.0;
 constexpr double kPalmShare = 0.6;  // of the way from the wrist to the knuckles
-constexpr double kAboveTable = 10.0, kBelowUnit = 20.0;  // a fingertip is 10 mm thick; wrists more
+constexpr double kAboveTable = 15.0, kBelowUnit = 20.0;  // half of a hand is 15 mm thick
 
 struct Axes {
   Vec3 centre;           // of volume
@@ -142,7 +142,7 @@ constexpr std::array<FeatureText, kHoldFeatureCount> kTexts = {{
     {"row_across_flat", "the fingers' row is across its flat sides",
      "the fingers' row is along its flat sides"},
     {"thumb_side_up", "the thumb's side is up", "the thumb's side is down"},
-    {"wrist_up", "the hand comes from above", "the hand comes from below"},
+    {"palm_down", "the palm faces down", "the palm faces up"},
     {"below_table", "the hand is where the table is", "the hand is clear of the table"},
 }};
 
@@ -180,14 +180,26 @@ GripFrame grip_frame(const HandPoints& points) {
   return frame;
 }
 
-TableFeatures table_features(const HandPoints& points, const GripFrame& frame,
-                             const Standing& lay) {
+bool is_opposed(Grip grip) { return std::find(kGrips.begin(), kGrips.end(), grip) != kGrips.end(); }
+
+PalmPlace palm_place(const hand::Hand& hand, const geometry::Rigid3& product_from_hand) {
+  const auto joint = [&](hand::JointId id) -> Vec3 {
+    return product_from_hand * hand.skeleton.joint(id).centre;
+  };
+  const double thumb = hand.side == hand::Side::kRight ? 1.0 : -1.0;
+  return {.wrist = product_from_hand.translation,  // the hand frame's origin is the wrist
+          .index_knuckle = joint(hand::JointId::kIndexMcp),
+          .little_knuckle = joint(hand::JointId::kLittleMcp),
+          .faces = product_from_hand.rotation * Vec3::UnitZ(),
+          .thumb_side = product_from_hand.rotation * Vec3(thumb * Vec3::UnitX())};
+}
+
+TableFeatures table_features(const PalmPlace& palm, const Standing& lay) {
   double below = 0.0;
-  for (const Vec3& point : points.point) {
+  for (const Vec3& point : {palm.wrist, palm.index_knuckle, palm.little_knuckle}) {
     below += std::max(0.0, lay.table + kAboveTable - lay.up.dot(point));
   }
-  return {frame.row.dot(lay.up), (points.wrist() - frame.middle).normalized().dot(lay.up),
-          std::log1p(below / kBelowUnit)};
+  return {palm.thumb_side.dot(lay.up), -palm.faces.dot(lay.up), std::log1p(below / kBelowUnit)};
 }
 
 HandPoints hand_points(const hand::Hand& hand, const hand::Posture& posture,
@@ -199,7 +211,7 @@ HandPoints hand_points(const hand::Hand& hand, const hand::Posture& posture,
                                    hand::Segment::kLittleDistal};
   const hand::PosedSkeleton posed = hand::pose_skeleton(hand.skeleton, posture);
   HandPoints points;
-  points.point[0] = product_from_hand.translation;  // the hand frame's origin is the wrist
+  points.point[0] = product_from_hand.translation;
   for (std::size_t f = 0; f < hand::kFingerCount; ++f) {
     const Vec3& joint = hand.skeleton.joint(kLast[f]).centre;
     const Vec3 tip = joint + kTipShare * (hand.skeleton.fingertips[f] - joint);
@@ -237,6 +249,7 @@ std::vector<OpposedHold> opposed_holds(OpenedHand& opened, const product::Produc
           hold.grip = grip;
           hold.place = opposed_place(hand, opening, scene.shape(), thumb, others, turn);
           hold.points = hand_points(hand, opening.posture, hold.place.product_from_hand);
+          hold.palm = palm_place(hand, hold.place.product_from_hand);
           hold.features = scene.features_of(hold.points, opening.posture,
                                             hold.place.product_from_hand, openings.fingertips());
           found[static_cast<std::size_t>(i)].push_back(hold);

@@ -25,6 +25,15 @@ struct HandPoints {
 HandPoints hand_points(const hand::Hand& hand, const hand::Posture& posture,
                        const geometry::Rigid3& product_from_hand);
 
+/// Where a hand's palm is, however its fingers are bent. Product frame, mm.
+struct PalmPlace {
+  Vec3 wrist = Vec3::Zero();
+  Vec3 index_knuckle = Vec3::Zero(), little_knuckle = Vec3::Zero();
+  Vec3 faces = Vec3::UnitZ();       ///< out of the palm; unit
+  Vec3 thumb_side = Vec3::UnitX();  ///< across the palm, from the little to the index finger; unit
+};
+PalmPlace palm_place(const hand::Hand& hand, const geometry::Rigid3& product_from_hand);
+
 /// How a thing lies or stands on a table. Its own frame, mm.
 struct Standing {
   Vec3 up = Vec3::UnitZ();  ///< unit
@@ -56,18 +65,17 @@ enum class HoldFeature : std::uint8_t {
   kBeyondThumbSide,   ///< share of its surface more than 40 mm beyond the grip there
   kBeyondFingertips,  ///< share of its surface more than 30 mm beyond the grip, off the wrist
   kRowAcrossFlat,     ///< flatness times the square of cos(fingers' row, shortest axis)
-  kThumbSideUp,       ///< cos(fingers' row, up)
-  kWristUp,           ///< cos(from the grip to the wrist, up)
-  kBelowTable,  ///< ln(1 + b / 20 mm), b how far wrist and fingertips, summed, are lower than 10 mm
-                ///< above the table
+  kThumbSideUp,       ///< cos(PalmPlace::thumb_side, up)
+  kPalmDown,          ///< -cos(PalmPlace::faces, up)
+  kBelowTable,        ///< ln(1 + b / 20 mm), b how far the wrist and two knuckles, summed, are
+                      ///< lower than 15 mm above the table
 };
 inline constexpr int kHoldFeatureCount = 12, kTableFeatureCount = 3;
 inline constexpr int kShapeFeatureCount = kHoldFeatureCount - kTableFeatureCount;
 using HoldFeatures = Eigen::Matrix<double, kHoldFeatureCount, 1>;
 using ShapeFeatures = Eigen::Matrix<double, kShapeFeatureCount, 1>;
 using TableFeatures = Eigen::Matrix<double, kTableFeatureCount, 1>;
-/// Of any hand; of the frame only the middle and the row count.
-TableFeatures table_features(const HandPoints& points, const GripFrame& frame, const Standing& lay);
+TableFeatures table_features(const PalmPlace& palm, const Standing& lay);
 std::string_view name_of(HoldFeature feature);  ///< "fingers_on_it", as in a file of weights
 /// For people, a clause: what it is like if there is much of it, "the fingers are on it", or
 /// little.
@@ -79,8 +87,12 @@ struct OpposedHold {
   Grip grip{};
   OpposedPlace place;
   HandPoints points;
+  PalmPlace palm;
   ShapeFeatures features;
 };
+
+/// Whether opposed_holds() has a grip: prismatic, precision sphere, tripod or palmar pinch.
+bool is_opposed(Grip grip);
 
 /// All of a product's: each of its opposing pairs of points, the thumb at either, in twelve turns
 /// of the hand, in a prismatic grip, precision sphere, tripod and palmar pinch. Some ten

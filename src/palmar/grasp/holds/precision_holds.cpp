@@ -13,8 +13,9 @@
 
 #include "palmar/grasp/holds/hold_candidates.h"
 #include "palmar/grasp/holds/hold_limits.h"
+#include "palmar/grasp/holds/hold_weights.h"
 #include "palmar/grasp/power/grip_choice.h"
-#include "palmar/grasp/precision/precision_grip.h"
+#include "palmar/grasp/precision/precision_search.h"
 #include "palmar/grasp/precision/ring_targets.h"
 #include "palmar/product/parts/part_spread.h"
 
@@ -32,13 +33,11 @@ constexpr double kSmallThing = 0.45;  // hand lengths: longer things aren't take
 constexpr double kTinyThing = 0.12;   // hand lengths: only two fingers find room on it
 constexpr double kFlatThing = 0.4;    // thickness over width: a key, a card
 constexpr double kStem = 14.0;        // mm; thicker bars are for the whole hand
-constexpr double kSmallKnob = 0.25;   // hand lengths: fingertips rather than the palm
+constexpr double kSmallKnob = 0.22;   // hand lengths: fingertips rather than the palm
+constexpr double kLargeKnob = 0.28;   // hand lengths: the palm rather than fingertips
 constexpr double kThinPlate = 30.0;   // mm
-// Of hand length: how far in from the edge of a plate pads like to be, their own phalanges' length
-// (thumb and fingers lie flat on it); farther in the web of the thumb comes up to the edge. Choice.
-constexpr double kInFromEdge = 0.16;
-constexpr double kEdgeSpread = 15.0;  // mm; choice
-constexpr int kOutlineSides = 16;
+constexpr std::size_t kMostPlaces = 4;
+constexpr double kHardly = 0.02;  // a lesser share of a pen or a small knob is none; choice
 
 // Largest first, mm. Of a single part its own: principal axes of a cube are chance.
 Vec3 sorted_extents(const HoldScene& scene) {
@@ -50,11 +49,23 @@ Vec3 sorted_extents(const HoldScene& scene) {
   return extents;
 }
 
+// How much a thing is a pen, 0 to 1: as thin, slender and straight as one, or nearly so.
+double pen_share(const HoldScene& scene, const product::ProductPart& part) {
+  if (scene.parts->parts.size() > 1) return 0.0;
+  if (part.kind != product::PartKind::kPen && part.kind != product::PartKind::kBar) return 0.0;
+  const double diameter = std::max(part.diameter(), 1e-9);
+  return smooth_step(diameter, 22.0, 18.0) * smooth_step(part.length / diameter, 4.5, 5.5) *
+         smooth_step(part.straightness, 0.97, 0.99) *
+         smooth_step(part.thickness / std::max(part.width, 1e-9), 0.3, 0.5);
+}
+
 std::vector<GripPrior> priors(const HoldScene& scene, const product::ProductPart& part,
                               const Vec3& extents) {
   const double length = scene.hand->dimensions.hand_length;
   using enum Grip;
-  if (part.kind == product::PartKind::kPen) return {{kTripod, 0.0}, {kPalmarPinch, -1.5}};
+  if (const double pen = pen_share(scene, part); pen > kHardly) {
+    return {{kTripod, std::log(pen)}, {kPalmarPinch, std::log(pen) - 1.5}};
+  }
   if (extents[0] < kSmallThing * length) {
     if (extents[0] < kTinyThing * length) return {{kTipPinch, -0.3}, {kPalmarPinch, -0.5}};
     const bool is_box =
@@ -74,21 +85,47 @@ std::vector<GripPrior> priors(const HoldScene& scene, const product::ProductPart
   return {};
 }
 
-// How far in from the edge of a plate a point is (of its convex outline), mm.
-// Directions are counted from the plate's axis, so that they turn and mirror with it.
-double depth_from_edge(const geometry::TriangleMesh& mesh, const Vec3& normal, const Vec3& axis,
-                       const Vec3& point) {
-  const Vec3 u = (axis - normal * normal.dot(axis)).normalized(), v = normal.cross(u);
-  double least = 1e300;
-  for (int k = 0; k < kOutlineSides; ++k) {
-    const double angle = 2.0 * std::numbers::pi * k / kOutlineSides;
-    const Vec3 out = std::cos(angle) * u + std::sin(angle) * v;
-    double farthest = 0.0;
-    for (const Vec3& p : mesh.vertices) farthest = std::max(farthest, out.dot(p - point));
-    least = std::min(least, farthest);
+/// Where people's fingertips would most likely be, of a grip on a part or anywhere, by the weights
+/// of holds to hand over: what a place is worth there doesn't depend on what it is for.
+class LikelyPlaces {
+ public:
+  LikelyPlaces(const HoldScene& scene, const Progress& progress)
+      : scene_(scene), hand_(*scene.hand), progress_(progress) {}
+
+  OpenedHand& hand() { return hand_; }
+
+  /// Likeliest first; of the first ones the fingertips may not reach the surface.
+  std::vector<OpposedPlace> of(Grip grip, const product::ProductPart* part) {
+    if (!has_looked_) {
+      has_looked_ = true;
+      all_ = opposed_holds(hand_, *scene_.product, progress_);
+    }
+    std::vector<OpposedHold> some;
+    for (const OpposedHold& hold : all_) {
+      if (hold.grip == grip && (part == nullptr || is_within(*part, hold))) some.push_back(hold);
+    }
+    std::vector<OpposedPlace> places;
+    const Eigen::VectorXd chance = chances(hand_over_weights(), some, scene_.lay);
+    for (const HoldMode& mode : modes_of(some, chance, kMostPlaces)) {
+      places.push_back(some[mode.hold].place);
+    }
+    return places;
   }
-  return least;
-}
+
+ private:
+  // The part is between thumb and fingers.
+  static bool is_within(const product::ProductPart& part, const OpposedHold& hold) {
+    const product::PartPlace place =
+        product::place_of(part, 0.5 * (hold.place.thumb + hold.place.others));
+    return place.along >= 0.0 && place.along <= 1.0 && place.height <= 0.5 * part.width;
+  }
+
+  const HoldScene& scene_;
+  OpenedHand hand_;
+  const Progress& progress_;
+  bool has_looked_ = false;
+  std::vector<OpposedHold> all_;
+};
 
 RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
   RankedHold ranked;
@@ -107,9 +144,8 @@ RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
   }
   ranked.terms.push_back({"grip", 0.0, "", prior,
                           prior < -0.5 ? "seldom taken by the fingertips" : "taken by fingertips"});
-  const bool is_passed_over = scene.has_handle && scene.is_handle[hold.part - 1] == 0;
-  if (is_passed_over) {
-    ranked.terms.push_back({"handle", 0.0, "", std::log(0.1), "beside the handle"});
+  if (const double passed_over = scene.passed_over(hold.part); passed_over > 0.0) {
+    ranked.terms.push_back({"handle", 0.0, "", std::log(0.1) * passed_over, "beside the handle"});
   }
   const double lever = (scene.gravity_centre - middle).norm();
   constexpr double kMoment = 150.0;  // N mm that fingertips begin to avoid; choice
@@ -118,14 +154,6 @@ RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
   ranked.terms.push_back({"moment of the weight", scene.weight * lever, "N mm",
                           -0.5 * std::log1p(ratio * ratio),
                           fmt::format("its weight is {:.0f} mm beside the grip", lever)});
-  if (part.kind == product::PartKind::kPlate && part.face_normal) {
-    const double depth =
-        depth_from_edge(scene.product->mesh, *part.face_normal, part.line.front().axis, middle);
-    const double usual = kInFromEdge * scene.hand->dimensions.hand_length;
-    const double z = std::max(0.0, depth - usual) / kEdgeSpread;
-    ranked.terms.push_back({"reach over the edge", depth, "mm", -0.5 * std::min(z * z, 4.0),
-                            fmt::format("its pads are {:.0f} mm in from the edge", depth)});
-  }
   const double held = grasp.status == GraspStatus::kHeld         ? 0.0
                       : grasp.status == GraspStatus::kPartlyHeld ? -3.0
                                                                  : -8.0;
@@ -147,57 +175,66 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
     grips.push_back({*options.grip, 0.0});
   } else {
     // What has a handle is taken there.
-    const bool is_passed_over = scene.has_handle && scene.is_handle[0] == 0;
+    const bool is_passed_over = scene.passed_over(1) > 0.5;
     if (!is_passed_over) {
       grips = priors(scene, scene.parts->parts.front(), sorted_extents(scene));
     }
     // What two rings are for (Feix et al. 2016, grip 19).
     if (rings) grips.insert(grips.begin(), {Grip::kDistalType, 0.0});
   }
-  const auto try_grips = [&](const std::vector<GripPrior>& list, std::optional<Vec3> at) {
+  LikelyPlaces likely(scene, progress);
+  const auto try_grips = [&](const std::vector<GripPrior>& list, const product::ProductPart* part) {
     for (const GripPrior& tried : list) {
-      progress.throw_if_cancelled();
       PrecisionGripOptions precision;
       precision.grip = tried.grip;
-      precision.placement.at = at;
-      if (tried.grip == Grip::kDistalType && rings) {
-        precision.targets = ring_targets(*scene.hand, *scene.product, *rings);
+      std::vector<std::optional<OpposedPlace>> places;
+      if (is_opposed(tried.grip)) {
+        for (const OpposedPlace& place : likely.of(tried.grip, part)) places.emplace_back(place);
+      } else {
+        places.emplace_back();
+        if (tried.grip == Grip::kDistalType && rings) {
+          precision.targets = ring_targets(*scene.hand, *scene.product, *rings);
+        } else if (part != nullptr) {
+          precision.placement.at = product::part_frame(*part, 0.5, 0.0).translation;
+        }
       }
-      const Grasp grasp = close_precision_grip(*scene.hand, *scene.product, precision, progress);
-      if (grasp.fingertips.empty()) continue;
-      RankedHold ranked = ranked_of(scene, grasp, tried.score);
-      if (is_part_asked(scene.parts->parts[ranked.hold.part - 1], options)) {
-        found.push_back(std::move(ranked));
+      for (const std::optional<OpposedPlace>& place : places) {
+        progress.throw_if_cancelled();
+        precision.from = place;
+        const Grasp grasp =
+            close_precision_grip(likely.hand(), *scene.product, precision, progress);
+        if (grasp.fingertips.empty()) continue;
+        RankedHold ranked = ranked_of(scene, grasp, tried.score);
+        if (is_part_asked(scene.parts->parts[ranked.hold.part - 1], options)) {
+          found.push_back(std::move(ranked));
+        }
+        if (grasp.status == GraspStatus::kHeld) break;
       }
     }
   };
-  const product::ProductPart& largest = scene.parts->parts.front();
-  const bool is_wide_plate = !options.grip && largest.kind == product::PartKind::kPlate &&
-                             largest.thickness < kThinPlate &&
-                             largest.width >= kHandSpan * scene.hand->dimensions.hand_length;
-  if (is_wide_plate) {
-    // What the hand doesn't span is taken by an edge: at either end of its longer axis.
-    const double in = kInFromEdge * scene.hand->dimensions.hand_length / largest.length;
-    for (const double along : {in, 1.0 - in}) {
-      try_grips(grips, product::part_frame(largest, along, 0.0).translation);
+  const bool is_one_asked = options.part || !options.part_name.empty();
+  if (is_one_asked) {
+    for (const product::ProductPart& part : scene.parts->parts) {
+      if (is_part_asked(part, options)) try_grips(grips, &part);
     }
-  } else {
-    try_grips(grips, {});
+    return found;
   }
+  try_grips(grips, nullptr);
   if (options.grip || scene.parts->parts.size() < 2) return found;
   // A small knob on something larger; the stem of what has no handle.
   const double length = scene.hand->dimensions.hand_length;
   for (const product::ProductPart& part : scene.parts->parts) {
-    const bool is_small = std::max(part.length, part.width) < kSmallKnob * length;
-    const Vec3 middle = product::part_frame(part, 0.5, 0.0).translation;
-    if (part.kind == product::PartKind::kBar && !scene.has_handle && part.diameter() < kStem) {
-      try_grips({{Grip::kTripod, -0.5}, {Grip::kPalmarPinch, -0.8}}, middle);
+    const double small =
+        smooth_step(std::max(part.length, part.width) / length, kLargeKnob, kSmallKnob);
+    if (part.kind == product::PartKind::kBar && !scene.has_handle() && part.diameter() < kStem) {
+      try_grips({{Grip::kTripod, -0.5}, {Grip::kPalmarPinch, -0.8}}, &part);
     }
-    if (!is_small || part.kind == product::PartKind::kPlate ||
-        part.kind == product::PartKind::kLoop || scene.is_handle[part.number - 1] == 0) {
+    if (small < kHardly || part.kind == product::PartKind::kPlate ||
+        part.kind == product::PartKind::kLoop || !scene.is_handle(part.number)) {
       continue;
     }
-    try_grips({{Grip::kPrecisionSphere, -0.3}, {Grip::kTripod, -0.3}}, middle);
+    const double prior = std::log(small) - 0.3;
+    try_grips({{Grip::kPrecisionSphere, prior}, {Grip::kTripod, prior}}, &part);
   }
   return found;
 }
