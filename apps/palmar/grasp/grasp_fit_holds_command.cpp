@@ -12,10 +12,11 @@ namespace palmar::cli {
 namespace {
 
 std::string fit_text(const grasp::HoldFit& fit) {
-  std::string text = "feature                     weight\n";
+  std::string text = "feature                     weight  not knowing up\n";
   for (int k = 0; k < grasp::kHoldFeatureCount; ++k) {
-    text += fmt::format("{:<26} {:7.2f}\n", name_of(static_cast<grasp::HoldFeature>(k)),
-                        fit.weights.weight[k]);
+    const std::string_view name = name_of(static_cast<grasp::HoldFeature>(k));
+    text += fmt::format("{:<26} {:7.2f} {:15.2f}\n", name, fit.weights.weight[k],
+                        fit.weights.unseen[k]);
   }
   text += fmt::format("log-likelihood per hold {:.3f}, of the holds that it was fitted to\n\n",
                       fit.likelihood);

@@ -116,7 +116,6 @@ LeftOut judged(const ObservedObject& observed, const Seen& object, const HoldWei
   Eigen::VectorXd nearest = object.distance.rowwise().minCoeff();
   std::sort(nearest.begin(), nearest.end());
   result.nearest = nearest[nearest.size() / 2];
-  result.likelihood = likelihood_of(object, weights.weight);
   const Eigen::VectorXd chance = chances(weights, observed.candidates);
   for (const SeenHold& hold : object.holds) {
     result.unseen += std::log(hold.near.dot(chance) + kNever);
@@ -190,13 +189,23 @@ HoldFit fit_holds(const std::vector<ObservedObject>& objects) {
   for (const ObservedObject& object : objects) seen.push_back(seen_of(object, weights));
   weights.weight = fitted(seen, seen.size(), HoldFeatures::Zero());
   double total = 0.0;
+  std::vector<double> knowing;  // likelihood of each object, left out
   for (std::size_t o = 0; o < objects.size(); ++o) {
     const auto people = static_cast<double>(seen[o].holds.size());
     fit.likelihood += people * likelihood_of(seen[o], weights.weight);
     total += people;
+    knowing.push_back(likelihood_of(seen[o], fitted(seen, o, weights.weight)));
+  }
+  // Not knowing how they had lain; the weights of features that are all alike stay 0.
+  for (Seen& object : seen) {
+    for (SeenHold& hold : object.holds) hold.features.setZero();
+  }
+  weights.unseen = fitted(seen, seen.size(), HoldFeatures::Zero());
+  for (std::size_t o = 0; o < objects.size(); ++o) {
     HoldWeights without = weights;
-    without.weight = fitted(seen, o, weights.weight);
+    without.unseen = fitted(seen, o, weights.unseen);
     fit.left_out.push_back(judged(objects[o], seen[o], without));
+    fit.left_out.back().likelihood = knowing[o];
   }
   fit.likelihood /= total;
   return fit;

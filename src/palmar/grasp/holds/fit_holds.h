@@ -28,7 +28,7 @@ struct LeftOut {
   int seen = 0;             ///< people's holds
   double nearest = 0.0;     ///< median distance of people's holds to the nearest candidate, mm
   double likelihood = 0.0;  ///< mean logarithm per hold, as the object had lain
-  double unseen = 0.0;      ///< the same without knowing how it had lain
+  double unseen = 0.0;      ///< the same by the weights of those who don't know how it had lain
   double even = 0.0;        ///< the same if all candidates were as likely
   double first =
       0.0;  ///< of the first mode (without knowing that) to the nearest person's hold, mm
@@ -48,7 +48,7 @@ struct HoldFit {
 ///
 /// p_c as the object had lain there, by expectation and maximisation, the latter a Newton step of
 /// the logit; features of shape have mean 0 and spread 1 over all candidates. Then again without
-/// each object in turn. Deterministic. Throws UsageError if there is no object, or one without
+/// each object in turn, and all that without the features of the table. Deterministic. Throws UsageError if there is no object, or one without
 /// candidates or holds.
 HoldFit fit_holds(const std::vector<ObservedObject>& objects);
 

@@ -60,6 +60,8 @@ TEST(FitHolds, OneFeatureOfTwoValuesGetsTheLogarithmOfTheOdds) {
   const double slope = fit.weights.weight[0] / fit.weights.spread[0];
   EXPECT_NEAR(slope, std::log(3.0), 0.01);  // the ridge pulls it down a little
   for (int k = 1; k < kHoldFeatureCount; ++k) EXPECT_NEAR(fit.weights.weight[k], 0.0, 1e-9);
+  // These say nothing of how it lay: not to know it changes nothing.
+  EXPECT_NEAR(fit.weights.unseen[0], fit.weights.weight[0], 1e-6);
   // -sum p ln p with p = 1/7, 3/7, 3/7.
   EXPECT_NEAR(fit.likelihood, std::log(1.0 / 7.0) / 7.0 + 6.0 / 7.0 * std::log(3.0 / 7.0), 1e-4);
 }
@@ -95,7 +97,7 @@ TEST(FitHolds, FindsWeightsThatHoldsWereDrawnWith) {
     }
   }
   const HoldFit fit = fit_holds(objects);
-  const ShapeFeatures found = fit.weights.shape_slope();
+  const ShapeFeatures found = fit.weights.shape_slope(true);
   for (int k = 0; k < kShapeFeatureCount; ++k) EXPECT_NEAR(found[k], truth[k], 0.1) << k;
   EXPECT_NEAR(fit.weights.table_slope()[0], kThumbUp, 0.1);
   EXPECT_NEAR(fit.weights.table_slope()[1], kPalmDown, 0.1);
@@ -120,6 +122,11 @@ TEST(FitHolds, HowItLiesCountsWhereThatIsKnown) {
   HoldWeights weights;
   weights.weight[kShapeFeatureCount] = 0.5 * std::log(3.0);  // thumb's side up: three to one
   EXPECT_NEAR(chances(weights, holds)[0], 0.5, 1e-12);
+  EXPECT_NEAR(chances(weights, holds, Standing{.table = -1e9})[0], 0.75, 1e-12);
+  // Shape counts by weights of its own where that isn't known.
+  holds[1].features[0] = 1.0;
+  weights.unseen[0] = std::log(4.0);
+  EXPECT_NEAR(chances(weights, holds)[0], 0.2, 1e-12);
   EXPECT_NEAR(chances(weights, holds, Standing{.table = -1e9})[0], 0.75, 1e-12);
 }
 

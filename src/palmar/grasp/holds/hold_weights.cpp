@@ -22,6 +22,8 @@ const HoldWeights& hand_over_weights() {
     HoldWeights table;
     table.weight << 0.868333, 0.850786, -0.778739, -0.550805, -1.30643, -0.868265, 0.660932,
         0.654717, 0.519093, 1.67085, 1.64399, -0.956825;
+    table.unseen << 0.819939, 1.02029, -0.565677, -0.69922, -1.11431, -1.01223, 0.79928, 0.716545,
+        0.852323, 0.0, 0.0, 0.0;
     table.mean << 2.41272, 0.162831, 2.09296, 0.207613, 0.0316248, 0.0853636, 0.188831, 0.213043,
         0.0709659, 0.0, 0.0, 0.0;
     table.spread << 1.03605, 0.401556, 1.47026, 0.346613, 0.0500059, 0.0989646, 0.191478, 0.202962,
@@ -31,8 +33,9 @@ const HoldWeights& hand_over_weights() {
   return weights;
 }
 
-ShapeFeatures HoldWeights::shape_slope() const {
-  return weight.head<kShapeFeatureCount>().cwiseQuotient(spread.head<kShapeFeatureCount>());
+ShapeFeatures HoldWeights::shape_slope(bool knows_how_it_lies) const {
+  const HoldFeatures& own = knows_how_it_lies ? weight : unseen;
+  return own.head<kShapeFeatureCount>().cwiseQuotient(spread.head<kShapeFeatureCount>());
 }
 
 TableFeatures HoldWeights::table_slope() const {
@@ -42,7 +45,7 @@ TableFeatures HoldWeights::table_slope() const {
 Eigen::VectorXd chances(const HoldWeights& weights, const std::vector<OpposedHold>& holds,
                         const std::optional<Standing>& lay) {
   Eigen::VectorXd chance(static_cast<Eigen::Index>(holds.size()));
-  const ShapeFeatures shape = weights.shape_slope();
+  const ShapeFeatures shape = weights.shape_slope(lay.has_value());
   const TableFeatures table = weights.table_slope();
   for (std::size_t c = 0; c < holds.size(); ++c) {
     double& score = chance[static_cast<Eigen::Index>(c)];

@@ -16,7 +16,11 @@ struct HoldWeights {
   HoldFeatures mean = HoldFeatures::Zero(), spread = HoldFeatures::Ones();
   HoldFeatures weight = HoldFeatures::Zero();
 
-  ShapeFeatures shape_slope() const;  ///< weight / spread
+  /// The weights where it isn't known how the product lies, fitted without the table's features
+  /// (theirs is 0).
+  HoldFeatures unseen = HoldFeatures::Zero();
+
+  ShapeFeatures shape_slope(bool knows_how_it_lies) const;  ///< weight / spread
   TableFeatures table_slope() const;
 };
 

@@ -74,7 +74,7 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
       all, chances(weights, all, scene.lay), static_cast<std::size_t>(options.most) + kSpareModes);
   // Reasons are told against the likeliest hold. The modes' order is by the density of like holds,
   // so what its own features leave of its score is the neighbours' part.
-  const ShapeFeatures slope = weights.shape_slope();
+  const ShapeFeatures slope = weights.shape_slope(scene.lay.has_value());
   const ShapeFeatures& likeliest = all[modes.front().hold].features;
   const auto on_table = [&](const OpposedHold& hold) {
     return weights.table_slope().dot(table_features(hold.palm, *scene.lay));

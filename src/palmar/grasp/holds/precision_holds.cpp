@@ -54,7 +54,8 @@ double pen_share(const HoldScene& scene, const product::ProductPart& part) {
   if (scene.parts->parts.size() > 1) return 0.0;
   if (part.kind != product::PartKind::kPen && part.kind != product::PartKind::kBar) return 0.0;
   const double diameter = std::max(part.diameter(), 1e-9);
-  return smooth_step(diameter, 22.0, 18.0) * smooth_step(part.length / diameter, 4.5, 5.5) *
+  return smooth_step(diameter, 3.0, 5.0) * smooth_step(diameter, 20.0, 16.0) *
+         smooth_step(part.length / diameter, 4.5, 5.5) *
          smooth_step(part.straightness, 0.97, 0.99) *
          smooth_step(part.thickness / std::max(part.width, 1e-9), 0.3, 0.5);
 }

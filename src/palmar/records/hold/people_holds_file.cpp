@@ -86,13 +86,14 @@ std::vector<PeopleHolds> read_people_holds(const std::string& path) {
 std::string hold_weights_toml(const grasp::HoldWeights& weights) {
   std::string text =
       "# How likely people are to take a hold, by what is seen of it: palmar grasp fit-holds.\n"
-      "# docs/method/holds.md says what the features are. A hold's score is the sum of\n"
-      "# weight (feature - mean) / spread.\n";
+      "# docs/method/hand-over.md says what the features are. A hold's score is the sum of\n"
+      "# weight (feature - mean) / spread, with weight_unseen where nobody says how the\n"
+      "# product lies.\n";
   for (int k = 0; k < grasp::kHoldFeatureCount; ++k) {
-    text +=
-        fmt::format("\n[{}]\nweight = {}\nmean = {}\nspread = {}\n", name_of(feature_at(k)),
-                    formats::toml_number(weights.weight[k]), formats::toml_number(weights.mean[k]),
-                    formats::toml_number(weights.spread[k]));
+    text += fmt::format(
+        "\n[{}]\nweight = {}\nweight_unseen = {}\nmean = {}\nspread = {}\n", name_of(feature_at(k)),
+        formats::toml_number(weights.weight[k]), formats::toml_number(weights.unseen[k]),
+        formats::toml_number(weights.mean[k]), formats::toml_number(weights.spread[k]));
   }
   return text;
 }
@@ -108,7 +109,8 @@ grasp::HoldWeights read_hold_weights(const std::string& path) {
     const std::string& name = known[static_cast<std::size_t>(k)];
     const std::optional<formats::TomlSection> section = file.table(name);
     if (!section) file.fail("table [" + name + "] is missing; one for each feature is required");
-    section->allow({"weight", "mean", "spread"});
+    section->allow({"weight", "weight_unseen", "mean", "spread"});
+    weights.unseen[k] = section->need_number("weight_unseen", "", -kLargest, kLargest);
     weights.weight[k] = section->need_number("weight", "", -kLargest, kLargest);
     weights.mean[k] = section->need_number("mean", "", -kLargest, kLargest);
     weights.spread[k] = section->need_number("spread", "", 1e-9, kLargest);
@@ -121,6 +123,7 @@ std::string hold_fit_json(const grasp::HoldFit& fit) {
   for (int k = 0; k < grasp::kHoldFeatureCount; ++k) {
     json["features"].push_back({{"feature", name_of(feature_at(k))},
                                 {"weight", fit.weights.weight[k]},
+                                {"weight_unseen", fit.weights.unseen[k]},
                                 {"mean", fit.weights.mean[k]},
                                 {"spread", fit.weights.spread[k]}});
   }

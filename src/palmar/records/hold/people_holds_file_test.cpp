@@ -87,6 +87,7 @@ TEST_F(PeopleHoldsFile, WeightsReadBackExactly) {
   EXPECT_EQ(back.weight, weights.weight);
   EXPECT_EQ(back.mean, weights.mean);
   EXPECT_EQ(back.spread, weights.spread);
+  EXPECT_EQ(back.unseen, weights.unseen);
 }
 
 TEST_F(PeopleHoldsFile, WeightsOfAnotherKindAreRefused) {

@@ -200,12 +200,12 @@ std::optional<grasp::Hold> hold_from(const Json& json) {
   return hold;
 }
 
-/// By feature: weight, mean, spread.
+/// By feature: weight, mean, spread, weight where it isn't known how it lies.
 Json weights_json(const grasp::HoldWeights& weights) {
   Json json;
   for (int k = 0; k < grasp::kHoldFeatureCount; ++k) {
     json[std::string(name_of(static_cast<grasp::HoldFeature>(k)))] = {
-        weights.weight[k], weights.mean[k], weights.spread[k]};
+        weights.weight[k], weights.mean[k], weights.spread[k], weights.unseen[k]};
   }
   return json;
 }
@@ -213,10 +213,11 @@ Json weights_json(const grasp::HoldWeights& weights) {
 std::shared_ptr<const grasp::HoldWeights> weights_from(const Json& json) {
   grasp::HoldWeights weights;
   for (int k = 0; k < grasp::kHoldFeatureCount; ++k) {
-    const Json& three = json.at(std::string(name_of(static_cast<grasp::HoldFeature>(k))));
-    weights.weight[k] = three.at(0);
-    weights.mean[k] = three.at(1);
-    weights.spread[k] = three.at(2);
+    const Json& some = json.at(std::string(name_of(static_cast<grasp::HoldFeature>(k))));
+    weights.weight[k] = some.at(0);
+    weights.mean[k] = some.at(1);
+    weights.spread[k] = some.at(2);
+    weights.unseen[k] = some.at(3);
   }
   return std::make_shared<const grasp::HoldWeights>(weights);
 }
