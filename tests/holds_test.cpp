@@ -33,6 +33,7 @@ namespace {
 // and held as people do fails, too: then it is struck off.
 const std::map<std::string, std::string>& known_misses() {
   static const std::map<std::string, std::string> misses = {
+      {"handheld_console", "fingertips come down where its weight is nearest, at its lower edge"},
       {"large_marker", "its two ends are alike: nothing tells under which cap the tip is"},
       {"palm_sander", "the dome's axis isn't found, so the palm isn't offered over its top"},
       {"tv_remote", "its two ends are alike: nothing tells where the window is"},
