@@ -48,8 +48,8 @@ struct HoldFit {
 ///
 /// p_c as the object had lain there, by expectation and maximisation, the latter a Newton step of
 /// the logit; features of shape have mean 0 and spread 1 over all candidates. Then again without
-/// each object in turn, and all that without the features of the table. Deterministic. Throws UsageError if there is no object, or one without
-/// candidates or holds.
+/// each object in turn, and all that without the features of the table. Deterministic. Throws
+/// UsageError if there is no object, or one without candidates or holds.
 HoldFit fit_holds(const std::vector<ObservedObject>& objects);
 
 }  // namespace palmar::grasp

@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/holds/hold_candidates.h"
 #include "palmar/grasp/holds/hold_limits.h"
+#include "palmar/grasp/holds/opposed_holds.h"
 #include "palmar/grasp/power/grip_choice.h"
 #include "palmar/product/parts/part_spread.h"
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "palmar/grasp/power/grip_choice.h"
 #include "palmar/grasp/precision/precision_search.h"
 #include "palmar/grasp/precision/ring_targets.h"
+#include "palmar/product/parts/part_place.h"
 #include "palmar/product/parts/part_spread.h"
 
 namespace palmar::grasp {
