@@ -71,7 +71,6 @@ const std::map<std::string, std::string>& known_breaks() {
       {"finer/spray_bottle", kPlacesAlong},
       {"larger/computer_mouse", kPads},
       {"larger/lever_handle", kPlacesAlong},
-      {"larger/push_button", kParts},
       {"larger/wine_glass", kParts},
       {"mirrored/ball_screwdriver", kMirror},
       {"mirrored/beer_bottle", kMirror},
