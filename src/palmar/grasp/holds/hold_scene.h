@@ -28,10 +28,11 @@ struct HoldScene {
   /// something larger.
   std::vector<double> handle;
 
+  /// Whether the part with that number, from 1, is more a handle than not.
   bool is_handle(int number) const { return handle[static_cast<std::size_t>(number) - 1] > 0.5; }
   /// How much there is a better handle than that part, 0 to 1.
   double passed_over(int number) const;
-  bool has_handle() const;
+  bool has_handle() const;  ///< whether any part is_handle()
 };
 HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
                      const product::ProductParts& parts, const HoldOptions& options);

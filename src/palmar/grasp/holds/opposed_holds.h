@@ -75,6 +75,7 @@ inline constexpr int kShapeFeatureCount = kHoldFeatureCount - kTableFeatureCount
 using HoldFeatures = Eigen::Matrix<double, kHoldFeatureCount, 1>;
 using ShapeFeatures = Eigen::Matrix<double, kShapeFeatureCount, 1>;
 using TableFeatures = Eigen::Matrix<double, kTableFeatureCount, 1>;
+/// The last three features, of a hand in any grip.
 TableFeatures table_features(const PalmPlace& palm, const Standing& lay);
 std::string_view name_of(HoldFeature feature);  ///< "fingers_on_it", as in a file of weights
 /// For people, a clause: what it is like if there is much of it, "the fingers are on it", or
