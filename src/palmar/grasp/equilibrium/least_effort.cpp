@@ -10,6 +10,7 @@
 #include "palmar/core/enum_index.h"
 #include "palmar/grasp/equilibrium/effort_program.h"
 #include "palmar/hand/skeleton.h"
+#include "palmar/hand/skin/skinning.h"
 
 namespace palmar::grasp {
 namespace {
@@ -148,7 +149,11 @@ class LeastEffort {
         muscles_(hand.hand(), {.ligaments = task.model.ligaments, .wrist = task.wrist}),
         weight_(spread(task.model).cwiseAbs2().cwiseInverse()),
         damped_(step_weight()),
-        is_idle_(idle_digits(task.takes_part)) {}
+        is_idle_(idle_digits(task.takes_part)) {
+    if (task.measure != EffortMeasure::kPush) return;
+    laid_gap_ = gaps_.look(start, hand::pose_skin_vertices(*hand_, start.posture, coarse_->vertex))
+                    .cwiseMax(0.0);
+  }
 
   EffortRest run(const SearchStart* from, const Progress& progress);
   std::optional<GripState> run_on_coarse_skin(const GripState* from, const Progress& progress);
@@ -197,6 +202,8 @@ class LeastEffort {
   ContactForces skin_, coarse_skin_;
   const hand::SkinSample* coarse_;
   VolarGaps gaps_;
+  /// Gaps that cost nothing, mm: a hand lies on something as it was laid, and doesn't close.
+  VolarVector laid_gap_ = VolarVector::Zero();
   hand::HandMuscles muscles_;
   GripVector weight_;  ///< of what coordinates have moved, in E
   GripVector damped_;  ///< of a step
@@ -320,7 +327,7 @@ bool LeastEffort::look(const GripState& state, Look& at) {
   at.gap_rate = gaps_.rates(state, posed, at.centre);
   for (int k = 0; k < kVolarParts; ++k) {
     const double scale = task_->takes_part[k] / task_->model.gap_spread;
-    at.gap[k] = scale * std::max(0.0, gap[k]);
+    at.gap[k] = scale * std::max(0.0, gap[k] - laid_gap_[k]);
     at.gap_rate.row(k) *= at.gap[k] > 0.0 ? scale : 0.0;
   }
   if (is_coarse_ || !has_skin_on_skin_) {
