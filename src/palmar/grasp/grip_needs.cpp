@@ -48,7 +48,6 @@ std::set<hand::Finger> fingers_touching(const std::vector<hand::Region>& touchin
 
 GripNeeds needs_of(Grip grip) {
   switch (grip) {
-    case Grip::kMediumWrap:
     case Grip::kLargeDiameter:
       return {{hand::Finger::kThumb}, kFingersOfWrap};
     case Grip::kPowerSphere:
@@ -56,7 +55,8 @@ GripNeeds needs_of(Grip grip) {
     case Grip::kPrecisionDisk:
     case Grip::kPrismatic:
       return {{hand::Finger::kThumb}, kFingersOfSphere};
-    case Grip::kSmallDiameter:  // the thumb lies on the fingers
+    case Grip::kMediumWrap:     // the thumb lies on it or,
+    case Grip::kSmallDiameter:  // as far as the fingers come round, on them
     case Grip::kFixedHook:
       return {{}, kFingersOfWrap};
     case Grip::kTipPinch:

@@ -11,8 +11,9 @@
 namespace palmar::grasp {
 
 /// What a grip isn't itself without: which fingers have to touch the product. By the definitions of
-/// the GRASP taxonomy (Feix et al. 2016, table II, opposition types and virtual fingers): in wraps
-/// and the sphere the thumb opposes the fingers, in a hook the fingers pull against the palm or the
+/// the GRASP taxonomy (Feix et al. 2016, table II, opposition types and virtual fingers): palm and
+/// fingers oppose each other in wraps, the thumb, too, where they don't come round (large diameter,
+/// sphere); in a hook the fingers pull against the palm or the
 /// load, in pinches, rings and the tripod the thumb opposes one or two fingers that are named.
 struct GripNeeds {
   std::vector<hand::Finger> fingers;  ///< each of them

@@ -9,27 +9,29 @@ namespace {
 
 // What a grip needs is what the taxonomy's pictures show, not what the program found.
 
-TEST(GripNeeds, AWrapWithoutItsThumbIsNone) {
+TEST(GripNeeds, RoundAThickHandleAWrapWithoutItsThumbIsNone) {
   const std::vector<hand::Region> fingers = {hand::Region::kIndexDistal,
                                              hand::Region::kMiddleDistal, hand::Region::kRingDistal,
                                              hand::Region::kCentralPalm};
-  EXPECT_EQ(lacking_contact(Grip::kMediumWrap, fingers),
-            "the thumb doesn't touch it, which a medium wrap needs");
+  EXPECT_EQ(lacking_contact(Grip::kLargeDiameter, fingers),
+            "the thumb doesn't touch it, which a large diameter needs");
   std::vector<hand::Region> all = fingers;
   all.push_back(hand::Region::kThumbDistal);
-  EXPECT_EQ(lacking_contact(Grip::kMediumWrap, all), "");
+  EXPECT_EQ(lacking_contact(Grip::kLargeDiameter, all), "");
 }
 
 TEST(GripNeeds, TheBallOfTheThumbIsPalm) {
-  EXPECT_EQ(lacking_contact(Grip::kMediumWrap, {hand::Region::kThenar, hand::Region::kIndexDistal,
-                                                hand::Region::kMiddleDistal}),
-            "the thumb doesn't touch it, which a medium wrap needs");
+  EXPECT_EQ(
+      lacking_contact(Grip::kLargeDiameter, {hand::Region::kThenar, hand::Region::kIndexDistal,
+                                             hand::Region::kMiddleDistal}),
+      "the thumb doesn't touch it, which a large diameter needs");
 }
 
-TEST(GripNeeds, RoundAThinHandleTheThumbLiesOnTheFingers) {
-  EXPECT_EQ(lacking_contact(Grip::kSmallDiameter,
-                            {hand::Region::kIndexDistal, hand::Region::kMiddleDistal}),
-            "");
+TEST(GripNeeds, WhereFingersComeRoundTheThumbMayLieOnThem) {
+  for (const Grip grip : {Grip::kMediumWrap, Grip::kSmallDiameter}) {
+    EXPECT_EQ(lacking_contact(grip, {hand::Region::kIndexDistal, hand::Region::kMiddleDistal}), "");
+    EXPECT_NE(lacking_contact(grip, {hand::Region::kThumbDistal, hand::Region::kMiddleDistal}), "");
+  }
 }
 
 TEST(GripNeeds, AHookNeedsNoThumb) {

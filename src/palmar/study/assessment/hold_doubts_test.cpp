@@ -9,7 +9,7 @@ namespace {
 
 Assessment wrap_with(const std::vector<hand::Region>& touching) {
   Assessment assessment;
-  assessment.grasp.grip = grasp::Grip::kMediumWrap;
+  assessment.grasp.grip = grasp::Grip::kLargeDiameter;
   assessment.grasp.status = grasp::GraspStatus::kHeld;
   assessment.balance.status = grasp::BalanceStatus::kBalanced;
   for (const hand::Region region : touching) {
@@ -36,7 +36,7 @@ TEST(HoldDoubts, AWholeHoldAtRestHasNone) { EXPECT_TRUE(doubts_of(wrap_with(kWho
 TEST(HoldDoubts, AWrapWithoutThumbIsDoubtful) {
   const std::vector<HoldDoubt> doubts = doubts_of(wrap_with(kThumbless));
   EXPECT_EQ(keys_of(doubts), "few_contacts");
-  EXPECT_EQ(doubts.front().words, "the thumb doesn't touch it, which a medium wrap needs");
+  EXPECT_EQ(doubts.front().words, "the thumb doesn't touch it, which a large diameter needs");
 }
 
 TEST(HoldDoubts, WhatSlipsOrDoesntComeToRestIsDoubtful) {

@@ -59,7 +59,7 @@ TEST(StudyHolds, GraspsThatLackTheThumbAreCounted) {
   StudyResults results = study_of(2, {"bar"});
   results.records = {held(0, 0.2), held(1, 0.2)};
   const auto touch = [](StudyRecord& record, const std::vector<hand::Region>& regions) {
-    record.grip = grasp::Grip::kMediumWrap;
+    record.grip = grasp::Grip::kLargeDiameter;
     record.regions.clear();
     for (const hand::Region region : regions) {
       RegionRecord one;
