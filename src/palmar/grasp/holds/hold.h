@@ -51,7 +51,10 @@ struct HoldOptions {
   double palm_limit_depth = 7.0;    ///< mm; as PowerGraspOptions
   double finger_limit_depth = 4.0;  ///< mm; as PowerGraspOptions
   int most = 8;                     ///< holds to return
-  void check() const;               ///< throws UsageError: field, value, allowed range
+  /// For fitting weights: ten times as many candidates, and all that the hand was closed on, alike
+  /// or not.
+  bool lists_all = false;
+  void check() const;  ///< throws UsageError: field, value, allowed range
 };
 
 /// Ways of holding a product, as people would choose: best first, each unlike those before it. Of
@@ -60,13 +63,21 @@ struct HoldOptions {
 struct RankedHolds {
   product::ProductParts parts;
   std::vector<RankedHold> holds;
-  int considered = 0;  ///< holds that were scored by the product's shape
-  int closed = 0;      ///< of these, on how many the hand was closed
-  int taken = 1;       ///< number of the one that is taken, from 1 (GraspPlace)
+  /// Whether the product says where the hand goes to use it: a handle, a loop, a trigger or rings.
+  bool has_handle = false;
+  int considered = 0;                       ///< holds that were scored by the product's shape
+  int closed = 0;                           ///< of these, on how many the hand was closed
+  HoldPurpose purpose = HoldPurpose::kUse;  ///< for which they were ranked
+  int taken = 1;  ///< number of the one that is taken, from 1 (GraspPlace)
   /// Why that isn't the one that the product's shape suggests, in words; empty: it is, or the hold
   /// was asked for.
   std::string why_taken;
 };
+
+/// Number of a hold that is as likely as the one that is taken (within 0.2), but on another part or
+/// the other way round: which of the two people mean the shape doesn't tell. Nothing if there is
+/// none.
+std::optional<int> other_as_likely(const RankedHolds& ranked);
 
 /// Takes the product apart (find_parts()), scores the ways of holding each part by its shape,
 /// closes the hand on the most promising and ranks them. `hand`: a median hand of those who use the

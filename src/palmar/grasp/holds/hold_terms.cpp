@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "palmar/geometry/degrees.h"
@@ -14,27 +16,17 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/holds/hold_limits.h"
 #include "palmar/grasp/holds/twin_handles.h"
-#include "palmar/product/mass.h"
 
 namespace palmar::grasp {
 namespace {
 
 constexpr double kThinLoopSpread = 0.9;  // fingers through a loop hook it, however thin; choice
-// Feix, Bullock, Dollar 2014 (IEEE Trans Haptics 7:311-323): of 10 000 grasps at work 96 % were at
-// places less than 70 mm wide.
-constexpr double kWidePlace = 70.0;  // mm
-constexpr double kWideRamp = 12.0;   // mm either side over which that sets in; choice
-constexpr double kWideShare = 0.04;  // of people's grasps
 // El-Khoury & Sahbani 2010 (Autonomous Robots 28:57-71): people take things that have a handle by
 // the handle. One in ten doesn't: our choice, that study gives no share.
 constexpr double kBesideHandle = 0.1;
-constexpr double kFingerThickness = 0.085;  // hand lengths: 16 mm of 188 (Greiner 1991, index DIP)
-constexpr double kMoment =
-    400.0;  // N mm of weight about the grip that people begin to avoid; choice
-constexpr double kTooWide = 8.0;                         // per share beyond; choice
 constexpr double kNoseAngle = 40.0 * geometry::kDegree;  // choice
-constexpr double kLoopAngle = 45.0 * geometry::kDegree;  // choice
 constexpr double kFlatLoss = 3.0;                        // an edge of a sheet in the palm; choice
+constexpr double kOneOfTwo = 0.1;                        // who takes one of two handles; choice
 constexpr double kThumbSide = 1.5;   // per share of the product on the little finger's side; choice
 constexpr double kUpsideDown = 2.5;  // thumb down of a vessel with a hollow; choice
 constexpr double kMaybeUpsideDown = 1.2;  // where up was guessed from where it is heavier; choice
@@ -42,11 +34,24 @@ constexpr double kMaybeUpsideDown = 1.2;  // where up was guessed from where it 
 constexpr double kWristOut = 0.13, kWristBack = 0.37;
 constexpr double kWrongEnd = 1.5;       // a tool's working end at the little finger; choice
 constexpr double kIndexPlace = 0.375;   // of the fingers' breadth, from their middle
-constexpr double kOneOfTwo = 0.1;       // who takes one of two handles; choice
 constexpr double kTriggerSpread = 0.2;  // of the fingers' breadth; choice
 constexpr double kOffTrigger = 0.1;     // who uses it so that no finger is on it; choice
 constexpr double kSkinRoom = 6.0;       // mm that a finger's middle keeps off the product
 constexpr double kBlocked = 6.0;        // all of the hand's room taken; choice
+
+/// How much each reason counts: fitted to what people do with 57 products; docs/method/holds.md has
+/// the data, the fit and how well it does on products that were left out.
+struct TermWeight {
+  std::string_view name;
+  double weight;
+};
+constexpr std::array<TermWeight, 7> kWeights = {{{"handle", 1.85},
+                                                 {"girth", 1.25},
+                                                 {"place along it", 1.00},
+                                                 {"thumb's side", 1.83},
+                                                 {"palm's side", 0.67},
+                                                 {"trigger", 1.18},
+                                                 {"room for the hand", 1.36}}};
 
 double log_normal(double value, double best, double thin, double thick) {
   const double ratio = std::log(value / best);
@@ -63,76 +68,6 @@ HoldTerm girth_term(const HoldScene& scene, const product::ProductPart& part,
           log_normal(std::max(diameter, 1.0), kBestDiameter * length, thin, kThickSpread),
           fmt::format("{:.0f} mm thick by its girth, {:.0f} % of hand length", diameter,
                       100.0 * diameter / length)};
-}
-
-HoldTerm width_term(const GripSite& site) {
-  const double over = std::clamp((site.thickness - kWidePlace) / (2.0 * kWideRamp) + 0.5, 0.0, 1.0);
-  const double smooth = over * over * (3.0 - 2.0 * over);
-  return {"width of the grip", site.thickness, "mm",
-          smooth * std::log(kWideShare / (1.0 - kWideShare)),
-          fmt::format("{:.0f} mm between thumb and fingers", site.thickness)};
-}
-
-// What thumb and fingers span across the palm: of a slab its width.
-HoldTerm span_term(const HoldScene& scene, const HoldSite& at) {
-  const double length = scene.hand->dimensions.hand_length;
-  const Vec3 across = at.site.axis.cross(at.palm);
-  const double w = across.dot(at.site.wide), t = across.dot(at.site.axis.cross(at.site.wide));
-  const double span = std::sqrt(w * w * at.site.width * at.site.width +
-                                t * t * at.site.thickness * at.site.thickness);
-  const double over = std::clamp(span / (kHandSpan * length) - 1.0, 0.0, 0.5);
-  return {"span", span, "mm", -kTooWide * over,
-          fmt::format("{:.0f} mm wide across the palm, {:.0f} % of hand length", span,
-                      100.0 * span / length)};
-}
-
-HoldTerm handle_term(const HoldScene& scene, const Hold& hold) {
-  const bool is_handle = scene.is_handle(hold.part);
-  const double passed_over = scene.passed_over(hold.part);
-  return {"handle", scene.handle[static_cast<std::size_t>(hold.part) - 1], "",
-          std::log(kBesideHandle) * passed_over,
-          passed_over > 0.5 ? "beside the handle"
-          : is_handle       ? "by the handle"
-                            : "no handle is passed over"};
-}
-
-HoldTerm coverage_term(const HoldScene& scene, const product::ProductPart& part, const Hold& hold) {
-  const double breadth = fingers_breadth(*scene.hand);
-  double covered = breadth;
-  if (part.opening) {
-    covered = std::min(breadth, part.opening->width);
-  } else if (!part.is_ring) {
-    const double middle = hold.along * part.length - hold.toward * hold.edge * breadth;
-    double low = 0.0, high = part.length;
-    if (const product::PartTrigger* trigger =
-            trigger_of(scene, part)) {  // a finger has its place on that
-      low = std::min(low, trigger->along * part.length - 0.5 * trigger->length);
-      high = std::max(high, trigger->along * part.length + 0.5 * trigger->length);
-    }
-    covered = std::max(
-        0.0, std::min(middle + 0.5 * breadth, high) - std::max(middle - 0.5 * breadth, low));
-  }
-  const double share = covered / breadth;
-  const double enough = part.opening ? kFewestFingers : 1.0;
-  return {"room along it", covered, "mm", 2.0 * std::log(std::clamp(share / enough, 0.05, 1.0)),
-          fmt::format("{:.0f} mm of it under the fingers", covered)};
-}
-
-HoldTerm opening_term(const HoldScene& scene, const product::ProductPart& part) {
-  const double finger = kFingerThickness * scene.hand->dimensions.hand_length;
-  const double room = part.opening->height;
-  const double share = std::clamp((room / finger - 0.9) / 0.6, 0.0, 1.0);
-  return {"room for fingers", room, "mm", -6.0 * (1.0 - share) * (1.0 - share),
-          fmt::format("{:.0f} mm between it and what it stands on", room)};
-}
-
-HoldTerm moment_term(const HoldScene& scene, const GripSite& site) {
-  Vec3 lever = scene.gravity_centre - site.point;
-  if (scene.up) lever -= *scene.up * scene.up->dot(lever);
-  const double moment = scene.weight * lever.norm();
-  const double ratio = moment / kMoment;
-  return {"moment of the weight", moment, "N mm", -0.5 * std::log1p(ratio * ratio),
-          fmt::format("its weight is {:.0f} mm beside the grip", lever.norm())};
 }
 
 // The index finger, a quarter of the breadth of the four on the thumb's side, lies on the trigger.
@@ -221,16 +156,28 @@ HoldTerm thumb_side_term(const HoldScene& scene, const product::ProductPart& par
                       : "the longer end is on the thumb's side"};
 }
 
-HoldTerm palm_term(const HoldScene& scene, const product::ProductPart& part, const Hold& hold,
-                   const HoldSite& at) {
-  const GripSite& site = at.site;
-  if (part.kind == product::PartKind::kLoop) {
-    const double turn = std::remainder(hold.turn - std::numbers::pi, 2.0 * std::numbers::pi);
-    const double z = turn / kLoopAngle;
-    return {"palm's side", std::abs(turn) / geometry::kDegree, "deg", -0.5 * z * z,
-            std::abs(turn) < kLoopAngle ? "palm outside the loop, fingers through it"
-                                        : "palm beside the loop"};
+// Where the working end sticks out from a site across its axis, beyond the hand on the thumb's
+// side: unit, product frame; nothing if it doesn't.
+std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site) {
+  const geometry::TriangleMesh& mesh = scene.product->mesh;
+  const double edge = 0.4 * fingers_breadth(*scene.hand);
+  Vec3 moment = Vec3::Zero();
+  double area = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Vec3 r = (a + b + c) / 3.0 - site.point;
+    if (site.axis.dot(r) < edge) continue;
+    const double weight = geometry::triangle_area(a, b, c);
+    moment += weight * (r - site.axis * site.axis.dot(r));
+    area += weight;
   }
+  // Off the handle's middle by half its radius at least: else it is straight.
+  if (area <= 0.0 || moment.norm() / area < 0.25 * site.girth / std::numbers::pi) return {};
+  return moment.normalized();
+}
+
+HoldTerm palm_term(const HoldScene& scene, const product::ProductPart& part, const HoldSite& at) {
+  const GripSite& site = at.site;
   if (at.is_round_both) {
     return {"palm's side", 0.0, "deg", 0.0, "one handle in the palm, the fingers on the other"};
   }
@@ -340,6 +287,22 @@ double score_on_table(const HoldWeights& weights, const TableFeatures& features)
 
 }  // namespace
 
+double weight_of(std::string_view term) {
+  const auto found = std::find_if(kWeights.begin(), kWeights.end(),
+                                  [&](const TermWeight& one) { return one.name == term; });
+  return found == kWeights.end() ? 1.0 : found->weight;
+}
+
+HoldTerm handle_term(const HoldScene& scene, int part) {
+  const bool is_handle = scene.is_handle(part);
+  const double passed_over = scene.passed_over(part);
+  return {"handle", scene.handle[static_cast<std::size_t>(part) - 1], "",
+          weight_of("handle") * std::log(kBesideHandle) * passed_over,
+          passed_over > 0.5 ? "beside the handle"
+          : is_handle       ? "by the handle"
+                            : "no handle is passed over"};
+}
+
 HoldTerm table_term(const HoldScene& scene, const HoldWeights& weights, const Grasp& grasp) {
   const TableFeatures features =
       table_features(palm_place(*scene.hand, grasp.product_from_hand), *scene.lay);
@@ -367,52 +330,20 @@ double rough_table_score(const HoldScene& scene, const HoldSite& at) {
                         table_features(palm_place(hand, product_from_hand), *scene.lay));
 }
 
-std::optional<Vec3> nose_of(const HoldScene& scene, const GripSite& site) {
-  const geometry::TriangleMesh& mesh = scene.product->mesh;
-  const double edge = 0.4 * fingers_breadth(*scene.hand);
-  Vec3 moment = Vec3::Zero();
-  double area = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
-    const Vec3 r = (a + b + c) / 3.0 - site.point;
-    if (site.axis.dot(r) < edge) continue;
-    const double weight = geometry::triangle_area(a, b, c);
-    moment += weight * (r - site.axis * site.axis.dot(r));
-    area += weight;
-  }
-  // Off the handle's middle by half its radius at least: else it is straight.
-  if (area <= 0.0 || moment.norm() / area < 0.25 * site.girth / std::numbers::pi) return {};
-  return moment.normalized();
-}
-
 std::vector<HoldTerm> shape_terms(const HoldScene& scene, const Hold& hold, const HoldSite& at) {
   const product::ProductPart& part = part_of(hold, *scene.parts);
-  std::vector<HoldTerm> terms;
-  terms.push_back(handle_term(scene, hold));
-  terms.push_back(girth_term(scene, part, at.site));
-  terms.push_back(width_term(at.site));
-  terms.push_back(span_term(scene, at));
-  if (hold.is_over_end) {
-    terms.push_back(moment_term(scene, at.site));
-    terms.push_back(room_term(scene, part, at));
-    return terms;
+  std::vector<HoldTerm> terms = {girth_term(scene, part, at.site), room_term(scene, part, at)};
+  if (!hold.is_over_end) {
+    const product::PartTrigger* trigger = trigger_of(scene, part);
+    if (trigger != nullptr) terms.push_back(trigger_term(scene, *trigger, at));
+    terms.push_back(place_term(scene, part, at));
+    if (trigger == nullptr && !(scene.is_up_given && part.kind != product::PartKind::kBar)) {
+      terms.push_back(thumb_side_term(scene, part, hold.toward, at.site));
+    }
+    if (part.kind != product::PartKind::kLoop) terms.push_back(palm_term(scene, part, at));
   }
-  const product::PartTrigger* trigger = trigger_of(scene, part);
-  // From a neck with a trigger the hand goes on over the body below.
-  if (trigger == nullptr || !is_neck(part, *scene.parts)) {
-    terms.push_back(coverage_term(scene, part, hold));
-  }
-  if (trigger != nullptr) {
-    terms.push_back(trigger_term(scene, *trigger, at));
-  }
-  if (part.opening) terms.push_back(opening_term(scene, part));
-  terms.push_back(place_term(scene, part, at));
-  if (trigger == nullptr && !(scene.is_up_given && part.kind != product::PartKind::kBar)) {
-    terms.push_back(thumb_side_term(scene, part, hold.toward, at.site));
-  }
-  terms.push_back(palm_term(scene, part, hold, at));
-  if (part.kind != product::PartKind::kBar) terms.push_back(moment_term(scene, at.site));
-  terms.push_back(room_term(scene, part, at));
+  for (HoldTerm& term : terms) term.score *= weight_of(term.name);
+  terms.push_back(handle_term(scene, hold.part));
   return terms;
 }
 

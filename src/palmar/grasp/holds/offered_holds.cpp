@@ -22,7 +22,6 @@ constexpr double kPartlyHeld = -3.0, kNotHeld = -8.0;  // as precision_holds() h
 const double kTowardLimit = std::cos(60.0 * geometry::kDegree);  // as power holds have it
 
 bool is_asked(const OpposedHold& hold, const HoldScene& scene, const HoldOptions& options) {
-  if (options.grip && hold.grip != *options.grip) return false;
   if (options.toward) {
     const Vec3 row = (hold.points.tip(1) - hold.points.tip(4)).normalized();
     if (row.dot(options.toward->normalized()) < kTowardLimit) return false;
@@ -65,7 +64,10 @@ std::vector<RankedHold> offered_holds(const HoldScene& scene, const HoldOptions&
   if (scene.parts->parts.empty()) return {};
   progress.update(0.1, "finding ways to hand over " + scene.product->name);
   OpenedHand hand(*scene.hand);
-  std::vector<OpposedHold> all = opposed_holds(hand, *scene.product, progress);
+  const std::vector<Grip> grips = options.grip
+                                      ? std::vector{*options.grip}
+                                      : std::vector(kOpposedGrips.begin(), kOpposedGrips.end());
+  std::vector<OpposedHold> all = opposed_holds(hand, *scene.product, grips, progress);
   considered += static_cast<int>(all.size());
   std::erase_if(all, [&](const OpposedHold& hold) { return !is_asked(hold, scene, options); });
   if (all.empty()) return {};

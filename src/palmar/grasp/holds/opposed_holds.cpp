@@ -16,8 +16,6 @@
 namespace palmar::grasp {
 namespace {
 
-constexpr std::array kGrips = {Grip::kPrismatic, Grip::kPrecisionSphere, Grip::kTripod,
-                               Grip::kPalmarPinch};
 constexpr double kTipShare = 0.8;     // of the last phalanx, from its joint
 constexpr double kWidest = 0.58;      // hand lengths between the two points
 constexpr double kWiderThanHand = 4;  // mm; pads give way, as search_precision_grip() has it
@@ -180,7 +178,9 @@ GripFrame grip_frame(const HandPoints& points) {
   return frame;
 }
 
-bool is_opposed(Grip grip) { return std::find(kGrips.begin(), kGrips.end(), grip) != kGrips.end(); }
+bool is_opposed(Grip grip) {
+  return std::find(kOpposedGrips.begin(), kOpposedGrips.end(), grip) != kOpposedGrips.end();
+}
 
 PalmPlace palm_place(const hand::Hand& hand, const geometry::Rigid3& product_from_hand) {
   const auto joint = [&](hand::JointId id) -> Vec3 {
@@ -221,7 +221,7 @@ HandPoints hand_points(const hand::Hand& hand, const hand::Posture& posture,
 }
 
 std::vector<OpposedHold> opposed_holds(OpenedHand& opened, const product::Product& product,
-                                       const Progress& progress) {
+                                       std::span<const Grip> grips, const Progress& progress) {
   const hand::Hand& hand = opened.hand();
   const FingertipIk& ik = opened.ik();
   const FeatureScene scene(hand, product, ik);
@@ -231,8 +231,9 @@ std::vector<OpposedHold> opposed_holds(OpenedHand& opened, const product::Produc
   wanted.points = kPairPoints;
   const std::vector<OpposingPair> pairs = find_opposing_pairs(product, scene.shape(), wanted);
   std::vector<OpposedHold> holds;
-  for (const Grip grip : kGrips) {
+  for (const Grip grip : grips) {
     progress.throw_if_cancelled();
+    if (!is_opposed(grip)) continue;
     const GripOpenings& openings = opened.openings(grip);
     if (openings.all().empty()) continue;
     std::vector<std::vector<OpposedHold>> found(pairs.size());

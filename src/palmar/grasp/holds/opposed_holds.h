@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -92,13 +93,15 @@ struct OpposedHold {
   ShapeFeatures features;
 };
 
-/// Whether opposed_holds() has a grip: prismatic, precision sphere, tripod or palmar pinch.
-bool is_opposed(Grip grip);
+inline constexpr std::array kOpposedGrips = {Grip::kPrismatic, Grip::kPrecisionSphere,
+                                             Grip::kTripod, Grip::kPalmarPinch};
+bool is_opposed(Grip grip);  ///< one of these
 
 /// All of a product's: each of its opposing pairs of points, the thumb at either, in twelve turns
-/// of the hand, in a prismatic grip, precision sphere, tripod and palmar pinch. Some ten
-/// thousands, in an order that moves along with the product.
+/// of the hand, in each of `grips` (others than kOpposedGrips have none). Some thousands for each,
+/// in an order that moves along with the product.
 std::vector<OpposedHold> opposed_holds(OpenedHand& hand, const product::Product& product,
+                                       std::span<const Grip> grips = kOpposedGrips,
                                        const Progress& progress = {});
 
 }  // namespace palmar::grasp

@@ -8,10 +8,12 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "palmar/grasp/holds/hold_candidates.h"
 #include "palmar/grasp/holds/hold_limits.h"
+#include "palmar/grasp/holds/hold_terms.h"
 #include "palmar/grasp/holds/hold_weights.h"
 #include "palmar/grasp/power/grip_choice.h"
 #include "palmar/grasp/precision/precision_search.h"
@@ -95,12 +97,20 @@ class LikelyPlaces {
 
   OpenedHand& hand() { return hand_; }
 
-  /// Likeliest first; of the first ones the fingertips may not reach the surface.
-  std::vector<OpposedPlace> of(Grip grip, const product::ProductPart* part) {
-    if (!has_looked_) {
-      has_looked_ = true;
-      all_ = opposed_holds(hand_, *scene_.product, progress_);
+  /// So that of() knows these grips' holds.
+  void look_for(const std::vector<GripPrior>& grips) {
+    std::vector<Grip> unseen;
+    for (const GripPrior& one : grips) {
+      if (seen_.insert(one.grip).second) unseen.push_back(one.grip);
     }
+    if (std::none_of(unseen.begin(), unseen.end(), is_opposed)) return;
+    for (OpposedHold& hold : opposed_holds(hand_, *scene_.product, unseen, progress_)) {
+      all_.push_back(std::move(hold));
+    }
+  }
+
+  /// Likeliest first; of the first ones the fingertips may not reach the surface.
+  std::vector<OpposedPlace> of(Grip grip, const product::ProductPart* part) const {
     std::vector<OpposedHold> some;
     for (const OpposedHold& hold : all_) {
       if (hold.grip == grip && (part == nullptr || is_within(*part, hold))) some.push_back(hold);
@@ -124,7 +134,7 @@ class LikelyPlaces {
   const HoldScene& scene_;
   OpenedHand hand_;
   const Progress& progress_;
-  bool has_looked_ = false;
+  std::set<Grip> seen_;
   std::vector<OpposedHold> all_;
 };
 
@@ -145,16 +155,7 @@ RankedHold ranked_of(const HoldScene& scene, const Grasp& grasp, double prior) {
   }
   ranked.terms.push_back({"grip", 0.0, "", prior,
                           prior < -0.5 ? "seldom taken by the fingertips" : "taken by fingertips"});
-  if (const double passed_over = scene.passed_over(hold.part); passed_over > 0.0) {
-    ranked.terms.push_back({"handle", 0.0, "", std::log(0.1) * passed_over, "beside the handle"});
-  }
-  const double lever = (scene.gravity_centre - middle).norm();
-  constexpr double kMoment = 150.0;  // N mm that fingertips begin to avoid; choice
-  const double ratio = scene.weight * lever / kMoment;
-  // Klein et al. 2020 (PLoS Comput Biol 16:e1008081): precision grips lie near the centre of mass.
-  ranked.terms.push_back({"moment of the weight", scene.weight * lever, "N mm",
-                          -0.5 * std::log1p(ratio * ratio),
-                          fmt::format("its weight is {:.0f} mm beside the grip", lever)});
+  ranked.terms.push_back(handle_term(scene, hold.part));
   const double held = grasp.status == GraspStatus::kHeld         ? 0.0
                       : grasp.status == GraspStatus::kPartlyHeld ? -3.0
                                                                  : -8.0;
@@ -185,6 +186,7 @@ std::vector<RankedHold> precision_holds(const HoldScene& scene, const HoldOption
   }
   LikelyPlaces likely(scene, progress);
   const auto try_grips = [&](const std::vector<GripPrior>& list, const product::ProductPart* part) {
+    likely.look_for(list);
     for (const GripPrior& tried : list) {
       PrecisionGripOptions precision;
       precision.grip = tried.grip;

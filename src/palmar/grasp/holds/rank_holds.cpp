@@ -20,6 +20,7 @@
 #include "palmar/grasp/holds/offered_holds.h"
 #include "palmar/grasp/holds/precision_holds.h"
 #include "palmar/grasp/holds/twin_handles.h"
+#include "palmar/grasp/precision/ring_targets.h"
 
 namespace palmar::grasp {
 namespace {
@@ -90,14 +91,16 @@ HoldTerm grip_term(const PowerPlace& place, const HoldScene& scene, const Hold& 
 }
 
 // Which to close the hand on: the best, but not all of one kind.
-std::vector<std::size_t> chosen(const std::vector<HoldCandidate>& candidates) {
+std::vector<std::size_t> chosen(const std::vector<HoldCandidate>& candidates, bool takes_more) {
+  const std::size_t most = takes_more ? 10 * kClosed : kClosed;
+  const std::size_t most_alike = takes_more ? 10 * kClosedAlike : kClosedAlike;
   std::vector<std::size_t> list;
   std::map<std::tuple<int, int, bool>, std::size_t> alike;
-  for (std::size_t k = 0; k < candidates.size() && list.size() < kClosed; ++k) {
+  for (std::size_t k = 0; k < candidates.size() && list.size() < most; ++k) {
     const Hold& hold = candidates[k].hold;
     std::size_t& count =
         alike[{hold.part, hold.is_over_end ? 0 : hold.toward, hold.grip == Grip::kFixedHook}];
-    if (count == kClosedAlike) continue;
+    if (count == most_alike) continue;
     ++count;
     list.push_back(k);
   }
@@ -173,9 +176,11 @@ RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
   options.check();
   progress.update(0.0, "taking " + product.name + " apart");
   RankedHolds result;
+  result.purpose = options.purpose;
   result.parts = product::find_parts(product);
   check_part(result.parts, options);
   const HoldScene scene = hold_scene(hand, product, result.parts, options);
+  result.has_handle = scene.has_handle() || scissor_rings(result.parts, product).has_value();
   std::vector<ClosedHold> closed;
 
   const bool is_offered = are_offered(options);
@@ -189,7 +194,7 @@ RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
     power.palm_limit_depth = options.palm_limit_depth;
     power.finger_limit_depth = options.finger_limit_depth;
     std::map<std::pair<int, double>, GraspedSurface> surfaces;  // by part and place along it
-    for (const std::size_t k : chosen(candidates)) {
+    for (const std::size_t k : chosen(candidates, options.lists_all)) {
       progress.throw_if_cancelled();
       const HoldCandidate& candidate = candidates[k];
       const Hold& hold = candidate.hold;
@@ -254,13 +259,31 @@ RankedHolds rank_holds(const hand::Hand& hand, const product::Product& product,
                        [&](const auto& a, const auto& b) { return rank_of(a) < rank_of(b); });
   if (best != closed.end()) std::rotate(closed.begin(), best, best + 1);
   for (ClosedHold& hold : closed) {
-    if (result.holds.size() == static_cast<std::size_t>(options.most)) break;
-    const bool is_new = std::all_of(
-        result.holds.begin(), result.holds.end(),
-        [&](const RankedHold& other) { return is_unlike(hand, result.parts, hold.ranked, other); });
+    if (!options.lists_all && result.holds.size() == static_cast<std::size_t>(options.most)) break;
+    const bool is_new =
+        options.lists_all ||
+        std::all_of(result.holds.begin(), result.holds.end(), [&](const RankedHold& other) {
+          return is_unlike(hand, result.parts, hold.ranked, other);
+        });
     if (is_new) result.holds.push_back(std::move(hold.ranked));
   }
   return result;
+}
+
+std::optional<int> other_as_likely(const RankedHolds& ranked) {
+  if (ranked.taken < 1 || static_cast<std::size_t>(ranked.taken) > ranked.holds.size()) return {};
+  const RankedHold& taken = ranked.holds[static_cast<std::size_t>(ranked.taken) - 1];
+  for (std::size_t k = 0; k < ranked.holds.size(); ++k) {
+    const RankedHold& other = ranked.holds[k];
+    const bool is_along = is_power(taken.hold.grip) && is_power(other.hold.grip) &&
+                          !taken.hold.is_over_end && !other.hold.is_over_end;
+    const bool is_otherwise =
+        other.hold.part != taken.hold.part || (is_along && other.hold.toward != taken.hold.toward);
+    if (is_otherwise && std::abs(other.score - taken.score) < kNearTie) {
+      return static_cast<int>(k) + 1;
+    }
+  }
+  return {};
 }
 
 namespace {

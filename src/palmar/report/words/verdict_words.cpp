@@ -190,6 +190,7 @@ class SetSpeaker {
       speak_of_one();
     } else {
       speak_of_several();
+      add_why_taken();
     }
     add_second_rests();
     if (set_.hand) {
@@ -237,8 +238,13 @@ class SetSpeaker {
     if (product.empty() || one.ways == nullptr) return;
     const auto rank = static_cast<std::size_t>(one.ways->taken);
     if (rank >= one.ways->holds.size()) return;
-    const std::string options = changed_command(task_options(set_.command_line), {"--hold"},
-                                                "--hold " + std::to_string(rank + 1));
+    std::string changed = "--hold " + std::to_string(rank + 1);
+    std::vector<std::string> replaced = {"--hold"};
+    if (one.ways->purpose == grasp::HoldPurpose::kHandOver) {
+      replaced.emplace_back("--purpose");
+      changed += " --purpose hand-over";
+    }
+    const std::string options = changed_command(task_options(set_.command_line), replaced, changed);
     next("other_hold", "palmar assess " + product + " " + options);
   }
 
@@ -253,6 +259,30 @@ class SetSpeaker {
                             {"measured", texts_.number(kKiloPascal * beside.peak_measured, 3)},
                             {"force_simulated", texts_.number(beside.force_simulated, 3)},
                             {"force_measured", texts_.number(beside.force_measured, 3)}}));
+  }
+
+  /// Why it isn't the hold that the product's shape suggests.
+  void add_why_taken() {
+    const Phrases phrases(texts_.language());
+    for (const study::AssessedProduct& one : set_.assessments) {
+      if (!one.ways || one.ways->why_taken.empty()) continue;
+      words_.reasons.push_back(
+          texts_("reason.taken_otherwise",
+                 {{"product", one.product.name}, {"why", phrases(one.ways->why_taken)}}));
+    }
+  }
+
+  /// What the user has to say, as the shape doesn't.
+  void add_other_way(const study::AssessedProduct& one) {
+    const std::optional<int> other = one.ways && one.assessment.options.grasp.leaves_hold_open()
+                                         ? grasp::other_as_likely(*one.ways)
+                                         : std::nullopt;
+    if (!other) return;
+    const std::string& way = one.ways->holds[static_cast<std::size_t>(*other) - 1].words;
+    words_.reasons.push_back(
+        texts_("reason.other_way", {{"product", one.product.name},
+                                    {"number", std::to_string(*other)},
+                                    {"way", Phrases(texts_.language())(way)}}));
   }
 
   /// Whose figures hang on which of two ways the hand rests in.
@@ -272,11 +302,9 @@ class SetSpeaker {
     const study::ProductVerdict& verdict = verdict_.products.front();
     const records::ProductWords& words = words_.products.front();
     words_.sentence = words.held;
+    add_why_taken();
+    add_other_way(one);
     if (one.assessment.measured) add_measured(*one.assessment.measured);
-    if (one.ways && !one.ways->why_taken.empty()) {
-      const Phrases phrases(texts_.language());
-      words_.reasons.push_back(texts_("reason.firm_hold", {{"why", phrases(one.ways->why_taken)}}));
-    }
     if (!words.hardest.empty()) words_.reasons.push_back(words.hardest);
     if (!words.strength.empty()) words_.reasons.push_back(words.strength);
     if (!study::is_sound(verdict.held)) {

@@ -46,7 +46,7 @@ grasp::HoldFit fit_holds(const FitHoldsRequest& request, const Progress& progres
         records::load_product(meshes[k], {.unit = geometry::LengthUnit::kMillimetre});
     grasp::ObservedObject object;
     object.name = people[k].object;
-    object.candidates = grasp::opposed_holds(opened, product, progress);
+    object.candidates = grasp::opposed_holds(opened, product, grasp::kOpposedGrips, progress);
     for (const records::PeopleHold& hold : people[k].holds) {
       object.seen.push_back({hold.points, grasp::standing_with(product.mesh, hold.up)});
     }
