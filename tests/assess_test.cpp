@@ -530,13 +530,46 @@ TEST_P(UnholdableProduct, GetsANamedOutcomeInsteadOfAFailure) {
   EXPECT_GT(grasp.at("message").get<std::string>().size(), 10U);
 }
 
+INSTANTIATE_TEST_SUITE_P(Assess, UnholdableProduct,
+                         ::testing::Values(Unholdable{"sphere300", "sphere --diameter-mm 300"},
+                                           Unholdable{"wire2",
+                                                      "cylinder --diameter-mm 2 --length-mm 200"}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// Nobody closes the hand round a sheet or a large box. People pick them up between thumb and
+// fingers, and the first page says that the first idea failed, and why.
+class PickedUpProduct : public ::testing::TestWithParam<Unholdable> {};
+
+TEST_P(PickedUpProduct, IsTakenByFingertipsWhereNoOtherHoldComesToRest) {
+  const std::string folder = temporary_folder();
+  ASSERT_EQ(
+      run_palmar(std::string("product make ") + GetParam().make + " --out p.stl", folder).exit_code,
+      0);
+  const ProgramRun run = run_palmar("assess p.stl --unit mm --json", folder);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json result = Json::parse(run.out);
+  const Json& one = result.at("assessments").at(0);
+  EXPECT_EQ(one.at("verdict").at("held"), "held");
+  EXPECT_EQ(one.at("doubts").size(), 0U);
+  const std::string grip = one.at("hold").at("grip");
+  EXPECT_TRUE(grip == "palmar_pinch" || grip == "tripod" || grip == "precision_sphere" ||
+              grip == "prismatic")
+      << grip;
+  const std::string reasons = result.at("verdict").at("reasons").dump();
+  EXPECT_THAT(reasons, HasSubstr("the hold first chosen, "));
+  EXPECT_THAT(reasons, HasSubstr("so another hold is taken"));
+  EXPECT_THAT(run.err, HasSubstr("the hold first chosen, "));
+  // A hold that is asked for stays, whatever comes of it.
+  const ProgramRun asked = run_palmar("assess p.stl --unit mm --hold 1 --json", folder);
+  ASSERT_EQ(asked.exit_code, 0) << asked.err;
+  EXPECT_NE(Json::parse(asked.out).at("assessments").at(0).at("verdict").at("held"), "held");
+}
+
 INSTANTIATE_TEST_SUITE_P(
-    Assess, UnholdableProduct,
-    ::testing::Values(Unholdable{"sphere300", "sphere --diameter-mm 300"},
-                      Unholdable{"wire2", "cylinder --diameter-mm 2 --length-mm 200"},
-                      Unholdable{"sheet",
-                                 "prism --width-mm 200 --depth-mm 1 --length-mm 300 "
-                                 "--fillet-mm 0"}),
+    Assess, PickedUpProduct,
+    ::testing::Values(
+        Unholdable{"sheet", "prism --width-mm 200 --depth-mm 1 --length-mm 300 --fillet-mm 0"},
+        Unholdable{"box", "prism --width-mm 160 --depth-mm 60 --length-mm 210 --fillet-mm 2"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 class ScannedProduct : public ::testing::TestWithParam<const char*> {};

@@ -25,7 +25,7 @@
 #include "palmar/geometry/mesh/primitive_meshes.h"
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/rest/balance.h"
-#include "palmar/grasp/rest/other_grip.h"
+#include "palmar/grasp/rest/place_at_rest.h"
 #include "palmar/hand/mirror.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/product/primitives.h"

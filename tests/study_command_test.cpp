@@ -332,6 +332,43 @@ TEST_F(StudyCommand, AllProfilesHoldAProductInTheSameWay) {
   EXPECT_EQ(ways.size(), 1U) << ::testing::PrintToString(ways);
 }
 
+// No hand closes round a large box: where the first hold doesn't come to rest in the mean hand, all
+// hands take the one that does. A hold that is asked for stays.
+TEST_F(StudyCommand, AllHandsTakeTheHoldThatComesToRestInTheMeanHand) {
+  ASSERT_EQ(run("product make prism --width-mm 160 --depth-mm 60 --length-mm 210 --fillet-mm 2 "
+                "--out box.stl")
+                .exit_code,
+            0);
+  const auto grasps = [](const std::string& asked, const std::string& name) {
+    const std::string ran = "study run --product box.stl --unit mm --mass-kg 0.4 --hands 2 " +
+                            asked + " --out " + name + ".palmar --quiet";
+    EXPECT_EQ(run(ran).exit_code, 0);
+    EXPECT_EQ(run("study export " + name + ".palmar --out " + name).exit_code, 0);
+    std::istringstream table(read_text(folder_ + "/" + name + "/grasps.csv"));
+    std::string line;
+    std::getline(table, line);
+    const std::vector<std::string> header = cells_of(line);
+    const auto column = [&](const std::string& wanted) {
+      return static_cast<std::size_t>(std::find(header.begin(), header.end(), wanted) -
+                                      header.begin());
+    };
+    std::multiset<std::string> list;
+    while (std::getline(table, line)) {
+      const std::vector<std::string> cells = cells_of(line);
+      list.insert(cells[column("outcome")] + " " + cells[column("grip")]);
+    }
+    return list;
+  };
+  const std::multiset<std::string> open = grasps("", "open");
+  ASSERT_EQ(open.size(), 2U);
+  EXPECT_EQ(*open.begin(), *open.rbegin());
+  EXPECT_THAT(*open.begin(), ::testing::AnyOf("held tripod", "held prismatic",
+                                              "held precision_sphere", "held palmar_pinch"));
+  const std::multiset<std::string> asked = grasps("--hold 1", "asked");
+  ASSERT_EQ(asked.size(), 2U);
+  EXPECT_THAT(*asked.begin(), ::testing::Not(HasSubstr("held")));
+}
+
 TEST_F(StudyCommand, SaysWhatWouldRunAndHowLong) {
   const ProgramRun plan = run("study plan study.toml");
   ASSERT_EQ(plan.exit_code, 0) << plan.err;

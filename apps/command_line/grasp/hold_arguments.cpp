@@ -6,7 +6,7 @@ namespace palmar::cli {
 void HoldArguments::add_hold_to(CLI::App& verb) {
   verb.add_option("--hold", words_.hold,
                   "How to hold the product: a hold's file (.toml), or its number in the list of "
-                  "palmar grasp holds; 1 (the best) if nothing is said");
+                  "palmar grasp holds; the first that comes to rest if nothing is said");
 }
 
 void HoldArguments::add_to(CLI::App& verb) {

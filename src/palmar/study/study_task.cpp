@@ -3,8 +3,8 @@
 #include "palmar/study/study_task.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -23,6 +23,7 @@
 #include "palmar/grasp/find/grasp_place.h"
 #include "palmar/grasp/joint_strength.h"
 #include "palmar/grasp/rest/hold_at_rest.h"
+#include "palmar/grasp/rest/place_at_rest.h"
 #include "palmar/grasp/rest/rest_settings.h"
 #include "palmar/grasp/rest/usual_task.h"
 #include "palmar/grasp/task_force.h"
@@ -90,6 +91,13 @@ void take_contact(const contact::ContactResult& contact, StudyRecord& record) {
                               .peak_pressure_cells = region.peak_pressure_cells,
                               .mean_pressure = region.mean_pressure});
   }
+}
+
+/// Somebody as strong as usual.
+population::HandSample usual_person() {
+  population::HandSample person;
+  person.grip_strength = grasp::usual_grip_strength();
+  return person;
 }
 
 bool is_finite(const StudyRecord& record) {
@@ -267,10 +275,13 @@ struct StudyBench::Impl {
     std::unique_ptr<const grasp::GraspPlace> place;
     std::shared_ptr<const grasp::HoldAtRest> at_rest;  ///< that hand's, if it is a wrap
     std::string failure;
+    bool is_settled = false;  ///< take_holds_at_rest() has looked at it
   };
   std::vector<std::shared_ptr<const hand::Hand>> mean_hands;  ///< by profile; null: not needed
   std::vector<std::string> mean_failures;                     ///< by profile
   std::map<StudyTask, Place> places;                          ///< by task, of hand 0
+  /// Mean hands made ready, by profile and setting.
+  std::map<std::pair<int, int>, std::unique_ptr<const contact::PreparedHand>> prepared_means;
   std::vector<bool> holds_only;  ///< by setting: products are only held (grasp::UsualTask)
 
   /// The places that have to be known before one, and that itself: the first product's, that of
@@ -279,7 +290,14 @@ struct StudyBench::Impl {
   /// How the mean hand takes a product there: under other profiles as under the first, other
   /// products like the first where that is as good.
   grasp::GraspOptions place_options(const StudyTask& key) const;
-  void find_places(const Progress& progress);
+  /// First the first product's, then each product's under the first profile, then the others':
+  /// what looks to another comes after it.
+  std::vector<std::pair<const StudyTask, Place>*> places_of_wave(int wave);
+  void find_places(int wave, const Progress& progress);
+  /// Where nothing says which hold it is to be, and the mean hand doesn't come to rest in the one
+  /// that was found, takes the next one.
+  void take_holds_at_rest(int wave, const Progress& progress);
+  const contact::PreparedHand& prepared_mean(const StudyTask& task);
   /// Says what hands do with the products where nothing is said (holds_only).
   void settle_usual_tasks();
   /// Lets the mean hands come to rest on the products.
@@ -356,9 +374,8 @@ class StudySubject {
     record.fallbacks = held.balance.fallbacks;
     record.fallbacks += contact.fallbacks;
     if (contact.total.force > 0.0) {
-      record.grip_force = held.balance.status == grasp::BalanceStatus::kBalanced
-                              ? held.balance.grip_force
-                              : grasp::grip_force(contact, *product.distance).force;
+      record.grip_force = record.is_balanced ? held.balance.grip_force
+                                             : grasp::grip_force(contact, *product.distance).force;
     }
     const bool has_fields = bench_.detail == StudyDetail::kAll;
     if (has_fields) record.skin_pressure = sparse(contact.pressure);
@@ -493,8 +510,11 @@ void StudyBench::prepare(std::span<const std::int64_t> tasks, const Progress& pr
       bench.mean_failures[p] = std::string("the mean hand can't be made: ") + error.what();
     }
   });
-  bench.find_places(progress);
-  bench.settle_usual_tasks();
+  for (const int wave : {0, 1, 2}) {
+    bench.find_places(wave, progress);
+    bench.settle_usual_tasks();
+    bench.take_holds_at_rest(wave, progress);
+  }
   bench.rest_mean_hands(progress);
 }
 
@@ -526,36 +546,72 @@ grasp::GraspOptions StudyBench::Impl::place_options(const StudyTask& key) const 
   return options;
 }
 
-void StudyBench::Impl::find_places(const Progress& progress) {
-  // Those that others look to come first: the first product's, then each product's under the first
-  // profile.
-  for (int wave = 0; wave < 3; ++wave) {
-    std::vector<std::pair<const StudyTask, Place>*> open;
-    for (auto& entry : places) {
-      const auto& [task, found] = entry;
-      const std::vector<StudyTask> before = places_for(task);
-      const int own = task == before[0] ? 0 : task == before[1] ? 1 : 2;
-      if (own == wave && found.place == nullptr && found.failure.empty()) open.push_back(&entry);
-    }
-    parallel_for(static_cast<int>(open.size()), [&](int i) {
-      auto& [task, place] = *open[i];
-      if (mean_hands[task.profile] == nullptr) {
-        place.failure = mean_failures[task.profile];
-        return;
-      }
-      run_isolated([&, &key = task, &found = place] {
-        try {
-          found.place = std::make_unique<const grasp::GraspPlace>(
-              *mean_hands[key.profile], product_for(key.profile, key.product), place_options(key),
-              progress);
-        } catch (const Cancelled&) {
-          throw;
-        } catch (const Error& error) {
-          found.failure = std::string("no place on the product for the mean hand: ") + error.what();
-        }
-      });
-    });
+std::vector<std::pair<const StudyTask, StudyBench::Impl::Place>*> StudyBench::Impl::places_of_wave(
+    int wave) {
+  std::vector<std::pair<const StudyTask, Place>*> list;
+  for (auto& entry : places) {
+    const std::vector<StudyTask> before = places_for(entry.first);
+    const int own = entry.first == before[0] ? 0 : entry.first == before[1] ? 1 : 2;
+    if (own == wave) list.push_back(&entry);
   }
+  return list;
+}
+
+void StudyBench::Impl::find_places(int wave, const Progress& progress) {
+  const std::vector<std::pair<const StudyTask, Place>*> open = places_of_wave(wave);
+  parallel_for(static_cast<int>(open.size()), [&](int i) {
+    auto& [task, place] = *open[i];
+    if (place.place != nullptr || !place.failure.empty()) return;
+    if (mean_hands[task.profile] == nullptr) {
+      place.failure = mean_failures[task.profile];
+      return;
+    }
+    run_isolated([&, &key = task, &found = place] {
+      try {
+        found.place = std::make_unique<const grasp::GraspPlace>(
+            *mean_hands[key.profile], product_for(key.profile, key.product), place_options(key),
+            progress);
+      } catch (const Cancelled&) {
+        throw;
+      } catch (const Error& error) {
+        found.failure = std::string("no place on the product for the mean hand: ") + error.what();
+      }
+    });
+  });
+}
+
+const contact::PreparedHand& StudyBench::Impl::prepared_mean(const StudyTask& task) {
+  auto& hand = prepared_means[{task.profile, task.setting}];
+  if (hand == nullptr) {
+    hand = std::make_unique<const contact::PreparedHand>(
+        mean_hands[task.profile], *family_of(plan.settings[task.setting].model));
+  }
+  return *hand;
+}
+
+void StudyBench::Impl::take_holds_at_rest(int wave, const Progress& progress) {
+  std::vector<std::pair<const StudyTask, Place>*> open = places_of_wave(wave);
+  std::erase_if(open, [&](const auto* entry) {
+    const auto& [task, found] = *entry;
+    return found.is_settled || found.place == nullptr || !place_options(task).leaves_hold_open() ||
+           !plan.settings[task.setting].is_balanced;
+  });
+  for (auto* entry : open) prepared_mean(entry->first);
+  parallel_for(static_cast<int>(open.size()), [&](int i) {
+    auto& [task, place] = *open[i];
+    place.is_settled = true;
+    run_isolated([&, &key = task, &found = place] {
+      const contact::PreparedHand& hand = *prepared_means.at({key.profile, key.setting});
+      const product::Product& product = product_for(key.profile, key.product);
+      const AssessOptions options = options_of(key, usual_person());
+      const std::string flaw = grasp::flaw_at_rest(hand, product, found.place->reference_grasp(),
+                                                   options.balance, options.contact, progress);
+      if (flaw.empty()) return;
+      auto other = grasp::other_place_at_rest(hand, product, *found.place, flaw, options.grasp,
+                                              options.balance, options.contact, progress);
+      if (other) found.place = std::make_unique<const grasp::GraspPlace>(std::move(*other));
+    });
+  });
 }
 
 void StudyBench::Impl::settle_usual_tasks() {
@@ -573,10 +629,8 @@ void StudyBench::Impl::settle_usual_tasks() {
 }
 
 void StudyBench::Impl::rest_mean_hands(const Progress& progress) {
-  population::HandSample mean;
-  mean.grip_strength = grasp::usual_grip_strength();
+  const population::HandSample mean = usual_person();
   std::vector<std::pair<const StudyTask, Place>*> open;
-  std::map<std::pair<int, int>, std::unique_ptr<const contact::PreparedHand>> prepared;
   for (auto& entry : places) {
     const auto& [task, found] = entry;
     if (found.place == nullptr || found.at_rest != nullptr) continue;
@@ -585,21 +639,18 @@ void StudyBench::Impl::rest_mean_hands(const Progress& progress) {
     const bool is_asked = options.is_on && (options.asked_grip_force(grasp.grip) || options.turn);
     if (!is_asked || !grasp::is_by_whole_hand(grasp.grip)) continue;
     open.push_back(&entry);
-    auto& hand = prepared[{task.profile, task.setting}];
-    if (hand == nullptr) {
-      hand = std::make_unique<const contact::PreparedHand>(
-          mean_hands[task.profile], *family_of(plan.settings[task.setting].model));
-    }
+    prepared_mean(task);
   }
   parallel_for(static_cast<int>(open.size()), [&](int i) {
     auto& [task, place] = *open[i];
     run_isolated([&, &key = task, &found = place] {
       const AssessOptions options = options_of(key, mean);
       found.at_rest = grasp::hold_at_rest(
-          *prepared.at({key.profile, key.setting}), product_for(key.profile, key.product),
+          *prepared_means.at({key.profile, key.setting}), product_for(key.profile, key.product),
           found.place->reference_grasp(), options.balance, options.contact, progress);
     });
   });
+  prepared_means.clear();
 }
 
 void StudyBench::run_hand(int hand, std::span<const std::int64_t> tasks,

@@ -104,31 +104,6 @@ study::AssessOptions options_of(const AssessRequest& request, const hand::Skelet
   return options;
 }
 
-bool are_same_fingertips(const grasp::Hold& a, const grasp::Hold& b) {
-  return a.grip == b.grip &&
-         std::equal(a.fingertips.begin(), a.fingertips.end(), b.fingertips.begin(),
-                    b.fingertips.end(), [](const auto& x, const auto& y) {
-                      return x.finger == y.finger && x.place.along == y.place.along &&
-                             x.place.turn == y.place.turn;
-                    });
-}
-
-/// The ranked holds with the number of the one that came to rest, which isn't always the first
-/// (BalanceOptions::takes_other_holds); the grasp gets that one's reasons.
-std::shared_ptr<const grasp::RankedHolds> with_taken(
-    const std::shared_ptr<const grasp::RankedHolds>& ways, grasp::Grasp& grasp) {
-  if (ways == nullptr || !grasp.hold || grasp.hold->fingertips.empty()) return ways;
-  const auto at = std::find_if(ways->holds.begin(), ways->holds.end(), [&](const auto& one) {
-    return are_same_fingertips(one.hold, *grasp.hold);
-  });
-  const int number = static_cast<int>(at - ways->holds.begin()) + 1;
-  if (at == ways->holds.end() || number == ways->taken) return ways;
-  grasp.hold_terms = at->terms;
-  auto changed = std::make_shared<grasp::RankedHolds>(*ways);
-  changed->taken = number;
-  return changed;
-}
-
 void add_measured(const product::Product& product, const study::MeasuredPressure& measured,
                   study::Assessment& assessment) {
   if (!assessment.sensors) {
@@ -208,12 +183,19 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
     options.friction = task.friction;
     options.balance.load = task.friction.load;
     try {
-      options.balance.like = reference_at_rest(held[i].reference_grasp, hand, task.product, options,
-                                               reference, progress);
-      study::Assessment assessment =
-          study::assess(prepared, task.product, options,
-                        part_of(progress, start, start + step, task.product.name),
-                        [&](const Progress&) { return held[i].grasp; });
+      const auto assess_held = [&] {
+        options.balance.like = reference_at_rest(held[i].reference_grasp, hand, task.product,
+                                                 options, reference, progress);
+        return study::assess(prepared, task.product, options,
+                             part_of(progress, start, start + step, task.product.name),
+                             [&](const Progress&) { return held[i].grasp; });
+      };
+      study::Assessment assessment = assess_held();
+      if (auto other = held_otherwise(held[i], assessment, hand, prepared, task.product, options,
+                                      reference, progress)) {
+        held[i] = std::move(*other);
+        assessment = assess_held();
+      }
       if (measured) add_measured(task.product, *measured, assessment);
       std::shared_ptr<const study::ErrorBudget> errors;
       if (request.error_budget) {
@@ -225,9 +207,8 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
             study::error_budget(hand, prepared, task.product, held[i].grasp, assessment, budget,
                                 part_of(progress, start, start + step, task.product.name)));
       }
-      const auto ways = with_taken(held[i].ways, assessment.grasp);
-      outcome.set.assessments.push_back({std::move(task.product), std::move(assessment), ways,
-                                         held[i].ways_hand, std::move(errors)});
+      outcome.set.assessments.push_back({std::move(task.product), std::move(assessment),
+                                         held[i].ways, held[i].ways_hand, std::move(errors)});
     } catch (const Cancelled&) {
       outcome.is_cancelled = true;
       break;
@@ -241,8 +222,11 @@ AssessOutcome assess_products(const AssessRequest& request, const Progress& prog
     }
     if (done.ways && !done.ways->why_taken.empty()) {
       note_to(request.note,
-              fmt::format("{}: {}; held in a {} (hold {})", done.product.name, done.ways->why_taken,
-                          done.assessment.grasp.hold_words, done.ways->taken));
+              fmt::format("{}: {}; held in a {} (hold {}{})", done.product.name,
+                          done.ways->why_taken, done.assessment.grasp.hold_words, done.ways->taken,
+                          done.ways->purpose == grasp::HoldPurpose::kHandOver
+                              ? " of --purpose hand-over"
+                              : ""));
     }
     const std::string fallbacks = contact::fallbacks_in_words(done.assessment.contact.fallbacks);
     if (!fallbacks.empty()) {

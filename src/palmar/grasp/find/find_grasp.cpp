@@ -19,17 +19,15 @@ bool GraspOptions::is_placed() const {
   return says(power.placement);
 }
 
-bool GraspOptions::leaves_hold_open() const {
-  return holds.purpose == HoldPurpose::kHandOver && !hold && hold_rank == 1 && !is_placed();
-}
+bool GraspOptions::leaves_hold_open() const { return !hold && !hold_rank && !is_placed(); }
 
 void GraspOptions::check() const {
   if (grip_force && !(*grip_force > 0.0 && std::isfinite(*grip_force))) {
     throw UsageError("setting \"grip force\" is " + std::to_string(*grip_force) +
                      " N; more than 0 N is required");
   }
-  if (hold_rank < 1) {
-    throw UsageError("setting \"hold\" is " + std::to_string(hold_rank) +
+  if (hold_rank && *hold_rank < 1) {
+    throw UsageError("setting \"hold\" is " + std::to_string(*hold_rank) +
                      "; the best is 1, the next 2, ...");
   }
   if (hold && is_placed()) {

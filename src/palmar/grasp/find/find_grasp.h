@@ -21,16 +21,17 @@ struct GraspOptions {
   /// Of the product, for `hold`, where they are known; null: found when needed.
   std::shared_ptr<const product::ProductParts> parts = nullptr;
   HoldOptions holds;  ///< which holds to choose from; its grip is replaced by `grip`
-  int hold_rank = 1;  ///< the best is 1
+  /// Which of the holds, from 1; unset: the best.
+  std::optional<int> hold_rank;
   /// N that it is to be gripped with, whatever the grip: of ranked holds the one that suits it
-  /// (firm_hold()) in place of `hold_rank`. Unset: as usual in each grip.
+  /// (firm_hold()), unless `hold_rank` says which. Unset: as usual in each grip.
   std::optional<double> grip_force;
   PowerGraspOptions power;         ///< for power grips
   PrecisionGripOptions precision;  ///< for the others; its grip is replaced by `grip`
 
   /// Whether coordinates say where the hand goes.
   bool is_placed() const;
-  /// Whether the first of the holds to hand it over was asked for, and any of them will do.
+  /// Whether nothing says which of the ranked holds is to be taken.
   bool leaves_hold_open() const;
   void check() const;  ///< throws UsageError
 };

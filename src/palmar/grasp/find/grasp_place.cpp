@@ -57,6 +57,8 @@ struct GraspPlace::Impl {
 
   void place_by_coordinates(const Progress& progress);
   void place_by_hold(const Progress& progress);
+  const RankedHold& numbered(int number) const;  ///< of the ranked holds; throws UsageError
+  void take_hold(const Progress& progress);
   Grasp take_precisely(const Hold& taken, const hand::Hand& hand, const Progress& progress) const;
   Grasp hold_power(const GraspingHand& hand, const Progress& progress) const;
   Grasp hold_precisely(const hand::Hand& hand, const Progress& progress) const;
@@ -113,26 +115,34 @@ void GraspPlace::Impl::place_by_hold(const Progress& progress) {
     asked.grip = options.grip;
     asked.palm_limit_depth = power.palm_limit_depth;
     asked.finger_limit_depth = power.finger_limit_depth;
-    asked.most = std::max(asked.most, options.hold_rank);
+    asked.most = std::max(asked.most, options.hold_rank.value_or(1));
     ranked = rank_holds(*reference, *product, asked, progress);
-    ranked.taken = options.hold_rank;
-    if (options.grip_force && !ranked.holds.empty()) {
+    ranked.taken = options.hold_rank.value_or(1);
+    if (options.grip_force && !options.hold_rank && !ranked.holds.empty()) {
       const FirmHold firm = firm_hold(ranked.holds, *options.grip_force);
       ranked.taken = firm.number;
       ranked.why_taken = firm.why;
     }
-    const auto rank = static_cast<std::size_t>(ranked.taken);
-    if (ranked.holds.size() < rank) {
-      if (rank > 1) {
-        throw UsageError(fmt::format("setting \"hold\" is {}; {} holds of {} were found", rank,
-                                     ranked.holds.size(), product->name));
-      }
+    if (ranked.holds.empty() && ranked.taken == 1) {
       power.grip = options.grip && is_power(*options.grip) ? options.grip : std::nullopt;
       grasp = no_place(*reference, *product);
       return;
     }
-    hold = ranked.holds[rank - 1].hold;
+    hold = numbered(ranked.taken).hold;
   }
+  take_hold(progress);
+}
+
+const RankedHold& GraspPlace::Impl::numbered(int number) const {
+  if (number < 1 || static_cast<std::size_t>(number) > ranked.holds.size()) {
+    throw UsageError(fmt::format("setting \"hold\" is {}; {} holds of {} were found", number,
+                                 ranked.holds.size(), product->name));
+  }
+  return ranked.holds[static_cast<std::size_t>(number) - 1];
+}
+
+// The reference hand takes `hold`.
+void GraspPlace::Impl::take_hold(const Progress& progress) {
   if (is_power(hold->grip)) {
     power.grip = hold->grip;
     const HandCloser coarse(*reference, kSearchSpacing), fine(*reference, 0.0);
@@ -250,6 +260,21 @@ GraspPlace::GraspPlace(const hand::Hand& reference, const product::Product& prod
     impl->place_by_hold(progress);
   }
   impl_ = std::move(impl);
+}
+
+GraspPlace::GraspPlace(std::unique_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+
+GraspPlace GraspPlace::with_hold(int number, const std::string& why,
+                                 const Progress& progress) const {
+  const RankedHold& other = impl_->numbered(number);
+  auto impl = std::make_unique<Impl>(*impl_);
+  impl->options.hold_rank = number;
+  impl->ranked.taken = number;
+  impl->ranked.why_taken = why;
+  impl->hold = other.hold;
+  impl->place.reset();
+  impl->take_hold(progress);
+  return GraspPlace(std::move(impl));
 }
 
 GraspPlace::~GraspPlace() = default;

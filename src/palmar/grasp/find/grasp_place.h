@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "palmar/core/progress.h"
 #include "palmar/grasp/find/find_grasp.h"
@@ -48,6 +49,10 @@ class GraspPlace {
   /// The holds among which it was chosen; without holds where coordinates or a hold were given.
   const RankedHolds& ranked() const;
 
+  /// Another of ranked(), by its number from 1; `why` becomes RankedHolds::why_taken. Throws
+  /// UsageError, Cancelled.
+  GraspPlace with_hold(int number, const std::string& why, const Progress& progress = {}) const;
+
   /// How `hand` holds it there. A hand that can't hold it that way, while the reference hand can,
   /// is a result like others: where holds were ranked its message names the first of the next ones
   /// that it can take, which stands first among the runners-up. On a product that the reference
@@ -58,6 +63,7 @@ class GraspPlace {
   struct Impl;
 
  private:
+  explicit GraspPlace(std::unique_ptr<const Impl> impl);
   std::unique_ptr<const Impl> impl_;
 };
 

@@ -122,7 +122,7 @@ bool HoldRequest::is_empty() const {
 
 void HoldRequest::apply_to(GraspOptions& options) const {
   options.hold = hold;
-  options.hold_rank = number.value_or(1);
+  options.hold_rank = number;
   options.holds.part = part;
   options.holds.part_name = part_name;
   options.holds.along = along;

@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/equilibrium/least_effort.h"
 #include "palmar/grasp/equilibrium/nearby_rests.h"
-#include "palmar/grasp/grip_needs.h"
 #include "palmar/grasp/precision/precision_grip.h"
 #include "palmar/grasp/precision/precision_shape.h"
 #include "palmar/grasp/rest/hold_at_rest.h"
@@ -21,8 +19,6 @@
 
 namespace palmar::grasp {
 namespace {
-
-constexpr double kAsGoodAHold = 0.2;  // how often, at least, people take what is taken instead
 
 constexpr double kBalanced = 0.01;   // residual over grip force; what counts as balanced
 constexpr double kJointSaid = 0.05;  // residual moment over the strongest; more is a slip
@@ -237,16 +233,6 @@ Balance settle(const contact::PreparedHand& hand, const product::Product& produc
   return balance;
 }
 
-/// What a grip at rest lacks to be one, in words (lacking_contact()): skin that touches has
-/// friction.
-std::string lacking_at_rest(const hand::Hand& hand, Grip grip, const Balance& balance) {
-  std::set<hand::Region> touching;
-  for (std::size_t v = 0; v < balance.friction_force.size(); ++v) {
-    if (!balance.friction_force[v].isZero()) touching.insert(hand.region[v]);
-  }
-  return lacking_contact(grip, {touching.begin(), touching.end()});
-}
-
 /// A precision grip comes to rest; if it doesn't where fingertips were first put, people put them
 /// elsewhere: where the search found the next best places.
 Balance settle_precision(const contact::PreparedHand& hand, const product::Product& product,
@@ -254,33 +240,17 @@ Balance settle_precision(const contact::PreparedHand& hand, const product::Produ
                          const contact::ContactOptions& contact, const Progress& progress) {
   const Grasp chosen = grasp;
   const Balance first = settle(hand, product, grasp, options, contact, progress);
-  std::string why = first.status == BalanceStatus::kSlipsOut ? first.message : "";
   const bool is_whole = chosen.status == GraspStatus::kHeld;
-  if (why.empty() && options.takes_other_holds && first.status == BalanceStatus::kBalanced) {
-    why = is_whole ? lacking_at_rest(hand.hand(), grasp.grip, first) : chosen.message;
-  }
-  if (why.empty() || (!is_whole && !options.takes_other_holds)) return first;
-  const double least_score = chosen.score + std::log(kAsGoodAHold);
+  if (first.status != BalanceStatus::kSlipsOut || !is_whole) return first;
   for (std::size_t i = 0; i < chosen.runners_up.size(); ++i) {
     const GraspRunnerUp& other = chosen.runners_up[i];
-    // Other holds are never taken unasked.
-    if (other.hold ? !options.takes_other_holds || other.score < least_score ||
-                         other.hold->fingertips.empty()
-                   : other.grip != chosen.grip) {
-      continue;
-    }
+    if (other.hold || other.grip != chosen.grip) continue;  // another hold is never taken unasked
     Grasp there = chosen;
     take_runner_up(hand.hand(), product, i, there);
-    if (other.hold) {
-      there.hold = other.hold;
-      there.hold_words = other.hold_words;
-    }
     if (there.status != GraspStatus::kHeld) continue;
-    Balance balance = settle(hand, product, there, options, contact, progress);
+    const Balance balance = settle(hand, product, there, options, contact, progress);
     if (balance.status != BalanceStatus::kBalanced) continue;
-    if (other.hold && !lacking_at_rest(hand.hand(), there.grip, balance).empty()) continue;
-    there.message += other.hold ? "; the hold first chosen, " + chosen.hold_words + ": " + why
-                                : "; the place first chosen: " + why;
+    there.message += "; the place first chosen: " + first.message;
     grasp = std::move(there);
     return balance;
   }

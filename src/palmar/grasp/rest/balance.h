@@ -60,12 +60,8 @@ struct BalanceOptions {
   /// The hold of another hand, from which a wrap by the whole hand comes to rest; null: from how it
   /// was closed. Where that fails it is tried from there, too.
   std::shared_ptr<const HoldAtRest> like;
-  bool looks_beside = false;  ///< takes other_rest() where it has the lower merit
-  bool looks_nearby = false;  ///< that, and finds NearbyRests of what comes to rest
-  /// Of ranked holds between fingertips the first that comes to rest with the fingers that its grip
-  /// needs on it is taken, if the one that was chosen doesn't and people choose that nearly as
-  /// often: at least a fifth.
-  bool takes_other_holds = false;
+  bool looks_beside = false;   ///< takes other_rest() where it has the lower merit
+  bool looks_nearby = false;   ///< that, and finds NearbyRests of what comes to rest
   hand::WristPosture wrist{};  ///< of a power grip; changes what muscles can, not the picture
   /// N; nothing if a grasp of that grip stays as firm as it was closed, as hooked fingers always
   /// do: they carry and don't squeeze.

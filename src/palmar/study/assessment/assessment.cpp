@@ -9,7 +9,7 @@
 #include "palmar/geometry/mesh/mesh_measures.h"
 #include "palmar/grasp/equilibrium/grip_force.h"
 #include "palmar/grasp/power/grasp_verdict.h"
-#include "palmar/grasp/rest/other_grip.h"
+#include "palmar/grasp/rest/place_at_rest.h"
 #include "palmar/hand/skin/skinning.h"
 #include "palmar/study/assessment/held_torque.h"
 
@@ -49,7 +49,8 @@ grasp::Touching touching(const hand::Hand& hand, const contact::ContactResult& c
 
 double grip_force_of(const AssessedProduct& one) {
   const grasp::Balance& balance = one.assessment.balance;
-  const bool is_known = balance.status == grasp::BalanceStatus::kBalanced;
+  const bool is_known = balance.status == grasp::BalanceStatus::kBalanced ||
+                        balance.status == grasp::BalanceStatus::kSupported;
   if (is_known || one.product.distance == nullptr) return balance.grip_force;
   return grasp::grip_force(one.assessment.contact, *one.product.distance).force;
 }
@@ -157,9 +158,8 @@ Assessment assess(const contact::PreparedHand& hand, const product::Product& pro
   Progress stoppable = progress;
   stoppable.report = nullptr;  // its share is not that of the whole
   if (is_held) {
-    grasp::BalanceOptions resting = options.balance;
-    resting.takes_other_holds = options.grasp.leaves_hold_open();
-    balance = grasp::balance_grasp(hand, product, grasp, resting, options.contact, stoppable);
+    balance =
+        grasp::balance_grasp(hand, product, grasp, options.balance, options.contact, stoppable);
   }
   const double balance_seconds = balance_watch.seconds();
   if (balance.status == grasp::BalanceStatus::kSlipsOut) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "palmar/core/progress.h"
+#include "palmar/grasp/find/grasp_place.h"
 #include "palmar/grasp/find/grasp_settings.h"
 #include "palmar/grasp/rest/hold_at_rest.h"
 #include "palmar/hand/hand.h"
@@ -21,6 +22,8 @@ struct HeldProduct {
   std::shared_ptr<const hand::Hand> ways_hand;     ///< that they were ranked with
   /// How that hand takes hold of it, where it is another one than the hand that holds.
   std::optional<grasp::Grasp> reference_grasp;
+  /// Where; refers to the product.
+  std::shared_ptr<const grasp::GraspPlace> place;
 
   /// For HoldOptions::like of other products; nothing if it isn't held.
   std::optional<Quat> turn() const;
@@ -43,6 +46,16 @@ HeldProduct take_product(const std::shared_ptr<const hand::Hand>& hand,
 /// `reference` keeps the other hand prepared from call to call.
 std::shared_ptr<const grasp::HoldAtRest> reference_at_rest(
     const std::optional<grasp::Grasp>& grasp, const std::shared_ptr<const hand::Hand>& hand,
+    const product::Product& product, const study::AssessOptions& options,
+    std::shared_ptr<const contact::PreparedHand>& reference, const Progress& progress = {});
+
+/// The next best way to hold the product that comes to rest, if `held` doesn't and nothing says
+/// which hold it is to be (grasp::other_place_at_rest()); nothing if there is none, or if it is
+/// this hand alone that can't. `assessed` is what came of `held`, `prepared` its hand. Throws
+/// Cancelled.
+std::optional<HeldProduct> held_otherwise(
+    const HeldProduct& held, const study::Assessment& assessed,
+    const std::shared_ptr<const hand::Hand>& hand, const contact::PreparedHand& prepared,
     const product::Product& product, const study::AssessOptions& options,
     std::shared_ptr<const contact::PreparedHand>& reference, const Progress& progress = {});
 

@@ -87,12 +87,10 @@ study::AssessmentSet LiveSession::take_hold(int number, const LiveTask& task,
   options.grasp = options_for(settings, *product_);
   if (!grasps_.contains(number)) {
     const Progress search = part_of(progress, 0.0, kHoldFound);
+    holds(search);
     auto place = places_.find(number);
     if (place == places_.end()) {
-      place = places_
-                  .emplace(number,
-                           grasp::GraspPlace(*hand_.reference, *product_, options.grasp, search))
-                  .first;
+      place = places_.emplace(number, places_.at(1).with_hold(number, "", search)).first;
     }
     const bool is_own = hand_.reference == hand_.hand;
     grasps_.emplace(number, is_own ? place->second.reference_grasp()
