@@ -47,10 +47,9 @@ bool is_crook(const product::ProductPart& part) {
          part.diameter() >= kThinnestHandle && part.length >= kShortestHandle;
 }
 
-// How much a bar is as thick and long as a handle; a wing or a blade is wide, but thin.
+// How much a bar is as thick and long as a handle.
 double handle_size(const product::ProductPart& bar) {
-  const double thick = std::sqrt(bar.width * bar.thickness);
-  return smooth_step(thick, (1.0 - kHandleRamp) * kThinnestHandle,
+  return smooth_step(bar.diameter(), (1.0 - kHandleRamp) * kThinnestHandle,
                      (1.0 + kHandleRamp) * kThinnestHandle) *
          smooth_step(bar.length, (1.0 - kHandleRamp) * kShortestHandle,
                      (1.0 + kHandleRamp) * kShortestHandle);
@@ -197,20 +196,14 @@ HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
                part.opening->width > kFewestFingers * fingers_breadth(hand) &&
                parts.parts.front().kind == product::PartKind::kBody;
       });
-  // What has a trigger is held by what is behind it, as far as that is a handle.
-  double by_trigger = 0.0;
-  for (const product::PartTrigger& trigger : parts.triggers) {
-    by_trigger =
-        std::max(by_trigger, handle_size(parts.parts[static_cast<std::size_t>(trigger.part) - 1]));
-  }
   const bool has_crook = std::any_of(parts.parts.begin(), parts.parts.end(), is_crook);
   for (const product::ProductPart& part : parts.parts) {
     const bool is_on_body =
         std::find(part.joined.begin(), part.joined.end(), 1) != part.joined.end();
     double handle = handle_of(part, parts, has_loop_on_body && is_on_body);
-    // A stick is held by its crook.
+    // A stick is held by its crook, and what has a trigger by what is behind it.
     if (has_crook && part.kind == product::PartKind::kBar) handle = is_crook(part) ? 1.0 : 0.0;
-    handle = (1.0 - by_trigger) * handle + (trigger_of(scene, part) != nullptr ? by_trigger : 0.0);
+    if (!parts.triggers.empty()) handle = trigger_of(scene, part) != nullptr ? 1.0 : 0.0;
     scene.handle.push_back(handle);
   }
   // Both of two alike are one handle, however thin, unless there is a better one.
@@ -219,7 +212,7 @@ HoldScene hold_scene(const hand::Hand& hand, const product::Product& product,
   const std::vector<double> alone = scene.weight_share;
   for (const product::ProductPart& part : parts.parts) {
     const product::ProductPart* twin = twin_of(part, parts);
-    if (twin == nullptr || by_trigger > 0.5) continue;
+    if (twin == nullptr || !parts.triggers.empty()) continue;
     const auto index = static_cast<std::size_t>(part.number) - 1;
     scene.handle[index] = std::max(scene.handle[index], 1.0 - best);
     scene.weight_share[index] += alone[static_cast<std::size_t>(twin->number) - 1];
