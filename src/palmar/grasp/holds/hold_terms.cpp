@@ -39,7 +39,7 @@ constexpr double kOffTrigger = 0.1;     // who uses it so that no finger is on i
 constexpr double kSkinRoom = 6.0;       // mm that a finger's middle keeps off the product
 constexpr double kBlocked = 6.0;        // all of the hand's room taken; choice
 
-/// How much each reason counts: fitted to what people do with 57 products; docs/method/holds.md has
+/// How much each reason counts: fitted to what people do with 54 products; docs/method/holds.md has
 /// the data, the fit and how well it does on products that were left out.
 struct TermWeight {
   std::string_view name;

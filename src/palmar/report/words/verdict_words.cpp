@@ -274,9 +274,10 @@ class SetSpeaker {
 
   /// What the user has to say, as the shape doesn't.
   void add_other_way(const study::AssessedProduct& one) {
-    const std::optional<int> other = one.ways && one.assessment.options.grasp.leaves_hold_open()
-                                         ? grasp::other_as_likely(*one.ways)
-                                         : std::nullopt;
+    const std::optional<int> other =
+        one.ways && one.ways->why_taken.empty() && one.assessment.options.grasp.leaves_hold_open()
+            ? grasp::other_as_likely(*one.ways)
+            : std::nullopt;
     if (!other) return;
     const std::string& way = one.ways->holds[static_cast<std::size_t>(*other) - 1].words;
     words_.reasons.push_back(

@@ -86,6 +86,8 @@ std::optional<HeldProduct> held_otherwise(
   const std::vector<study::HoldDoubt> doubts = study::doubts_of(assessed);
   if (assessed.grasp.status == grasp::GraspStatus::kHeld && doubts.empty()) return std::nullopt;
   std::string flaw = doubts.empty() ? assessed.grasp.message : doubts.front().words;
+  Progress silent = progress;
+  silent.report = nullptr;  // its share is not that of the whole
   grasp::BalanceOptions balance = options.balance;
   balance.like = nullptr;
   balance.looks_beside = balance.looks_beside || balance.looks_nearby;
@@ -94,14 +96,14 @@ std::optional<HeldProduct> held_otherwise(
   if (held.reference_grasp) {
     ranks = &prepared_reference(hand, reference);
     flaw = grasp::flaw_at_rest(*ranks, product, *held.reference_grasp, balance, options.contact,
-                               progress);
+                               silent);
     if (flaw.empty()) return std::nullopt;
   }
   auto other = grasp::other_place_at_rest(*ranks, product, *held.place, flaw, options.grasp,
-                                          balance, options.contact, progress);
+                                          balance, options.contact, silent);
   if (!other) return std::nullopt;
   return held_at(std::make_shared<const grasp::GraspPlace>(std::move(*other)), held.ways_hand, hand,
-                 progress);
+                 silent);
 }
 
 std::shared_ptr<const grasp::HoldAtRest> reference_at_rest(
